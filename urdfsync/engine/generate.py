@@ -56,7 +56,10 @@ class Package:
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text can differ from that of another package of the same templates."""
         return frozenset(
-            path for path in self.artifacts if path not in last.artifacts or self.data_key(path) != last.data_key(path)
+            path
+            for path, artifact in self.artifacts.items()
+            if path not in last.artifacts
+            or (artifact is not last.artifacts[path] and self.data_key(path) != last.data_key(path))
         )
 
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.record import NO_LIMITS, generic_data, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.shapes import contacts, link_shapes, standing_height, structure
 from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, JointType, Link, Robot
+from urdfsync.urdf.robot import Collision, Joint, JointType, Link, Mesh, Robot, Visual
 
 LINK_MODEL = "link/model.mo.jinja"
 LINK_RECORD = "link/record.mo.jinja"
@@ -30,9 +33,9 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     if "package" in options.approach:
         files += _robot(robot, tree, target, options)
         for link in robot.links:
-            files += _link(link, tree, imports, target, options)
+            files += _link(link, tree.link(link.name), _meshes(link, imports), target.package, options)
         for joint in robot.joints:
-            files += _joint(joint, tree, target)
+            files += _joint(joint, tree.joint(joint.name), target.package)
         if options.base == "floating":
             title, height = f"robot {target.name}", standing_height(tree, imports)
             stance = {"within": target.package, "record": f"{target.name}Stance", "title": title, "height": height}
@@ -136,34 +139,51 @@ def _robot(robot: Robot, tree: KinematicTree, target: Target, options: Options) 
     yield _of_robot(f"{name}Test.mo", Role.MODEL, "test", benches)
 
 
+def _meshes(link: Link, imports: Mapping[str, Import]) -> tuple[tuple[str, Import], ...]:
+    """Return the imports of a link's meshes, by their keys."""
+    shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+    meshes = [shape.geometry for shape in shapes if isinstance(shape.geometry, Mesh)]
+    return tuple((key, imports[key]) for key in map(lookup.key, meshes) if key in imports)
+
+
+# These two serve the rows "one mass changed in the daemon": nearly all links and joints are as they were. Equal values
+# have the same text, since a zero in Modelica has no sign.
+@functools.lru_cache(maxsize=20_000)
 def _link(
-    link: Link, tree: KinematicTree, imports: Mapping[str, Import], target: Target, options: Options
-) -> Iterator[Artifact]:
-    name, owner = tree.link(link.name), f"link {link.name}"
-    visuals, collisions = link_shapes(link, imports, target.package, options)
+    link: Link, name: Identifier, meshes: tuple[tuple[str, Import], ...], package: str, options: Options
+) -> tuple[Artifact, Artifact]:
+    """Return record and model of a link."""
+    owner = f"link {link.name}"
+    visuals, collisions = link_shapes(link, dict(meshes), package, options)
     named = {
-        "within": f"{target.package}.Links",
+        "within": f"{package}.Links",
         "type": name.type,
         "record": name.record,
         "title": f'link "{link.name}"',
     }
     record = {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
-    yield Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, named | record, owner)
     model = link_model(visuals, collisions, options)
     model |= {"replaceable": False, "note": notes.link_note(link.name)}
-    yield Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, named | model, owner)
+    return (
+        Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, named | record, owner),
+        Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, named | model, owner),
+    )
 
 
-def _joint(joint: Joint, tree: KinematicTree, target: Target) -> Iterator[Artifact]:
-    name, owner = tree.joint(joint.name), f"joint {joint.name}"
+@functools.lru_cache(maxsize=20_000)
+def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, Artifact]:
+    """Return record and model of a joint."""
+    owner = f"joint {joint.name}"
     named = {
-        "within": f"{target.package}.Joints",
+        "within": f"{package}.Joints",
         "type": name.type,
         "record": name.record,
         "title": notes.joint_title(joint),
     }
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
-    template = f"joint/{joint.type}_parameters.mo.jinja"
-    yield Artifact(f"Joints/{name.record}.mo", Role.RECORD, template, named | record, owner)
     model = {"dynamics": joint.dynamics is not None, "replaceable": False, "note": notes.joint_note(joint)}
-    yield Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), named | model, owner)
+    template = f"joint/{joint.type}_parameters.mo.jinja"
+    return (
+        Artifact(f"Joints/{name.record}.mo", Role.RECORD, template, named | record, owner),
+        Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), named | model, owner),
+    )
