@@ -12,6 +12,7 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 
 from __future__ import annotations
 
+import functools
 import json
 import operator
 from collections.abc import Mapping
@@ -25,19 +26,24 @@ from urdfsync.urdf.robot import Joint, Link, Robot
 
 def to_snapshot(robot: Robot) -> Snapshot:
     """Return the robot as plain data, as it would come back from JSON; names of links, and of joints, are unique."""
-    text = msgspec.json.encode(robot, order="sorted")
-    plain = json.loads(text, object_hook=_without_none)
-    for joint in plain["joints"]:
-        if not joint["actuated"]:
-            del joint["actuated"]
     extensions: dict[str, dict[str, list[str]]] = {}
     for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
         extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
-    by_name = {
-        part: {element.pop("name"): element for element in sorted(plain[part], key=operator.itemgetter("name"))}
-        for part in ("joints", "links")
-    }
-    return {"extensions": extensions, **by_name, "name": robot.name}
+    by_name = operator.attrgetter("name")
+    joints = {joint.name: _plain(joint) for joint in sorted(robot.joints, key=by_name)}
+    links = {link.name: _plain(link) for link in sorted(robot.links, key=by_name)}
+    return {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
+
+
+# Serves the rows "one mass changed in the daemon": nearly all elements are as they were.
+@functools.lru_cache(maxsize=20_000)
+def _plain(element: Link | Joint) -> Mapping[str, Any]:
+    """Return an element as plain data but for its name. Snapshots share it, so nobody may change it."""
+    data: dict[str, Any] = json.loads(msgspec.json.encode(element, order="sorted"), object_hook=_without_none)
+    del data["name"]
+    if not data.get("actuated", True):
+        del data["actuated"]
+    return data
 
 
 def _without_none(data: dict[str, Any]) -> dict[str, Any]:
