@@ -292,7 +292,7 @@ def _check_mimics(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         joints.setdefault(joint.name, joint)
     for path, joint in _numbered("joint", robot.joints):
-        if joint.mimic is not None:
+        if joint.mimic is not None and joint.mimic.joint:  # else the reader has told that it has no name
             leaders.setdefault(joint.name, joint.mimic.joint)
             yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)
     for cycle in _cycles(leaders, leaders):

@@ -462,8 +462,8 @@ def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
         Extension("", "drake:filter", "<drake:filter></drake:filter>"),
         Extension("", "q", '<q p:a="1" p:b="2" xmlns:p="u"></q>'),
         Extension("", "a", "<a>b<c></c>d</a>"),
-        Extension("link a", "contact", '<contact a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></contact>'),
         Extension("link a", "surface", "<surface></surface>"),
+        Extension("link a", "contact", '<contact a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></contact>'),
     )
 
 

@@ -68,10 +68,6 @@ class Document(NamedTuple):
 def parse(content: bytes) -> Document:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
-    if ">>>>>>>" in text and (marker := _CONFLICT_MARKER.search(text)):
-        hint = "resolve the merge, then build again"
-        line = text.count("\n", 0, marker.start()) + 1
-        raise ParseError("merge-conflict", "the file has merge conflict markers", hint, line)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
     lines: list[int] = []
     above: list[tuple[str, int]] = []
@@ -102,14 +98,20 @@ def parse(content: bytes) -> Document:
     parser.specified_attributes = True  # a document type may have others
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, builder.data
     parser.StartDoctypeDeclHandler, parser.EntityDeclHandler = refuse_type, refuse_entity
+    error = None
     try:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
-    except expat.ExpatError as error:
+    except expat.ExpatError as found:
+        error = found
+    if (error or ">>>>>>>" in text) and (marker := _CONFLICT_MARKER.search(text)):
+        line, hint = text.count("\n", 0, marker.start()) + 1, "resolve the merge, then build again"
+        raise ParseError("merge-conflict", "the file has merge conflict markers", hint, line)
+    if error:
         what, hint = expat.ErrorString(error.code), "correct the XML there"
         if what in _UNCLOSED and above:
             what, hint = f"<{above[-1][0]}> of line {above[-1][1]} is not closed", f"write </{above[-1][0]}>"
         message = f"this is not well-formed XML: {what}"
-        raise ParseError("xml-syntax", message, f"{hint}, or {_WAIT}", error.lineno, error.offset + 1) from None
+        raise ParseError("xml-syntax", message, f"{hint}, or {_WAIT}", error.lineno, error.offset + 1)
     root = builder.close()
     document = Document(text, root, dict(zip(root.iter(), lines, strict=True)), warnings)
     if ":" in text:
