@@ -12,14 +12,11 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
 
 from urdfsync.diagnostics import Diagnostic, Severity
-
-if TYPE_CHECKING:
-    from lxml import etree
 
 _WAIT = "wait until the export is complete"
 _DEEPEST = 256
@@ -117,15 +114,6 @@ def parse(content: bytes) -> Document:
     if ":" in text:
         warnings += _undeclared_prefixes(document)
     return document
-
-
-def parse_tree(content: bytes) -> etree._Element:
-    """Return the root of an XML file that `parse` accepts, as lxml has it. Raises ParseError."""
-    from lxml import etree  # takes 25 ms to load, and a build does without it
-
-    return etree.fromstring(
-        parse(content).text.encode(), etree.XMLParser(recover=True, no_network=True, resolve_entities=False)
-    )
 
 
 def canonical(element: Element) -> str:
