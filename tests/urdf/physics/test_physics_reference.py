@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -115,49 +116,34 @@ def momentum(bot: Bot, time: float) -> Array:
 
 def test_free_joints_begin_with_the_parameters_of_their_models() -> None:
     bot, step = Bot(FREE), 1e-6
-    drone, puck = motion.free_start(bot.free[0]), motion.free_start(bot.free[1])
+    drone, puck = (motion.free_start(joint) for joint in bot.free)
     assert isinstance(drone, motion.Floating)
     assert isinstance(puck, motion.Planar)
-    (carrier, arm), model = (pose(bot, 0.0, name) for name in ("carrier", "arm")), bot.reference.model
-    air, tray = (model.jointPlacements[model.getJointId(name)] for name in ("air", "tray"))
-    found = (carrier * air).actInv(pose(bot, 0.0, "drone"))
-    assert found.translation == pytest.approx(drone.r)
-    assert found.rotation == pytest.approx(pin.rpy.rpyToMatrix(*drone.rpy))
-    later = (pose(bot, step, "carrier") * air).actInv(pose(bot, step, "drone"))
-    assert (later.translation - found.translation) / step == pytest.approx(drone.v, abs=1e-4)
-    assert pin.log3(later.rotation @ found.rotation.T) / step == pytest.approx(drone.w, abs=1e-4)
+    model, state = bot.reference.model, bot.state()
+    later = pin.integrate(model, state.q, state.v * step)
+    data = [model.createData(), model.createData()]
+    for one, q in zip(data, (state.q, later), strict=True):
+        pin.forwardKinematics(model, one, q)
+
+    def moves(last: str, first: str) -> tuple[Any, Array, Array]:
+        """Pose, velocity and angular velocity in the joint frame."""
+        number, before = model.getJointId(last), model.getJointId(first)
+        at, then = (
+            (one.oMi[model.parents[before]] * model.jointPlacements[before]).actInv(one.oMi[number]) for one in data
+        )
+        return at, (then.translation - at.translation) / step, pin.log3(then.rotation @ at.rotation.T) / step
+
+    at, velocity, turning = moves("air", "air")
+    assert at.translation == pytest.approx(drone.r)
+    assert at.rotation == pytest.approx(pin.rpy.rpyToMatrix(*drone.rpy))
+    assert velocity == pytest.approx(drone.v, abs=1e-5)
+    assert turning == pytest.approx(drone.w, abs=1e-5)
     x, y, normal = directions(np.array([0.3, 1, -0.2]))
-    found, later = (
-        (arm * tray).actInv(pose(bot, 0.0, "puck")),
-        (pose(bot, step, "arm") * tray).actInv(pose(bot, step, "puck")),
-    )
-    assert found.translation == pytest.approx(puck.s[0] * x + puck.s[1] * y)
-    assert found.rotation == pytest.approx(pin.exp3(puck.phi * normal))
-    assert (later.translation - found.translation) / step == pytest.approx(puck.v[0] * x + puck.v[1] * y, abs=1e-4)
-    assert pin.log3(later.rotation @ found.rotation.T) / step == pytest.approx(puck.w * normal, abs=1e-4)
-
-
-def pose(bot: Bot, time: float, name: str) -> pin.SE3:
-    place, axes = bot.instant(time).frame(name)
-    return pin.SE3(axes, place)
-
-
-def test_the_last_instant_is_what_integration_gives() -> None:
-    """Free joints: in many small steps, with the accelerations of each."""
-    bot, end, steps = Bot(FREE), motion.INSTANT, 10
-    courses = [motion.axis_course(joint) for joint in bot.axes]
-    state = bot.state()
-    for k in range(steps):
-        a, h = bot.reference.accelerations(state), end / steps
-        moved = pin.integrate(bot.reference.model, state.q, state.v * h + a * h**2 / 2)
-        speeds = state.v + a * h
-        state = bot.reference.state((k + 1) * h, courses, bot.starts)
-        assert state.q == pytest.approx(moved, abs=1e-15)
-        assert state.v == pytest.approx(speeds, abs=1e-11)
-        state = Configuration(moved, speeds, state.a)
-    instant, found = bot.instant(end), bot.reference.solve(state)
-    assert instant.efforts == pytest.approx(found.efforts, rel=1e-11)
-    assert np.concatenate(instant.acceleration("puck")) == pytest.approx(np.concatenate(found.acceleration("puck")))
+    at, velocity, turning = moves(read(FREE.encode(), "robot.urdf").planar_parts["tray"][-1], "tray")
+    assert at.translation == pytest.approx(puck.s[0] * x + puck.s[1] * y)
+    assert at.rotation == pytest.approx(pin.exp3(puck.phi * normal))
+    assert velocity == pytest.approx(puck.v[0] * x + puck.v[1] * y, abs=1e-5)
+    assert turning == pytest.approx(puck.w * normal, abs=1e-5)
 
 
 def test_followers_move_with_their_leader_and_load_it() -> None:

@@ -17,8 +17,8 @@ from urdfsync.urdf.robot import Joint, Vector
 
 DURATION = 0.01
 """End of the motion, in s: prescribed motion is exact all the time."""
-INSTANT = 1e-8
-"""End of the motion of a robot with free joints, in s: so short that where they are then follows from the start."""
+INSTANT = 1e-6
+"""End of the motion with floating joints, in s: errors of a solver in their quaternions are no effects of an edit."""
 GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
@@ -79,7 +79,7 @@ def free_joints(tree: KinematicTree) -> tuple[Joint, ...]:
 
 def duration(tree: KinematicTree) -> float:
     """Return the end of the motion, in s."""
-    return INSTANT if free_joints(tree) else DURATION
+    return INSTANT if any(joint.type == "floating" for joint in tree.joints) else DURATION
 
 
 def axis_course(joint: Joint) -> Course:

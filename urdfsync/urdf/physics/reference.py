@@ -56,10 +56,7 @@ class Reference:
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def state(self, time: float, courses: Sequence[Course], starts: Mapping[str, Start]) -> Configuration:
-        """Return where the robot is, `courses` being those of the axes from time 0, `starts` those of free joints.
-
-        What free joints do until then is one step with the accelerations that they begin with.
-        """
+        """Return where the robot is, `courses` being those of the axes from time 0; free joints are as they begin."""
         p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         positions = self.projection @ p + self._offset
         state = Configuration(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
@@ -69,27 +66,15 @@ class Reference:
         _place_base(self.pin, state, time)
         for name, start in starts.items():
             self._place_free(state, name, start)
-        if time and starts:
-            begin = self.state(0, courses, starts)
-            a = self.accelerations(begin)
-            moved = self.pin.integrate(self.model, begin.q, begin.v * time + a * time**2 / 2)
-            for part in (part for name in starts for part in self._parts(name)):
-                state.q[_slice(part)] = moved[_slice(part)]
-            state.v[self.loose] += a[self.loose] * time
         return state
 
-    def accelerations(self, state: Configuration) -> Array:
-        """Return the accelerations of all joints, free ones included."""
-        a = state.a.copy()
-        if self.loose.size:
-            load = self._load(self.model.createData(), state, a)
-            a[self.loose] = np.linalg.solve(self._free_inertia(state), -load[self.loose])
-        return a
-
     def solve(self, state: Configuration) -> Instant:
-        """Return what the reference says of the robot."""
-        data, a = self.model.createData(), self.accelerations(state)
+        """Return efforts of base and axes, and accelerations of free joints."""
+        data, a = self.model.createData(), state.a.copy()
         load = self._load(data, state, a)
+        if self.loose.size:
+            a[self.loose] = np.linalg.solve(self._free_inertia(state), -load[self.loose])
+            load = self._load(data, state, a)
         self.pin.forwardKinematics(self.model, data, state.q, state.v, a)
         self.pin.updateFramePlacements(self.model, data)
         return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
