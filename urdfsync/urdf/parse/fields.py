@@ -21,7 +21,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
-from urdfsync.urdf.validate import Finding, nearest
+from urdfsync.urdf.validate import Finding, diagnostic, nearest, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
 
@@ -55,24 +55,17 @@ class Reader:
         """Whether an error was found."""
         return any(found.severity is Severity.ERROR for found in self.diagnostics)
 
-    def error(self, element: Element, code: str, message: str, hint: str) -> None:
-        """Add an error about an element."""
-        line = self._lines_of_elements[element]
-        self.diagnostics.append(Diagnostic(Severity.ERROR, code, message, line=line, hint=hint))
-
-    def warn(self, element: Element, code: str, message: str, hint: str) -> None:
-        """Add a warning about an element."""
-        line = self._lines_of_elements[element]
-        self.diagnostics.append(Diagnostic(Severity.WARNING, code, message, line=line, hint=hint))
+    def add(self, element: Element, code: str, message: str, hint: str = "") -> None:
+        """Add a finding about an element."""
+        self.diagnostics.append(diagnostic(code, message, self._lines_of_elements[element], hint))
 
     def extend(self, findings: Iterable[Finding]) -> None:
-        """Add what checks say about elements, at the lines of these or of the nearest ones that contain them."""
-        for severity, code, path, message, hint in findings:
+        """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
+        for code, path, message, hint in findings:
             place = path
             while place not in self.lines and " / " in place:
                 place = place.rpartition(" / ")[0]
-            line = self.lines.get(place, self.lines["robot"])
-            self.diagnostics.append(Diagnostic(severity, code, message, line=line, hint=hint))
+            self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
 
     def place(self, element: Element, path: str) -> str:
         """Remember the line of an element; return its path."""
@@ -95,15 +88,14 @@ class Reader:
                 found[tag] = child
                 self.place(child, f"{path} / {tag}")
             else:
-                message = f"{path} has another <{tag}>, and the first counts"
-                self.warn(child, "duplicate-element", message, "remove the others")
+                self.add(child, "duplicate-element", f"{path} has another <{tag}>, and the first counts")
         return found
 
     def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
         if child.tag not in _ELEMENTS and ":" not in child.tag and (meant := nearest(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
-            self.warn(child, "unknown-element", message, f"perhaps <{meant}> is meant")
+            self.add(child, "unknown-element", message, f"perhaps <{meant}> is meant")
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
@@ -113,7 +105,7 @@ class Reader:
                 continue
             if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
-                self.warn(element, "unknown-attribute", message, f"perhaps {meant!r} is meant")
+                self.add(element, "unknown-attribute", message, perhaps(meant))
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""
@@ -135,7 +127,7 @@ class Reader:
                 values[name] = self.read(child, place, kind)
         for name in required:
             if name not in found:
-                self.error(element, "missing-element", f"{path} has no <{name}>", f"add <{name} …/>")
+                self.add(element, "missing-element", f"{path} has no <{name}>")
                 values[name] = ""
         return struct(**values)
 
@@ -144,19 +136,18 @@ class Reader:
         if text is None:
             if not is_required:
                 return default
-            self.error(element, "missing-attribute", f"{path} has no attribute {name!r}", f"add {name}=…")
+            self.add(element, "missing-attribute", f"{path} has no attribute {name!r}")
         elif count:
             try:
                 numbers = parse_numbers(text, count)
                 return numbers[0] if count == 1 else numbers
             except ValueError as error:
                 code = "bad-number" if text.strip() else "empty-attribute"
-                hint = "write decimal numbers such as -0.5 or 1e-3"
-                self.error(element, code, f"{path}: {name}={quoted(text)} {error}", hint)
+                self.add(element, code, f"{path}: {name}={quoted(text)} {error}")
         elif text.strip() or not is_required:
             return text
         else:
-            self.error(element, "empty-attribute", f"{path}: the attribute {name!r} is empty", "fill it in")
+            self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 

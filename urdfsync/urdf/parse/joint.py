@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.parse.link import check_origin
 from urdfsync.urdf.robot import JOINT_KINDS, Joint
-from urdfsync.urdf.validate import nearest
+from urdfsync.urdf.validate import nearest, perhaps
 
 
 def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
@@ -18,18 +18,16 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     """
     joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
     if joint.type not in JOINT_KINDS:
-        meant = nearest(joint.type.lower(), JOINT_KINDS)
-        hint = f"perhaps {meant!r} is meant" if meant else f"use one of {', '.join(JOINT_KINDS)}"
         if joint.type:
-            reader.error(element, "unknown-joint-type", f"{path} has the unknown type {joint.type!r}", hint)
+            hint = perhaps(nearest(joint.type.lower(), JOINT_KINDS))
+            reader.add(element, "unknown-joint-type", f"{path} has the unknown type {joint.type!r}", hint)
         joint = Joint(joint.name, "fixed", joint.parent, joint.child)
     if not joint.parent or not joint.child:
         return None
     check_origin(reader, element, path)
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
-        message = f"{path} / safety_controller has no 'k_velocity', taken as 0"
-        reader.warn(safety, "missing-gain", message, "add k_velocity=…")
+        reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
     _check_limit(reader, element, path, joint)
     return joint
 
@@ -40,15 +38,14 @@ def _check_limit(reader: Reader, element: Element, path: str, joint: Joint) -> N
     if limit is None:
         if kind.has_limits:
             message = f"{path} is {joint.type} but has no <limit>: it moves without limits"
-            reader.warn(element, "missing-limit", message, "add <limit>, or make a revolute joint continuous")
+            reader.add(element, "missing-limit", message)
         return
     zero = [name for name in ("lower", "upper") if name not in limit.attrib and kind.has_limits]
     unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion]
     absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
     absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
     if absent:
-        hint = "add what is missing, or make a joint that turns freely continuous"
-        reader.warn(limit, "missing-limit-value", f"{path} / limit has no {'; no '.join(absent)}", hint)
+        reader.add(limit, "missing-limit-value", f"{path} / limit has no {'; no '.join(absent)}")
 
 
 def read_actuated(reader: Reader, element: Element, path: str) -> Iterator[tuple[str, str]]:

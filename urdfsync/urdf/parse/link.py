@@ -7,7 +7,6 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
 from urdfsync.urdf.robot import (
     Box,
@@ -53,20 +52,18 @@ def check_origin(reader: Reader, element: Element, path: str) -> None:
     """Refuse a quaternion in the `<origin>` of an element."""
     origin = element.find("origin")
     if origin is not None and "quat_xyzw" in origin.attrib:
-        message = f"{path} / origin: quaternions can't be read"
-        reader.error(origin, "unsupported-attribute", message, "write the orientation as rpy")
+        reader.add(origin, "unsupported-attribute", f"{path} / origin: quaternions can't be read")
 
 
 def _read_inertial(reader: Reader, element: Element, path: str, owner: str) -> Inertial:
     """Read mass, centre of mass and inertia; what is absent is 0, with a warning."""
     mass, inertia = element.find("mass"), element.find("inertia")
     if mass is None or "value" not in mass.attrib:
-        message = f"{path} has no mass: it is taken as 0"
-        reader.warn(element if mass is None else mass, "missing-mass", message, "add the mass")
+        reader.add(element if mass is None else mass, "missing-mass", f"{path} has no mass: it is taken as 0")
     absent = [name for name in Inertia.__struct_fields__ if inertia is None or name not in inertia.attrib]
     if absent:
-        message, hint = f"{path} has no {', '.join(absent)}: taken as 0", "add all six components of the inertia"
-        reader.warn(element if inertia is None else inertia, "missing-inertia", message, hint)
+        message = f"{path} has no {', '.join(absent)}: taken as 0"
+        reader.add(element if inertia is None else inertia, "missing-inertia", message)
     check_origin(reader, element, path)
     return reader.read(element, path, Inertial, owner)
 
@@ -82,13 +79,13 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         shapes = [child for child in around if child.tag in _SHAPES] if around is not None else []
         if not shapes:
             message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
-            reader.warn(element, "unknown-geometry", message, f"use one of {', '.join(_SHAPES)}")
+            reader.add(element, "unknown-geometry", message)
             continue
         number += 1
         place, kind = reader.place(element, f"{path} / {tag} {number}"), shapes[0].tag
         if len(shapes) > 1:
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
-            reader.warn(element, "duplicate-element", message, f"write one {tag} for each")
+            reader.add(element, "duplicate-element", message, f"write one {tag} for each")
         geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind])
         check_origin(reader, element, place)
         if tag == "collision":
@@ -115,12 +112,12 @@ def _read_color(reader: Reader, element: Element, path: str) -> tuple[float, flo
     try:
         rgba = parse_numbers(text, 4)
     except ValueError as error:
-        reader.warn(element, "bad-color", f"{path}: rgba={quoted(text)} {error}", 'write for example rgba="1 0.5 0 1"')
+        reader.add(element, "bad-color", f"{path}: rgba={quoted(text)} {error}")
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in rgba)
     if (red, green, blue, opacity) != rgba:
         message = f"{path}: rgba={quoted(text)} is not between 0 and 1, and is cut off there"
-        reader.warn(element, "color-range", message, "divide 0 to 255 by 255")
+        reader.add(element, "color-range", message)
     return red, green, blue, opacity
 
 
@@ -144,13 +141,10 @@ def resolve_materials(reader: Reader, links: Mapping[str, Link], materials: dict
             continue
         if table.setdefault(material.name, material) != material:
             message = f"material {material.name!r} is defined again, with other values; the first definition counts"
-            hint = "give each material a name of its own"
-            reader.extend([Finding(Severity.WARNING, "material-redefined", path, message, hint)])
+            reader.extend([Finding("material-redefined", path, message)])
     for path, material in inline.items():
         if material.name and material.name not in table:
-            message = f"material {material.name!r} is not defined"
-            hint = "define it in the robot or in a visual"
-            reader.extend([Finding(Severity.WARNING, "unknown-material", path, message, hint)])
+            reader.extend([Finding("unknown-material", path, f"material {material.name!r} is not defined")])
 
     def resolved(visual: Visual) -> Visual:
         material = visual.material and table.get(visual.material.name, visual.material)
