@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -30,7 +32,7 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
-from urdfsync.urdf.validate import check, normalise_axes, principal_moments
+from urdfsync.urdf.validate import ADVICE, check, diagnostic, normalise_axes, principal_moments
 
 
 def links(names: str) -> tuple[Link, ...]:
@@ -43,7 +45,7 @@ def joint(name: str, ends: str, kind: JointType = "continuous", mimic: Mimic | N
 
 
 def found(robot: Robot) -> list[tuple[str, str, str]]:
-    return [(str(finding.severity), finding.code, finding.path) for finding in check(robot)]
+    return [(str(diagnostic(one.code, "", 1).severity), one.code, one.path) for one in check(robot)]
 
 
 def about(joints: Iterable[Joint], names: str = "abc") -> list[tuple[str, str, str]]:
@@ -244,3 +246,9 @@ def test_sizes_of_shapes(geometry: Geometry, told: bool) -> None:
     kind = type(geometry).__name__.lower()
     expected = [("warning", "shape-size", f"link a / {place} / {kind}") for place in ("visual 2", "collision 1")]
     assert found(Robot("r", (link,))) == expected * told
+
+
+def test_every_code_is_explained() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "urdf.md").read_text(encoding="utf-8")
+    explained = set(re.findall(r"`([a-z-]+)`", page.partition("## Findings")[2]))
+    assert explained >= ADVICE.keys()

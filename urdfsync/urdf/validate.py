@@ -1,7 +1,6 @@
-"""What must hold in a robot, whatever it was read from. Pure: a Robot in, findings out.
+"""What can be wrong with a URDF, by code, and what must hold in a robot, whatever it was read from.
 
-A finding is an error where no right model exists, and a warning where one does. Its `path` names the element as a diff
-does: `link wheel`, `joint elbow / limit`; the second element of a name is `link wheel #2`.
+A finding is an error where no right model exists, and a warning where one does. docs/urdf.md explains the codes.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import NamedTuple, TypeVar
 import msgspec
 
 from urdfsync import spelling
-from urdfsync.diagnostics import Severity
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     Box,
@@ -31,7 +30,6 @@ from urdfsync.urdf.robot import (
     Vector,
 )
 
-_ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 _EXACT = 1e-12
 _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
@@ -43,14 +41,102 @@ _COMPARED = 500
 _Element = TypeVar("_Element", Link, Joint)
 
 
-class Finding(NamedTuple):
-    """One finding about the element at `path`; the other fields are those of a Diagnostic."""
+_WAIT = "wait until the export is complete"
 
-    severity: Severity
+_ERRORS = {
+    # the file
+    "file-empty": f"export the robot again, or {_WAIT}",
+    "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
+    "lfs-pointer": "run `git lfs pull`",
+    "merge-conflict": "resolve the merge, then build again",
+    "xml-syntax": f"correct the XML, or {_WAIT}",
+    "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
+    "not-urdf": "name the URDF file instead",
+    "xacro-source": "run `xacro FILE.xacro > FILE.urdf`, and name the result",
+    # elements and attributes
+    "missing-element": "add it",
+    "missing-attribute": "add it",
+    "empty-attribute": "fill it in",
+    "bad-number": "write decimal numbers such as -0.5 or 1e-3",
+    "unsupported-attribute": "write the orientation as rpy",
+    "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating",
+    # the tree
+    "duplicate-link": "rename or remove one link",
+    "duplicate-joint": "rename or remove one joint",
+    "no-link": "check that the export is complete",
+    "several-roots": "connect them by joints, or remove what does not belong to the robot",
+    "unknown-parent": "add the link, or correct its name",
+    "unknown-child": "add the link, or correct its name",
+    "two-parents": "a link has one parent: remove one joint",
+    "cycle": "a URDF is a tree: remove a joint of the cycle",
+    # numbers and relations
+    "negative-mass": "correct the mass; a massless link has none, or 0",
+    "zero-axis": 'write for example xyz="0 0 1"',
+    "limit-order": "exchange or correct the limits",
+    "unknown-mimic": "add the joint, or correct its name",
+    "mimic-cycle": "one joint of the cycle must move by itself",
+    "mimic-type": "only revolute, continuous and prismatic joints mimic and are mimicked",
+    "second-reader-differs": "please report this file; cross_check = false builds it as urdfsync reads it",
+}
+_WARNINGS = {
+    # the file
+    "xml-version": 'write version="1.0"',
+    "xml-declaration": 'begin the file with <?xml version="1.0" encoding="UTF-8"?>',
+    "xml-prefix": "declare it in the root element",
+    "xacro-leftover": "expand the source with xacro, if this file is not the result of it",
+    # elements and attributes
+    "missing-name": 'write <robot name="…">',
+    "duplicate-element": "remove the others",
+    "unknown-attribute": "correct its name, or remove it",
+    "unknown-element": "correct its name, or remove it",
+    "missing-limit": "add <limit>, or make a revolute joint continuous",
+    "missing-limit-value": "add what is missing, or make a joint that turns freely continuous",
+    "missing-mass": "add the mass",
+    "missing-inertia": "add all six components of the inertia",
+    "missing-gain": "add k_velocity=…",
+    "unknown-geometry": "use one of box, cylinder, capsule, sphere, mesh",
+    "unknown-material": "define it in the robot or in a visual",
+    "material-redefined": "give each material a name of its own",
+    "bad-color": 'write for example rgba="1 0.5 0 1"',
+    "color-range": "divide 0 to 255 by 255",
+    # numbers and relations
+    "axis-not-unit": "write a unit vector",
+    "negative-limit": "limits of effort and velocity are magnitudes",
+    "negative-dynamics": "correct its sign",
+    "dynamics-without-effect": "remove them, or change the type",
+    "mimic-without-effect": "remove the mimic, or change the type",
+    "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
+    "unknown-actuated-joint": "correct its name, or take it out",
+    "inertia-not-positive": "export the inertia again; simulation may not be physical",
+    "inertia-triangle": "export the inertia again; simulation may not be physical",
+    "shape-size": "correct the size, or remove the shape",
+}
+_NOTES = {"second-reader-failed": "the strict reading alone counts"}
+
+ADVICE: Mapping[str, tuple[Severity, str]] = {
+    code: (severity, advice)
+    for severity, table in ((Severity.ERROR, _ERRORS), (Severity.WARNING, _WARNINGS), (Severity.NOTE, _NOTES))
+    for code, advice in table.items()
+}
+
+
+class Finding(NamedTuple):
+    """A finding about the element at `path`, which names it as a diff does: `link wheel`, `joint elbow / limit`.
+
+    The second element of a name is `link wheel #2`.
+    """
+
     code: str
     path: str
     message: str
-    hint: str
+    hint: str = ""
+    """Better advice than that of the table."""
+
+
+def diagnostic(code: str, message: str, line: int, hint: str = "", column: int = 0) -> Diagnostic:
+    """Return a diagnostic with severity and advice of its code, without the name of the file."""
+    severity, advice = ADVICE[code]
+    return Diagnostic(severity, code, message, "", line, column, hint or advice)
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
@@ -75,15 +161,18 @@ def check_actuated(actuated: Iterable[tuple[str, str]], joints: Collection[str])
     """
     for path, name in actuated:
         if name not in joints:
-            meant = nearest(name, joints)
-            hint = f"perhaps {meant!r} is meant" if meant else "correct its name, or take it out"
             message = f"{path.partition(' / ')[0]} drives joint {name!r}, which does not exist"
-            yield Finding(_WARNING, "unknown-actuated-joint", path, message, hint)
+            yield Finding("unknown-actuated-joint", path, message, perhaps(nearest(name, joints)))
 
 
 def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
     """Return the name most like `name`; an empty string if none is like it, or if there are too many to compare."""
     return spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
+
+
+def perhaps(meant: str) -> str:
+    """Return the advice to write a name that is alike; nothing if there is none."""
+    return f"perhaps {meant!r} is meant" if meant else ""
 
 
 def element_paths(kind: str, names: Iterable[str]) -> list[str]:
@@ -127,10 +216,8 @@ def _check_names(kind: str, names: Iterable[str]) -> Iterator[Finding]:
     """Names are unique among the links and among the joints; a link and a joint may share one."""
     for name, count in Counter(names).items():
         for number in range(2, count + 1):
-            message = f"there is another {kind} {name!r} above"
-            yield Finding(
-                _ERROR, f"duplicate-{kind}", f"{kind} {name} #{number}", message, f"rename or remove one {kind}"
-            )
+            path = f"{kind} {name} #{number}"
+            yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {name!r} above")
 
 
 def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
@@ -138,31 +225,27 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
     links = {link.name for link in robot.links}
     if not links:
         if complete:
-            yield Finding(_ERROR, "no-link", "robot", "the robot has no link", "check that the export is complete")
+            yield Finding("no-link", "robot", "the robot has no link")
         return
     parents: dict[str, Joint] = {}
     for path, joint in _numbered("joint", robot.joints):
         for end, name in (("parent", joint.parent), ("child", joint.child)):
             if name not in links:
                 complete = False
-                meant = nearest(name, links)
-                hint = f"perhaps {meant!r} is meant" if meant else "add the link, or correct its name"
                 message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
-                yield Finding(_ERROR, f"unknown-{end}", f"{path} / {end}", message, hint)
+                yield Finding(f"unknown-{end}", f"{path} / {end}", message, perhaps(nearest(name, links)))
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
-            yield Finding(_ERROR, "two-parents", path, message, "a link has one parent: remove one joint")
+            yield Finding("two-parents", path, message)
     above = {child: joint.parent for child, joint in parents.items()}
     for cycle in _cycles((link.name for link in robot.links), above):
         message = f"links form a cycle: {' → '.join(map(repr, [*reversed(cycle), cycle[-1]]))}"
-        path = f"joint {parents[cycle[0]].name}"
-        yield Finding(_ERROR, "cycle", path, message, "a URDF is a tree: remove a joint of the cycle")
+        yield Finding("cycle", f"joint {parents[cycle[0]].name}", message)
     roots = list(dict.fromkeys(link.name for link in robot.links if link.name not in parents))
     if len(roots) > 1 and complete:
-        names = ", ".join(map(repr, roots))
-        hint = "connect them by joints, or remove what does not belong to the robot"
-        yield Finding(_ERROR, "several-roots", f"link {roots[1]}", f"{len(roots)} links have no parent: {names}", hint)
+        message = f"{len(roots)} links have no parent: {', '.join(map(repr, roots))}"
+        yield Finding("several-roots", f"link {roots[1]}", message)
 
 
 def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list[str]]:
@@ -184,28 +267,22 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
     if link.inertial is not None:
         mass, place = link.inertial.mass, f"{path} / inertial"
         if mass < 0:
-            hint = "correct the mass; a massless link has none, or 0"
-            message = f"{place}: the mass {mass:g} kg is negative"
-            yield Finding(_ERROR, "negative-mass", f"{place} / mass", message, hint)
+            yield Finding("negative-mass", f"{place} / mass", f"{place}: the mass {mass:g} kg is negative")
         low, middle, high = principal_moments(link.inertial.inertia)
         tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(mass, 0) * _POINT**2
-        moments = f"{low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
-        hint = "export the inertia again; simulation may not be physical"
+        moments = f"its principal moments are {low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
         if low < -tolerance:
-            message = f"{place}: the inertia is not positive semi-definite: its principal moments are {moments}"
-            yield Finding(_WARNING, "inertia-not-positive", f"{place} / inertia", message, hint)
+            message = f"{place}: the inertia is not positive semi-definite: {moments}"
+            yield Finding("inertia-not-positive", f"{place} / inertia", message)
         elif low + middle < high - tolerance:
-            message = (
-                f"{place}: no body has this inertia: of its principal moments {moments} one exceeds the others' sum"
-            )
-            yield Finding(_WARNING, "inertia-triangle", f"{place} / inertia", message, hint)
+            message = f"{place}: no body has this inertia: {moments}, and one exceeds the sum of the others"
+            yield Finding("inertia-triangle", f"{place} / inertia", message)
     shapes = {f"visual {number}": visual.geometry for number, visual in enumerate(link.visuals, start=1)}
     shapes |= {f"collision {number}": shape.geometry for number, shape in enumerate(link.collisions, start=1)}
     for name, geometry in shapes.items():
         if _is_empty(geometry):
             place = f"{path} / {name} / {geometry.__struct_config__.tag}"
-            message = f"{place}: a size is zero or negative, so that the shape is empty"
-            yield Finding(_WARNING, "shape-size", place, message, "correct the size, or remove the shape")
+            yield Finding("shape-size", place, f"{place}: a size is zero or negative, so that the shape is empty")
 
 
 def principal_moments(inertia: Inertia) -> Vector:
@@ -255,34 +332,30 @@ def _is_empty(geometry: Geometry) -> bool:
 
 def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
     """The axis has a direction, the limits are a range and magnitudes, and the joint loses energy if it has losses."""
-    kind = JOINT_KINDS[joint.type]
-    length = math.hypot(*joint.axis)
+    kind, length = JOINT_KINDS[joint.type], math.hypot(*joint.axis)
     if kind.has_axis and length == 0:
-        message = f"{path}: the axis has no direction"
-        yield Finding(_ERROR, "zero-axis", f"{path} / axis", message, 'write for example xyz="0 0 1"')
+        yield Finding("zero-axis", f"{path} / axis", f"{path}: the axis has no direction")
     elif kind.has_axis and abs(length - 1) > _ROUNDING:
         shown = " ".join(f"{value:g}" for value in joint.axis)
         message = f"{path}: the axis {shown} has length {length:g}, and is normalised"
-        yield Finding(_WARNING, "axis-not-unit", f"{path} / axis", message, "write a unit vector")
+        yield Finding("axis-not-unit", f"{path} / axis", message)
     if limit := joint.limit:
-        place = f"{path} / limit"
         if kind.has_limits and limit.lower > limit.upper:
             message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
-            yield Finding(_ERROR, "limit-order", place, message, "exchange or correct the limits")
+            yield Finding("limit-order", f"{path} / limit", message)
         for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
             if value is not None and value < 0:
                 message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
-                hint = "limits of effort and velocity are magnitudes"
-                yield Finding(_WARNING, "negative-limit", place, message, hint)
+                yield Finding("negative-limit", f"{path} / limit", message)
     if dynamics := joint.dynamics:
-        place, losses = f"{path} / dynamics", (("damping", dynamics.damping), ("friction", dynamics.friction))
+        losses = ("damping", dynamics.damping), ("friction", dynamics.friction)
         if not kind.has_axis and any(value for _, value in losses):
             message = f"{path}: damping and friction have no effect on a {joint.type} joint"
-            yield Finding(_WARNING, "dynamics-without-effect", place, message, "remove them, or change the type")
+            yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
         for name, value in losses if kind.has_axis else ():
             if value < 0:
                 message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"
-                yield Finding(_WARNING, "negative-dynamics", place, message, "correct its sign")
+                yield Finding("negative-dynamics", f"{path} / dynamics", message)
 
 
 def _check_mimics(robot: Robot) -> Iterator[Finding]:
@@ -292,36 +365,27 @@ def _check_mimics(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         joints.setdefault(joint.name, joint)
     for path, joint in _numbered("joint", robot.joints):
-        if joint.mimic is not None:
+        if joint.mimic is not None and joint.mimic.joint:  # else the reader has told that it has no name
             leaders.setdefault(joint.name, joint.mimic.joint)
             yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)
     for cycle in _cycles(leaders, leaders):
         message = f"joints mimic each other in a cycle: {' → '.join(map(repr, [*cycle, cycle[0]]))}"
-        yield Finding(
-            _ERROR, "mimic-cycle", f"joint {cycle[0]} / mimic", message, "one joint of the cycle must move by itself"
-        )
+        yield Finding("mimic-cycle", f"joint {cycle[0]} / mimic", message)
 
 
 def _check_mimic(path: str, joint: Joint, target: str, joints: Mapping[str, Joint]) -> Iterator[Finding]:
     """Check one mimic relation; `target` is the name of the joint that `joint` mimics."""
-    leader = joints.get(target)
+    leader, mimics = joints.get(target), f"joint {joint.name!r} mimics joint {target!r}"
     if joint.type == "fixed":
-        message = f"joint {joint.name!r} is fixed, so that its mimic has no effect"
-        yield Finding(_WARNING, "mimic-without-effect", path, message, "remove the mimic, or change the type")
+        yield Finding("mimic-without-effect", path, f"joint {joint.name!r} is fixed, so that its mimic has no effect")
     elif not JOINT_KINDS[joint.type].motion:
-        message = f"joint {joint.name!r} is {joint.type}, and can't mimic a single position"
-        yield Finding(_ERROR, "mimic-type", path, message, "remove the mimic, or change the type")
+        yield Finding("mimic-type", path, f"joint {joint.name!r} is {joint.type}, and can't mimic a single position")
     elif leader is None:
         # A target without the prefix of its side means the joint of the same side, else the one most alike.
         same_end = [name for name in joints if name.endswith(target) and name != joint.name]
         meant = nearest(joint.name, same_end, 0) or nearest(target, joints)
-        hint = f"perhaps {meant!r} is meant" if meant else "add the joint, or correct its name"
-        yield Finding(
-            _ERROR, "unknown-mimic", path, f"joint {joint.name!r} mimics joint {target!r}, which does not exist", hint
-        )
+        yield Finding("unknown-mimic", path, f"{mimics}, which does not exist", perhaps(meant))
     elif leader.type == "fixed":
-        message = f"joint {joint.name!r} mimics the fixed joint {target!r}, and is held at its offset"
-        yield Finding(_WARNING, "mimic-of-fixed", path, message, "make it fixed, or let it mimic a joint that moves")
+        yield Finding("mimic-of-fixed", path, f"{mimics}, which is fixed: it is held at its offset")
     elif not JOINT_KINDS[leader.type].motion:
-        message = f"joint {joint.name!r} mimics joint {target!r}, which is {leader.type} and has no single position"
-        yield Finding(_ERROR, "mimic-type", path, message, "let it mimic a revolute, continuous or prismatic joint")
+        yield Finding("mimic-type", path, f"{mimics}, which is {leader.type} and has no single position")

@@ -123,10 +123,10 @@ CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
     "a name that was taken": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "hand"}), {}),
     "legs that look the same": (legs("left", "right"), legs("l", "r"), {}),
     "one of these": (legs("left", "right"), legs("left", "r"), leg_names(right="r")),
-    "legs with other feet": (
+    "legs that look the same but for their feet": (
         legs("left", "right", foot={"right": 1.5}),
         legs("l", "r", foot={"l": 1.5}),
-        leg_names(left="r", right="l"),
+        {},
     ),
     "a joint that others follow": (FINGERS, with_names(FINGERS, FIRST_AND_SECOND), FIRST_AND_SECOND),
     "a joint that follows another one now": (

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
-from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
@@ -14,7 +14,7 @@ from urdfsync.urdf.snapshot import from_snapshot
 
 # How the names of variables of Run end: position and effort.
 _VARIABLES: Mapping[Motion, tuple[str, str]] = {"rotational": ("phi", "tau"), "translational": ("s", "f")}
-_OTHER_FLANGES = "adapt what is connected to it, and joints that were exchanged"
+_FLANGES, _POSITION, _EFFORT = "axis and support", "position in Run", "effort in Run"
 
 
 def interface(
@@ -34,79 +34,60 @@ def interface(
         hint = 'list "package" in `approach` to keep it, with its connectors'
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
-    return [
-        *_connectors(before, after, renames, earlier, options),
-        *_variables(before, after, renames, earlier, options),
-    ]
-
-
-def _connectors(
-    before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], earlier: Options, options: Options
-) -> Iterator[Effect]:
-    old, new = connector_names(before, earlier), connector_names(after, options)
-    links = {renames.get(("link", link.name), link.name) for link in before.links} & {link.name for link in after.links}
-    joints = {renames.get(("joint", joint.name), joint.name) for joint in before.joints}
-    joints &= {joint.name for joint in after.joints}
-    for kind, connector, one, other, elements in (
-        ("link", "frame", old.frames, new.frames, links),
-        ("joint", "axis", old.axes, new.axes, joints),
-        ("joint", "support", old.supports, new.supports, joints),
-    ):
-        known = {renames.get((kind, name), name): found for name, found in one.items()}
-        for name in dict.fromkeys((*known, *other)):
-            was, now = known.get(name), other.get(name)
-            if was != now and name in elements:
-                hint = f'list "{name}" in `frames` to keep it' if kind == "link" and now is None else ""
-                yield Effect((f"{kind} {name}", connector), was, now, hint=hint)
-    # An axis that keeps its name and turns where it slid, or the other way round, takes other flanges now.
-    types = {joint.name: joint.type for joint in after.joints}
-    for joint in before.joints:
-        name = renames.get(("joint", joint.name), joint.name)
-        if joint.name in old.axes and old.axes[joint.name] == new.axes.get(name):
-            was, now = MOTION_KINDS[joint.type], MOTION_KINDS[types[name]]
-            if was != now:
-                axes = f"{old.axes[joint.name]} ({was})", f"{new.axes[name]} ({now})"
-                yield Effect((f"joint {name}", "axis and support"), *axes, hint=_OTHER_FLANGES)
-
-
-def _variables(
-    before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], earlier: Options, options: Options
-) -> Iterator[Effect]:
-    """Yield what differs in Run. A joint that gets or loses its axis is named with that axis."""
-    now = {joint.name: joint for joint in after.joints}
-    was_driven, is_driven = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
-    for joint in before.joints:
-        name = renames.get(("joint", joint.name), joint.name)
-        if name not in now or not can_be_driven(joint):
+    was, now = _names(before, earlier, renames), _names(after, options, {})
+    both = _elements(before, renames) & _elements(after, {})
+    found = []
+    for element, part in dict.fromkeys((*was, *now)):
+        one, other = was.get((element, part)), now.get((element, part))
+        if one == other or element not in both:
             continue
-        position = effort = new_position = new_effort = None
-        if joint.name in was_driven:
-            one, other = _VARIABLES[MOTION_KINDS[joint.type]]
-            component = before.joint(joint.name).component
-            effort = f"{component}_{other}"
-            position = f"{component}_{one}" if earlier.inputs == "names" else None
-        if name in is_driven:
-            one, other = _VARIABLES[MOTION_KINDS[now[name].type]]
-            component = after.joint(name).component
-            new_position, new_effort = (
-                f"{component}_{one}" if options.inputs == "names" else None,
-                f"{component}_{other}",
-            )
-        is_passive = effort and not new_effort and can_be_driven(now[name])
-        hint = f'list "{name}" in `driven`, with all others that are driven, to keep it' if is_passive else ""
-        if position != new_position:
-            keep = hint if options.inputs == "names" else 'set `inputs = "names"` to keep it'
-            lost = keep if position and not new_position else ""
-            yield Effect((f"joint {name}", "position in Run"), position, new_position, hint=lost)
-        if effort != new_effort:
-            yield Effect((f"joint {name}", "effort in Run"), effort, new_effort, hint=hint)
-    if earlier.inputs == "names" or not was_driven:
-        return
+        has_new_axis = was.get((element, "axis")) != now.get((element, "axis"))  # told by itself
+        if has_new_axis and (part == _FLANGES or (part in (_POSITION, _EFFORT) and (element, "axis") not in was)):
+            continue
+        name, hint = element.partition(" ")[2], ""
+        if part == _FLANGES:
+            hint = "adapt what is connected to it, and joints that were exchanged"
+        elif part == "frame" and not other:
+            hint = f'list "{name}" in `frames` to keep it'
+        elif part == _POSITION and not other and options.inputs == "vector":
+            hint = 'set `inputs = "names"` to keep it'
+        elif part in (_POSITION, _EFFORT) and not other and (element, "axis") in now:
+            hint = f'list "{name}" in `driven`, with all others that are driven, to keep it'
+        found.append(Effect((element, part), one, other, hint=hint))
+    return [*found, *_vector(before, after, renames, earlier, options)]
+
+
+def _names(tree: KinematicTree, options: Options, renames: Mapping[ElementKey, str]) -> dict[tuple[str, str], str]:
+    """Return the names of connectors and variables of Run, by element under its new name and what they are."""
+    connectors, driven = connector_names(tree, options), driven_joints(tree.joints, options)
+    names = {(f"link {renames.get(('link', link), link)}", "frame"): frame for link, frame in connectors.frames.items()}
+    for joint in (joint for joint in tree.joints if joint.name in connectors.axes):
+        element, motion = f"joint {renames.get(('joint', joint.name), joint.name)}", MOTION_KINDS[joint.type]
+        names[element, "axis"] = connectors.axes[joint.name]
+        names[element, "support"] = connectors.supports[joint.name]
+        names[element, _FLANGES] = f"{connectors.axes[joint.name]} ({motion})"
+        component, (position, effort) = tree.joint(joint.name).component, _VARIABLES[motion]
+        if joint.name in driven and options.inputs == "names":
+            names[element, _POSITION] = f"{component}_{position}"
+        if joint.name in driven:
+            names[element, _EFFORT] = f"{component}_{effort}"
+    return names
+
+
+def _elements(tree: KinematicTree, renames: Mapping[ElementKey, str]) -> set[str]:
+    return {f"{kind} {renames.get((kind, name), name)}" for kind, name in tree.names}
+
+
+def _vector(
+    before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], earlier: Options, options: Options
+) -> Sequence[Effect]:
+    """Return what happens to positions in one vector."""
+    was, now = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
+    if earlier.inputs == "names" or not was:
+        return ()
     if options.inputs == "names":
-        yield Effect(("robot", "input of Run"), "positions", None, hint='set `inputs = "vector"` to keep it')
-        return
-    known = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was_driven]
-    new = [joint.name for joint in after.joints if joint.name in is_driven]
-    if known != new:
-        hint = "adapt what is connected to `positions` of Run"
-        yield Effect(("robot", "positions"), ", ".join(known), ", ".join(new) or None, hint=hint)
+        return [Effect(("robot", "input of Run"), "positions", None, hint='set `inputs = "vector"` to keep it')]
+    old = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was]
+    new = [joint.name for joint in after.joints if joint.name in now]
+    hint = "adapt what is connected to `positions` of Run"
+    return [Effect(("robot", "positions"), ", ".join(old), ", ".join(new) or None, hint=hint)] if old != new else ()

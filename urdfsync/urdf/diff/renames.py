@@ -2,15 +2,15 @@
 
 Elements of one name are the same element, whatever else changed. What is only in the old version is matched with what
 is only in the new one from the root down: a link through the joint that leads to it, a joint through its parent link,
-its numbers and its child link. A match has to be the only one among the joints of its parent; where several look the
-same, what hangs on them decides, and if that is the same too, as with two legs of one kind, nothing is matched.
+its numbers and its child link. A match has to be the only one among the joints of its parent: of two legs of one kind
+that both have other names, none is matched.
 """
 
 from __future__ import annotations
 
-import functools
 from collections import Counter, defaultdict
 from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
@@ -22,125 +22,61 @@ joint): not part of what makes elements alike."""
 
 def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
     """Return the new names of links and joints that were renamed, and are otherwise the same in the same place."""
-    parts = ("links", "joints")
-    if not any(old[part].keys() - new[part].keys() and new[part].keys() - old[part].keys() for part in parts):
+    links, joints = (old[part].keys() & new[part].keys() for part in ("links", "joints"))
+    if not (old["links"].keys() - links and new["links"].keys() - links) and not (
+        old["joints"].keys() - joints and new["joints"].keys() - joints
+    ):
         return {}
-    links, joints = _Matching(old, new).run()
-    return {("link", name): links[name] for name in sorted(links)} | {
-        ("joint", name): joints[name] for name in sorted(joints)
-    }
-
-
-class _Tree:
-    """One version's links and joints, and the joints that start at each link."""
-
-    def __init__(self, snapshot: Snapshot) -> None:
-        self.links: Mapping[str, Any] = snapshot["links"]
-        self.joints: Mapping[str, Any] = snapshot["joints"]
-        self.children: defaultdict[str, list[str]] = defaultdict(list)
-        for name, joint in self.joints.items():
-            self.children[joint["parent"]].append(name)
-
-    def root(self) -> str:
-        (root,) = self.links.keys() - {joint["child"] for joint in self.joints.values()}
-        return root
-
-    def depth_first(self) -> list[str]:
-        """Return all joints, each after those above it."""
-        order: list[str] = []
-        stack = list(self.children[self.root()])
-        while stack:
-            order.append(stack.pop())
-            stack += self.children[self.joints[order[-1]]["child"]]
-        return order
-
-
-class _Matching:
-    """The search for one pair of versions; linear in their elements."""
-
-    def __init__(self, old: Snapshot, new: Snapshot) -> None:
-        self.old, self.new = _Tree(old), _Tree(new)
-        self.common_links = self.old.links.keys() & self.new.links.keys()
-        self.common_joints = self.old.joints.keys() & self.new.joints.keys()
-        self.links: dict[str, str] = {}
-        self.joints: dict[str, str] = {}
-
-    def run(self) -> tuple[Mapping[str, str], Mapping[str, str]]:
-        """Return the renamed links and joints."""
-        pairs = [(name, name) for name in self.old.links if name in self.common_links]
-        pairs += self._match_links(self.old.root(), self.new.root())
-        for old, new in pairs:  # grows while it is walked
-            for before, after in self._joints_between(old, new):
-                pairs += self._match_links(self.old.joints[before]["child"], self.new.joints[after]["child"])
-        self._drop_wrongly_led()
-        return self.links, self.joints
-
-    def _match_links(self, old: str, new: str) -> list[tuple[str, str]]:
-        """Return the pair, if it is a renamed link."""
-        if old in self.common_links or new in self.common_links:
-            return []
-        if _link(self.old.links[old]) != _link(self.new.links[new]):
-            return []
-        self.links[old] = new
-        return [(old, new)]
-
-    def _joints_between(self, old: str, new: str) -> list[tuple[str, str]]:
-        """Return the joints that start at a link, in both versions; what was renamed is noted."""
-        before, after = self.old.children[old], self.new.children[new]
-        same = self.common_joints.intersection(before, after)
-        gone = [name for name in before if name not in self.common_joints]
-        came = [name for name in after if name not in self.common_joints]
+    before, after = _joints_by_parent(old), _joints_by_parent(new)
+    renames: dict[ElementKey, str] = {}
+    places = [(name, name) for name in old["links"] if name in links]  # links that are in the same place
+    places.append((_root(old), _root(new)))
+    for one, other in places:  # grows while it is walked
+        if one != other:
+            if one in links or other in links or _link(old["links"][one]) != _link(new["links"][other]):
+                continue
+            renames["link", one] = other
+        matches = {name: name for name in joints.intersection(before[one], after[other])}
+        gone = [name for name in before[one] if name not in joints]
+        came = [name for name in after[other] if name not in joints]
         if gone and came:
-            self.joints |= (found := self._siblings(gone, came))
-            return [*((name, name) for name in same), *found.items()]
-        return [(name, name) for name in same]
-
-    def _siblings(self, gone: Sequence[str], came: Sequence[str]) -> dict[str, str]:
-        found = _only_matches(
-            {name: self._alike(self.old, name) for name in gone}, {name: self._alike(self.new, name) for name in came}
-        )
-        taken = set(found.values())
-        gone = [name for name in gone if name not in found]
-        came = [name for name in came if name not in taken]
-        if gone and came:
-            found |= _only_matches(
-                {name: self._subtrees[id(self.old), name] for name in gone},
-                {name: self._subtrees[id(self.new), name] for name in came},
+            found = _only_matches(
+                {name: _likeness(old, name, links, joints) for name in gone},
+                {name: _likeness(new, name, links, joints) for name in came},
             )
-        return found
+            renames |= {("joint", name): match for name, match in found.items()}
+            matches |= found
+        for name, match in matches.items():
+            ends = old["joints"][name]["child"], new["joints"][match]["child"]
+            places += [ends] if ends[0] != ends[1] else []
+    _drop_wrongly_led(renames, old, new)
+    return dict(sorted(renames.items(), key=lambda rename: (rename[0][0] != "link", rename[0][1])))
 
-    def _alike(self, tree: _Tree, name: str) -> Hashable:
-        """Return what a joint shares with its match: numbers, the joint that it follows, its child link."""
-        joint = tree.joints[name]
-        leader = joint.get("mimic", {}).get("joint")
-        followed = leader if leader in self.common_joints else leader is not None
-        child = joint["child"]
-        return _joint(joint), followed, child if child in self.common_links else _link(tree.links[child])
 
-    @functools.cached_property
-    def _subtrees(self) -> Mapping[tuple[int, str], int]:
-        """A number per joint of either version: the same for those that are alike with all that hangs on them."""
-        numbers: dict[Hashable, int] = {}
-        result: dict[tuple[int, str], int] = {}
-        for tree in (self.old, self.new):
-            for name in reversed(tree.depth_first()):
-                below = sorted(result[id(tree), joint] for joint in tree.children[tree.joints[name]["child"]])
-                key = name if name in self.common_joints else (self._alike(tree, name), tuple(below))
-                result[id(tree), name] = numbers.setdefault(key, len(numbers))
-        return result
+def _joints_by_parent(snapshot: Snapshot) -> Mapping[str, Sequence[str]]:
+    joints: defaultdict[str, list[str]] = defaultdict(list)
+    for name, joint in snapshot["joints"].items():
+        joints[joint["parent"]].append(name)
+    return joints
 
-    def _drop_wrongly_led(self) -> None:
-        """Take back joints that follow another joint than before; and so on with those that follow them."""
-        followers: defaultdict[str, list[str]] = defaultdict(list)
-        wrong: list[str] = []
-        for old, new in self.joints.items():
-            if (mimic := self.old.joints[old].get("mimic")) and mimic["joint"] not in self.common_joints:
-                followers[mimic["joint"]].append(old)
-                if self.joints.get(mimic["joint"]) != self.new.joints[new]["mimic"]["joint"]:
-                    wrong.append(old)
-        for name in wrong:  # grows while it is walked
-            if self.joints.pop(name, None) is not None:
-                wrong += followers[name]
+
+def _root(snapshot: Snapshot) -> str:
+    (root,) = snapshot["links"].keys() - {joint["child"] for joint in snapshot["joints"].values()}
+    return str(root)
+
+
+def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: AbstractSet[str]) -> Hashable:
+    """Return what a joint shares with its match: numbers and type, the joint that it follows, its child link.
+
+    `links` and `joints` are the names in both versions.
+    """
+    joint = snapshot["joints"][name]
+    plain, child, mimic = _without_names(joint, "joint"), joint["child"], joint.get("mimic")
+    leader = None
+    if mimic:
+        plain["mimic"] = _without_names(mimic, "mimic")
+        leader = mimic["joint"] if mimic["joint"] in joints else ""
+    return _frozen(plain), leader, child if child in links else _link(snapshot["links"][child])
 
 
 def _only_matches(before: Mapping[str, Hashable], after: Mapping[str, Hashable]) -> dict[str, str]:
@@ -150,10 +86,16 @@ def _only_matches(before: Mapping[str, Hashable], after: Mapping[str, Hashable])
     return {name: names[key] for name, key in before.items() if counts[0][key] == counts[1][key] == 1}
 
 
-def _joint(joint: Mapping[str, Any]) -> Hashable:
-    """Return numbers and type of a joint."""
-    plain = _without_names(joint, "joint")
-    return _frozen({**plain, "mimic": _without_names(plain["mimic"], "mimic")} if "mimic" in plain else plain)
+def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:
+    """Take back joints that follow another joint than before; and so on with those that follow them."""
+    leaders = {
+        name: (old["joints"][name]["mimic"]["joint"], new["joints"][match]["mimic"]["joint"])
+        for (kind, name), match in renames.items()
+        if kind == "joint" and "mimic" in old["joints"][name]
+    }
+    while wrong := [name for name, (one, other) in leaders.items() if renames.get(("joint", one), one) != other]:
+        for name in wrong:
+            del renames["joint", name], leaders[name]
 
 
 def _link(link: Mapping[str, Any]) -> Hashable:

@@ -1,4 +1,7 @@
-"""Typed access to the attributes and children of URDF elements; every fault becomes a diagnostic with its line.
+"""Elements to values: the structs of `urdf.robot` say what is read. Every fault becomes a diagnostic with its line.
+
+A field of numbers or text is the attribute of its name, a field that is a struct the child element of its name; one
+without a default is required. What no field asks for is kept as text (see `Extension`).
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. A
 value that can't be read is an error, and another takes its place, so that reading goes on and finds the next fault.
@@ -9,21 +12,25 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Any, TypeVar
+from collections.abc import Collection, Iterable, Mapping
+from typing import Any, NamedTuple, TypeVar, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.xml import canonical
-from urdfsync.urdf.robot import Extension
-from urdfsync.urdf.validate import Finding, nearest
+from urdfsync.urdf.robot import Extension, JointType, Vector
+from urdfsync.urdf.validate import Finding, diagnostic, nearest, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
 
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
+_COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
+"""Numbers of an attribute, by the type of its field; 0 for text."""
+_ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
+"""Child elements that stand for a field of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
 # Elements of URDF: in a place where they mean nothing they are no misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
@@ -48,24 +55,17 @@ class Reader:
         """Whether an error was found."""
         return any(found.severity is Severity.ERROR for found in self.diagnostics)
 
-    def error(self, element: Element, code: str, message: str, hint: str) -> None:
-        """Add an error about an element."""
-        line = self._lines_of_elements[element]
-        self.diagnostics.append(Diagnostic(Severity.ERROR, code, message, line=line, hint=hint))
-
-    def warn(self, element: Element, code: str, message: str, hint: str) -> None:
-        """Add a warning about an element."""
-        line = self._lines_of_elements[element]
-        self.diagnostics.append(Diagnostic(Severity.WARNING, code, message, line=line, hint=hint))
+    def add(self, element: Element, code: str, message: str, hint: str = "") -> None:
+        """Add a finding about an element."""
+        self.diagnostics.append(diagnostic(code, message, self._lines_of_elements[element], hint))
 
     def extend(self, findings: Iterable[Finding]) -> None:
-        """Add what checks say about elements, at the lines of these or of the nearest ones that contain them."""
-        for severity, code, path, message, hint in findings:
+        """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
+        for code, path, message, hint in findings:
             place = path
             while place not in self.lines and " / " in place:
                 place = place.rpartition(" / ")[0]
-            line = self.lines.get(place, self.lines["robot"])
-            self.diagnostics.append(Diagnostic(severity, code, message, line=line, hint=hint))
+            self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
 
     def place(self, element: Element, path: str) -> str:
         """Remember the line of an element; return its path."""
@@ -88,15 +88,14 @@ class Reader:
                 found[tag] = child
                 self.place(child, f"{path} / {tag}")
             else:
-                message = f"{path} has another <{tag}>, and the first counts"
-                self.warn(child, "duplicate-element", message, "remove the others")
+                self.add(child, "duplicate-element", f"{path} has another <{tag}>, and the first counts")
         return found
 
     def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
         if child.tag not in _ELEMENTS and ":" not in child.tag and (meant := nearest(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
-            self.warn(child, "unknown-element", message, f"perhaps <{meant}> is meant")
+            self.add(child, "unknown-element", message, f"perhaps <{meant}> is meant")
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
@@ -106,59 +105,78 @@ class Reader:
                 continue
             if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
-                self.warn(element, "unknown-attribute", message, f"perhaps {meant!r} is meant")
+                self.add(element, "unknown-attribute", message, perhaps(meant))
 
-    def read(self, element: Element, path: str, kind: type[Values]) -> Values:
-        """Return a struct whose fields are the attributes, by their names, types and defaults.
-
-        An attribute without a default is required.
-        """
-        self.expect(element, path, kind.__struct_fields__)
-        return kind(*[self._value(element, path, *field) for field in _fields(kind)])
+    def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
+        """Return a struct from attributes and children, but for the fields that are `given`."""
+        attributes, children, required = _schema(struct)
+        self.expect(element, path, attributes)
+        values = given
+        for name, (count, default) in attributes.items():
+            values[name] = self._value(element, path, name, count, default)
+        found = self.children(element, path, children, owner) if children else {}
+        for name, child in found.items():
+            if name in values:
+                continue
+            kind, default = children[name]
+            place = f"{path} / {name}"
+            if name in _ONE_VALUE:
+                self.expect(child, place, (_ONE_VALUE[name],))
+                values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
+            else:
+                values[name] = self.read(child, place, kind)
+        for name in required:
+            if name not in found:
+                self.add(element, "missing-element", f"{path} has no <{name}>")
+                values[name] = ""
+        return struct(**values)
 
     def _value(self, element: Element, path: str, name: str, count: int, default: Any) -> Any:
-        if default is msgspec.NODEFAULT:
-            if count == 0:
-                return self.text(element, path, name)
-            if name not in element.attrib:
-                self._missing(element, path, name)
-            default = 1.0 if count == 1 else (1.0,) * count
-        numbers = self.numbers(element, path, name, count)
-        if numbers is None:
-            return default
-        return numbers[0] if count == 1 else numbers
-
-    def numbers(self, element: Element, path: str, name: str, count: int) -> tuple[float, ...] | None:
-        """Return the numbers of an attribute; None if it is absent, or after an error."""
-        text = element.get(name)
+        text, is_required = element.get(name), default is msgspec.NODEFAULT
         if text is None:
-            return None
-        try:
-            return parse_numbers(text, count)
-        except ValueError as error:
-            code = "bad-number" if text.strip() else "empty-attribute"
-            message = f"{path}: {name}={quoted(text)} {error}"
-            self.error(element, code, message, "write decimal numbers such as -0.5 or 1e-3")
-            return None
+            if not is_required:
+                return default
+            self.add(element, "missing-attribute", f"{path} has no attribute {name!r}")
+        elif count:
+            try:
+                numbers = parse_numbers(text, count)
+                return numbers[0] if count == 1 else numbers
+            except ValueError as error:
+                code = "bad-number" if text.strip() else "empty-attribute"
+                self.add(element, code, f"{path}: {name}={quoted(text)} {error}")
+        elif text.strip() or not is_required:
+            return text
+        else:
+            self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
+        return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
-    def text(self, element: Element, path: str, name: str) -> str:
-        """Return a text that must be there; an empty one, after an error, if it is not."""
-        text = element.get(name)
-        if text is None:
-            self._missing(element, path, name)
-        elif not text.strip():
-            self.error(element, "empty-attribute", f"{path}: the attribute {name!r} is empty", "fill it in")
-        return text if text and text.strip() else ""
 
-    def _missing(self, element: Element, path: str, name: str) -> None:
-        self.error(element, "missing-attribute", f"{path} has no attribute {name!r}", f"add {name}=…")
+class _Schema(NamedTuple):
+    """What an element has for a struct."""
+
+    attributes: dict[str, tuple[int, Any]]
+    """Counts of numbers, 0 for text, and defaults."""
+    children: dict[str, tuple[Any, Any]]
+    """Structs, or counts as above, and defaults."""
+    required: list[str]
+    """Children that must be there."""
 
 
 @functools.cache
-def _fields(kind: type[msgspec.Struct]) -> Sequence[tuple[str, int, Any]]:
-    """Return name, count of numbers (0 for a text) and default of each field."""
-    counts = {str: 0, float: 1, float | None: 1}
-    return [(field.name, counts.get(field.type, 3), field.default) for field in msgspec.structs.fields(kind)]
+def _schema(struct: type[msgspec.Struct]) -> _Schema:
+    schema = _Schema({}, {}, [])
+    for field in msgspec.structs.fields(struct):
+        kinds = (field.type, *get_args(field.type))
+        structs = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
+        if structs:
+            name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
+            schema.children[name] = structs[0], field.default
+        elif field.name in _ONE_VALUE:
+            schema.children[field.name] = _COUNTS[field.type], field.default
+            schema.required.extend([field.name] if field.required else [])
+        elif field.type in _COUNTS:
+            schema.attributes[field.name] = _COUNTS[field.type], field.default
+    return schema
 
 
 # Many attributes of a robot have the same text, such as `xyz="0 0 0"`: this saves a third of reading 1,000 links.

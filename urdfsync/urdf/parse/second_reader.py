@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import yourdfpy
 
-from urdfsync.diagnostics import Severity
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.validate import Finding
 
@@ -21,7 +20,6 @@ from urdfsync.urdf.validate import Finding
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
 _SHOWN = 5
 _TEXTS = 100
-_HINT = "please report this file; cross_check = false builds it as urdfsync reads it"
 
 
 class _Structure(NamedTuple):
@@ -52,7 +50,7 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
         for kind, one, other in zip(_Structure._fields, ours, theirs, strict=True):
             if one != other:
                 message = f"yourdfpy reads other {kind}: {_difference(one, other)}"
-                yield Finding(Severity.ERROR, "second-reader-differs", "robot", message, _HINT)
+                yield Finding("second-reader-differs", "robot", message)
     if theirs == ours:
         _agreed[text] = ours
         for old in list(_agreed)[:-_TEXTS]:
@@ -68,8 +66,7 @@ def _structure(robot: Any) -> _Structure:
 
 
 def _not_checked(reason: str) -> Finding:
-    message = f"not cross-checked: yourdfpy {reason}"
-    return Finding(Severity.NOTE, "second-reader-failed", "robot", message, "the strict reading alone counts")
+    return Finding("second-reader-failed", "robot", f"not cross-checked: yourdfpy {reason}")
 
 
 def _difference(ours: Set[str], theirs: Set[str]) -> str:

@@ -29,7 +29,7 @@ _OTHER_ROOTS = {
     "mujocoinclude": "a part of a MuJoCo model; export URDF instead",
     "COLLADA": "a COLLADA mesh; name the URDF that uses it instead",
     "launch": "a ROS launch file; name the URDF that it loads instead",
-    "package": "a ROS package manifest; name the URDF instead",
+    "package": "a ROS package manifest",
     "html": "a web page; download the file itself",
 }
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -79,9 +79,8 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
     root = document.root
     if root.tag != "robot":
-        kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF; name the URDF file instead").partition("; ")
-        message = f"the root element is <{root.tag}> and not <robot>: this is {kind}"
-        reader.error(root, "not-urdf", message, hint)
+        kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF").partition("; ")
+        reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is {kind}", hint)
         return False
     if "$" not in document.text and "xacro:" not in document.text:
         return True
@@ -95,15 +94,13 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
             is_xacro = element.tag.startswith("xacro:")
             if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
                 message = f"this is a xacro file that is not expanded: <{element.tag}>"
-                hint = "run `xacro FILE.xacro > FILE.urdf`, and name the result"
-                reader.error(element, "xacro-source", message, hint)
+                reader.add(element, "xacro-source", message)
                 return False
             if is_xacro or names:
                 leftovers.append(element)
     if leftovers:
         message = "the file has leftovers of xacro, which are taken literally or ignored"
-        hint = "expand the source with xacro, if this file is not the result of it"
-        reader.warn(leftovers[0], "xacro-leftover", message, hint)
+        reader.add(leftovers[0], "xacro-leftover", message)
     return True
 
 
@@ -113,7 +110,7 @@ def _read(reader: Reader, root: Element) -> Robot:
     reader.expect(root, "robot", ("name",))
     name = root.get("name", "")
     if not name.strip():
-        reader.warn(root, "missing-name", "the robot has no name", 'write <robot name="…">')
+        reader.add(root, "missing-name", "the robot has no name")
     for child in root:
         if child.tag not in _MODELLED:
             reader.extension(child, "robot", _MODELLED, "")

@@ -12,16 +12,13 @@ from __future__ import annotations
 import codecs
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.urdf.validate import diagnostic
 
-if TYPE_CHECKING:
-    from lxml import etree
-
-_WAIT = "wait until the export is complete"
 _DEEPEST = 256
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
@@ -50,9 +47,9 @@ _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEME
 class ParseError(Exception):
     """The file can't be read as XML; the diagnostic does not have the file's name yet."""
 
-    def __init__(self, code: str, message: str, hint: str, line: int = 1, column: int = 0) -> None:
+    def __init__(self, code: str, message: str, line: int = 1, column: int = 0) -> None:
         super().__init__(message)
-        self.diagnostic = Diagnostic(Severity.ERROR, code, message, "", line, column, hint)
+        self.diagnostic = diagnostic(code, message, line, column=column)
 
 
 class Document(NamedTuple):
@@ -68,10 +65,6 @@ class Document(NamedTuple):
 def parse(content: bytes) -> Document:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
-    if ">>>>>>>" in text and (marker := _CONFLICT_MARKER.search(text)):
-        hint = "resolve the merge, then build again"
-        line = text.count("\n", 0, marker.start()) + 1
-        raise ParseError("merge-conflict", "the file has merge conflict markers", hint, line)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
     lines: list[int] = []
     above: list[tuple[str, int]] = []
@@ -80,7 +73,7 @@ def parse(content: bytes) -> Document:
         line = parser.CurrentLineNumber
         if len(above) == _DEEPEST:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
-            raise ParseError("xml-syntax", message, f"make it less deep, or {_WAIT}", line)
+            raise ParseError("xml-syntax", message, line)
         above.append((tag, line))
         lines.append(line)
         builder.start(tag, attributes)
@@ -92,38 +85,34 @@ def parse(content: bytes) -> Document:
     def refuse_type(_: str, address: str | None, *_more: object) -> None:
         if address:
             message = f"the file has its document type elsewhere ({address}), where urdfsync never looks"
-            raise ParseError("xml-entity", message, "remove the <!DOCTYPE …>", parser.CurrentLineNumber)
+            raise ParseError("xml-entity", message, parser.CurrentLineNumber)
 
     def refuse_entity(*_: object) -> None:
         message = "the file declares XML entities, which urdfsync never expands"
-        raise ParseError("xml-entity", message, "replace the entities by their text", parser.CurrentLineNumber)
+        raise ParseError("xml-entity", message, parser.CurrentLineNumber)
 
     parser.buffer_text = True
     parser.specified_attributes = True  # a document type may have others
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, builder.data
     parser.StartDoctypeDeclHandler, parser.EntityDeclHandler = refuse_type, refuse_entity
+    error = None
     try:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
-    except expat.ExpatError as error:
-        what, hint = expat.ErrorString(error.code), "correct the XML there"
+    except expat.ExpatError as found:
+        error = found
+    if (error or ">>>>>>>" in text) and (marker := _CONFLICT_MARKER.search(text)):
+        line = text.count("\n", 0, marker.start()) + 1
+        raise ParseError("merge-conflict", "the file has merge conflict markers", line)
+    if error:
+        what = expat.ErrorString(error.code)
         if what in _UNCLOSED and above:
-            what, hint = f"<{above[-1][0]}> of line {above[-1][1]} is not closed", f"write </{above[-1][0]}>"
-        message = f"this is not well-formed XML: {what}"
-        raise ParseError("xml-syntax", message, f"{hint}, or {_WAIT}", error.lineno, error.offset + 1) from None
+            what = f"<{above[-1][0]}> of line {above[-1][1]} is not closed"
+        raise ParseError("xml-syntax", f"this is not well-formed XML: {what}", error.lineno, error.offset + 1)
     root = builder.close()
     document = Document(text, root, dict(zip(root.iter(), lines, strict=True)), warnings)
     if ":" in text:
         warnings += _undeclared_prefixes(document)
     return document
-
-
-def parse_tree(content: bytes) -> etree._Element:
-    """Return the root of an XML file that `parse` accepts, as lxml has it. Raises ParseError."""
-    from lxml import etree  # takes 25 ms to load, and a build does without it
-
-    return etree.fromstring(
-        parse(content).text.encode(), etree.XMLParser(recover=True, no_network=True, resolve_entities=False)
-    )
 
 
 def canonical(element: Element) -> str:
@@ -151,7 +140,7 @@ def _undeclared_prefixes(document: Document) -> list[Diagnostic]:
             elif colon:
                 used.setdefault(prefix, line)
     return [
-        _warning("xml-prefix", f"the prefix {prefix!r} is not declared", f"add xmlns:{prefix}=… to the root", line)
+        diagnostic("xml-prefix", f"the prefix {prefix!r} is not declared", line)
         for prefix, line in used.items()
         if prefix not in declared
     ]
@@ -163,25 +152,24 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     Blanks take the place of the declaration, so that lines and columns stay.
     """
     if content.startswith(b"version https://git-lfs"):
-        raise ParseError("lfs-pointer", "the file is a Git LFS pointer, not the robot", "run `git lfs pull`")
+        raise ParseError("lfs-pointer", "the file is a Git LFS pointer, not the robot")
     encoding = next((name for mark, name in _BYTE_ORDER_MARKS if content.startswith(mark)), "")
     declaration = _DECLARATION.match(content[:200].decode(encoding or "latin-1", errors="ignore"))
     declared = ((declaration and declaration["encoding"]) or "utf-8").lower()
     is_faulty = not encoding and declared.startswith(_WIDE)  # the bytes are others
     text = _to_text(content, encoding or ("utf-8" if is_faulty else declared))
     if not text.strip("\0 \t\n"):
-        raise ParseError("file-empty", "the file is empty", f"export the robot again, or {_WAIT}")
+        raise ParseError("file-empty", "the file is empty")
     declaration, warnings = _DECLARATION.match(text), []
     if declaration and declaration["version"] not in ("1.0", "1.1"):
         message = f"there is no XML version {declaration['version']!r}; the file is read as 1.0"
-        warnings.append(_warning("xml-version", message, 'write version="1.0"'))
+        warnings.append(diagnostic("xml-version", message, 1))
     if not declaration:
         declaration = _FAULTY_DECLARATION.match(text)
         is_faulty = declaration is not None
     if is_faulty:
         message = "the XML declaration has a fault; the file is read as XML 1.0 in UTF-8"
-        hint = 'begin the file with <?xml version="1.0" encoding="UTF-8"?>'
-        warnings.append(_warning("xml-declaration", message, hint))
+        warnings.append(diagnostic("xml-declaration", message, 1))
     if declaration:
         text = re.sub(r"[^\n]", " ", declaration[0]) + text[declaration.end() :]
     return text, warnings
@@ -198,18 +186,9 @@ def _to_text(content: bytes, encoding: str) -> str:
     except UnicodeDecodeError as error:
         before = content[: error.start].decode(encoding, errors="replace")
         name = encoding.removesuffix("-sig").upper()
-        raise ParseError(
-            "file-encoding",
-            f"byte 0x{content[error.start]:02x} is not {name}: the file is cut off or has another encoding",
-            "save the file as UTF-8, or name its encoding in the XML declaration",
-            before.count("\n") + 1,
-            len(before) - before.rfind("\n"),
-        ) from None
+        message = f"byte 0x{content[error.start]:02x} is not {name}: the file is cut off or has another encoding"
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        raise ParseError("file-encoding", message, line, column) from None
     except (LookupError, UnicodeError):
-        hint = "save the file as UTF-8 and declare that"
-        raise ParseError("file-encoding", f"the declared encoding {encoding!r} can't be read", hint) from None
+        raise ParseError("file-encoding", f"the declared encoding {encoding!r} can't be read") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _warning(code: str, message: str, hint: str, line: int = 1) -> Diagnostic:
-    return Diagnostic(Severity.WARNING, code, message, line=line, hint=hint)

@@ -10,15 +10,13 @@ of the driven axes, so that the efforts of these are Bᵀ·tau.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
-import msgspec
 import numpy as np
 
-from urdfsync.urdf.physics import free_joints, motion
-from urdfsync.urdf.physics.free_joints import Array, FreeJointState, Start
-from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reading import PinocchioRobot, pinocchio
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.motion import Course, Planar, Start
+from urdfsync.urdf.physics.reading import Array, PinocchioRobot, pinocchio
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
@@ -28,20 +26,8 @@ _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPr
 _SINGULAR = 1e-12  # ratio of the least to the greatest eigenvalue of an inertia
 
 
-class FrameMotion(msgspec.Struct, frozen=True):
-    """A link's frame as it moves in the world."""
-
-    place: Array
-    axes: Array
-    """The axes of the frame as columns."""
-    velocity: Array
-    """Resolved in the world."""
-    turning: Array
-    """Angular velocity, resolved in the link's frame."""
-
-
-class Configuration(msgspec.Struct, frozen=True):
-    """Pinocchio's configuration, velocity and acceleration; those of free joints may be unknown yet."""
+class Configuration(NamedTuple):
+    """Pinocchio's configuration, velocity and acceleration; the accelerations of free joints are 0."""
 
     q: Array
     v: Array
@@ -56,7 +42,7 @@ class Reference:
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], free: Sequence[str]) -> None:
         self.pin = pinocchio()
-        self.model, self._split_joints = robot.model, robot.split_joints
+        self.model, self._planar_parts = robot.model, robot.planar_parts
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes, self.free = tuple(axes), tuple(free)
         self.projection, self._offset = self._mimic(robot)
@@ -69,60 +55,51 @@ class Reference:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
-    def start(self, name: str, start: Start) -> FreeJointState:
-        """The state of a free joint from its start values."""
-        return free_joints.start_state(self.pin, start, self._split_axes(name))
-
-    def state(
-        self, time: float, courses: Sequence[Course], free: Mapping[str, FreeJointState | FrameMotion]
-    ) -> Configuration:
-        """Where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0."""
+    def state(self, time: float, courses: Sequence[Course], starts: Mapping[str, Start]) -> Configuration:
+        """Return where the robot is, `courses` being those of the axes from time 0; free joints are as they begin."""
         p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         positions = self.projection @ p + self._offset
         state = Configuration(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
         for joint in self.model.joints[2:]:
             if joint.nv == 1:
-                position = positions[joint.idx_v]
-                turns = joint.nq == 2  # continuous: cosine and sine
-                state.q[_slice(joint)] = (np.cos(position), np.sin(position)) if turns else position
+                state.q[_slice(joint)] = _angle(joint, positions[joint.idx_v])
         _place_base(self.pin, state, time)
-        for name in self.free:
-            known = free[name]
-            self._place(state, name, known if isinstance(known, FreeJointState) else self._relative(state, name, known))
+        for name, start in starts.items():
+            self._place_free(state, name, start)
         return state
 
     def solve(self, state: Configuration) -> Instant:
-        """Efforts of base and axes, and accelerations of free joints."""
+        """Return efforts of base and axes, and accelerations of free joints."""
         data, a = self.model.createData(), state.a.copy()
-        load = self._load(data, state.q, state.v, a)
+        load = self._load(data, state, a)
         if self.loose.size:
-            a[self.loose] = np.linalg.solve(self.free_inertia(state), -load[self.loose])
-            load = self._load(data, state.q, state.v, a)
+            a[self.loose] = np.linalg.solve(self._free_inertia(state), -load[self.loose])
+            load = self._load(data, state, a)
         self.pin.forwardKinematics(self.model, data, state.q, state.v, a)
         self.pin.updateFramePlacements(self.model, data)
         return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
 
     def losses(self, v: Array) -> Array:
-        """Efforts of damping and dry friction at velocity v."""
+        """Return the efforts of damping and dry friction at velocity v."""
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
     def is_singular(self, state: Configuration) -> bool:
-        """Whether free joints carry so little inertia that their accelerations have no solution."""
-        values = np.linalg.eigvalsh(self.free_inertia(state))
+        """Return whether free joints carry so little inertia that their accelerations have no solution."""
+        values = np.linalg.eigvalsh(self._free_inertia(state))
         return bool(values.size and values[0] <= _SINGULAR * values[-1])
 
-    def free_inertia(self, state: Configuration) -> Array:
-        """The part of the inertia matrix H that belongs to the free joints."""
+    def _free_inertia(self, state: Configuration) -> Array:
+        """Return the part of the inertia matrix H that belongs to the free joints."""
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
         inertia = upper + np.triu(upper, 1).T
         return np.asarray(inertia[np.ix_(self.loose, self.loose)])
 
-    def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
-        """Efforts in all joints, losses included."""
-        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + self.losses(v))
+    def _load(self, data: Any, state: Configuration, a: Array) -> Array:
+        """Return the efforts in all joints, losses included."""
+        return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.losses(state.v))
 
     def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
-        """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
+        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
         columns = {name: k for k, name in enumerate(self.axes)}
         scalar = set(self.model.names) - set(self.free)
         projection, offset = np.zeros((self.model.nv, len(columns))), np.zeros(self.model.nv)
@@ -137,32 +114,22 @@ class Reference:
         return projection, offset
 
     def _parts(self, name: str) -> list[Any]:
-        """Those of Pinocchio's joints that stand for a joint of the robot."""
-        names = self._split_joints[name].parts if name in self._split_joints else (name,)
-        return [self.model.joints[self.model.getJointId(part)] for part in names]
+        """Return those of Pinocchio's joints that stand for a joint of the robot."""
+        return [self.model.joints[self.model.getJointId(part)] for part in self._planar_parts.get(name, (name,))]
 
-    def _split_axes(self, name: str) -> Array:
-        return self._split_joints[name].axes if name in self._split_joints else free_joints.NOT_SPLIT
-
-    def _relative(self, state: Configuration, name: str, frame: FrameMotion) -> FreeJointState:
-        """State of a free joint from the frame of its child; all joints before it are in place."""
-        first = self._parts(name)[0].id
-        data, parent, placement = self.model.createData(), self.model.parents[first], self.model.jointPlacements[first]
-        self.pin.forwardKinematics(self.model, data, state.q, state.v)
-        joint, moves = data.oMi[parent] * placement, placement.actInv(data.v[parent])
-        inward = joint.rotation.T
-        place, axes = inward @ (frame.place - joint.translation), inward @ frame.axes
-        velocity = inward @ frame.velocity - moves.linear - np.cross(moves.angular, place)
-        return FreeJointState(place, axes, velocity, axes @ frame.turning - moves.angular)
-
-    def _place(self, state: Configuration, name: str, at: FreeJointState) -> None:
-        """Put a free joint into the configuration and velocity."""
-        found = free_joints.coordinates(self.pin, at, self._split_axes(name))
-        for part, (q, v) in zip(self._parts(name), found, strict=True):
-            state.q[_slice(part)], state.v[part.idx_v : part.idx_v + part.nv] = q, v
+    def _place_free(self, state: Configuration, name: str, start: Start) -> None:
+        """Put a free joint where it begins; Pinocchio resolves the velocity of a floating one in the child's frame."""
+        parts = self._parts(name)
+        if isinstance(start, Planar):
+            for part, q, v in zip(parts, (*start.s, start.phi), (*start.v, start.w), strict=True):
+                state.q[_slice(part)], state.v[part.idx_v] = _angle(part, q), v
+        else:
+            axes = self.pin.rpy.rpyToMatrix(*start.rpy)
+            state.q[_slice(parts[0])] = np.concatenate([start.r, self.pin.Quaternion(axes).coeffs()])
+            state.v[parts[0].idx_v :][:6] = np.concatenate([axes.T @ start.v, axes.T @ start.w])
 
 
-class Instant(msgspec.Struct, frozen=True):
+class Instant(NamedTuple):
     """What the reference says of a robot at one instant."""
 
     reference: Reference
@@ -174,35 +141,28 @@ class Instant(msgspec.Struct, frozen=True):
     efforts: Array
     """Of the driven axes."""
 
-    def frame(self, link: str) -> FrameMotion:
-        """How the frame of a link moves."""
-        pin, number = self.reference.pin, self._number(link)
-        place = self.data.oMf[number]
-        velocity = self._velocity(number, pin.LOCAL_WORLD_ALIGNED).linear
-        turning = self._velocity(number, pin.LOCAL).angular
-        return FrameMotion(np.array(place.translation), np.array(place.rotation), velocity, turning)
+    def frame(self, link: str) -> tuple[Array, Array]:
+        """Return place and axes of a link's frame in the world, the axes as columns."""
+        place = self.data.oMf[self._number(link)]
+        return np.array(place.translation), np.array(place.rotation)
 
     def acceleration(self, link: str) -> tuple[Array, Array]:
-        """Of a link's frame: the linear one resolved in the world, the angular one in the frame."""
+        """Return that of a link's frame: the linear one resolved in the world, the angular one in the frame."""
         pin, number = self.reference.pin, self._number(link)
-        values = [
+        world, local = (
             pin.getFrameClassicalAcceleration(self.reference.model, self.data, number, resolved)
             for resolved in (pin.LOCAL_WORLD_ALIGNED, pin.LOCAL)
-        ]
-        return values[0].linear, values[1].angular
+        )
+        return world.linear, local.angular
 
-    def mass_and_centre(self) -> tuple[float, Array]:
-        """Mass of the whole robot and its centre in the world; zero without any mass."""
+    def mass_and_moment(self) -> tuple[float, Array]:
+        """Return mass of the whole robot, and the sum of mass times place in the world."""
         bodies = list(zip(self.reference.model.inertias, self.data.oMi, strict=True))
-        mass = sum(inertia.mass for inertia, _ in bodies)
         moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
-        return mass, moment / mass if mass else moment
+        return sum(inertia.mass for inertia, _ in bodies), moment
 
     def _number(self, link: str) -> int:
         return int(self.reference.model.getFrameId(link, self.reference.pin.BODY))
-
-    def _velocity(self, number: int, resolved: Any) -> Any:
-        return self.reference.pin.getFrameVelocity(self.reference.model, self.data, number, resolved)
 
 
 def _place_base(pin: Any, state: Configuration, time: float) -> None:
@@ -216,6 +176,11 @@ def _place_base(pin: Any, state: Configuration, time: float) -> None:
     state.a[:6] = np.concatenate([inward @ acceleration - np.cross(speed * axis, inward @ velocity), gain * axis])
 
 
+def _angle(joint: Any, position: float) -> float | tuple[float, float]:
+    """Return the position of an axis as Pinocchio has it: cosine and sine for a continuous joint."""
+    return (np.cos(position), np.sin(position)) if joint.nq == 2 else position
+
+
 def _slice(joint: Any) -> slice:
-    """Where a joint is in Pinocchio's configuration."""
+    """Return where a joint is in Pinocchio's configuration."""
     return slice(joint.idx_q, joint.idx_q + joint.nq)
