@@ -169,9 +169,6 @@ class Daemons:
             self.events.append(event)
             self._news.notify_all()
 
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Nothing."""
-
     def rest(self) -> None:
         """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""
         end = time.monotonic() + LIMIT

@@ -115,11 +115,10 @@ class Daemon:
         if diagnostics:
             self._listener.show(events.Noted(diagnostics))
 
-    def _progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the build under way, which is a place at which it can be given up."""
+    def _progress(self, _what: str, _done: int, _total: int) -> None:
+        """Give up the build under way, which has come to a place for that."""
         if self._stop_signal:
             raise KeyboardInterrupt
-        self._listener.progress(what, done, total)
 
     # The configuration
 

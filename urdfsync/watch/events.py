@@ -134,7 +134,3 @@ class Listener(Protocol):
     def show(self, event: Event) -> None:
         """Show an event; the daemon waits meanwhile."""
         ...
-
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the build under way; may be called often."""
-        ...

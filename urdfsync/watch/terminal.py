@@ -9,12 +9,10 @@ from __future__ import annotations
 import contextlib
 import os
 import select
-import signal
 import sys
 import threading
 from collections.abc import Sequence
-from types import FrameType
-from typing import IO, Any
+from typing import IO
 
 from rich.console import Group
 from rich.constrain import Constrain
@@ -45,8 +43,6 @@ class StatusArea:
         self._capture = StderrCapture(self)
         self._live: Live | None = None
         """Not there while the status is empty, or the terminal is a shell's."""
-        self._stop_handler: Any = None
-        """Handler of SIGTSTP before `start`."""
 
     @property
     def room(self) -> int:
@@ -55,18 +51,13 @@ class StatusArea:
         return max(min(4, height - 1), height // 3)
 
     def start(self) -> None:
-        """Capture the error stream, and handle Ctrl-Z: a shell that writes meanwhile must find no status."""
+        """Capture the error stream."""
         self._capture.start()
-        if hasattr(signal, "SIGTSTP") and threading.current_thread() is threading.main_thread():
-            self._stop_handler = signal.signal(signal.SIGTSTP, self._suspend)
 
     def close(self) -> None:
         """Take the status away for good."""
         self._capture.close()
         self.write((), ())
-        if self._stop_handler is not None:
-            signal.signal(signal.SIGTSTP, self._stop_handler)
-            self._stop_handler = None
 
     def write(self, lines: Sequence[Text], status: Sequence[Text] | None = None) -> None:
         """Write lines; the terminal breaks those that are too long. `status` is what stands below from now on."""
@@ -93,13 +84,6 @@ class StatusArea:
                 self.console.show_cursor()  # a daemon that is killed must not leave a terminal without one
             if self._live is not None:
                 self._live.update(Constrain(Group(*self._status), _WIDEST), refresh=True)
-
-    def _suspend(self, _number: int, _frame: FrameType | None) -> None:
-        """Take the status away before the process is stopped, and write it anew when it is continued."""
-        status = self._status
-        self.write((), ())
-        os.kill(os.getpid(), signal.SIGSTOP)
-        self.write((), status)
 
     def _is_foreground(self) -> bool:
         """Whether the terminal is the program's: a shell that has put it into the background writes there, too."""
