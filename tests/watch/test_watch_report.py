@@ -171,6 +171,11 @@ def test_the_terminal_is_left_in_order_whatever_happens(terminal: Terminal) -> N
     assert screen.rows[-1] == ""
 
 
+def test_a_command_has_the_terminal_for_itself(look: Look) -> None:
+    assert look(built("arm"), events.Running("arm"))[1:] == []
+    assert look(built("arm"), events.Running("arm"), events.Ran("arm", 0), robots=("arm",))[-1] == "✓ arm  in step"
+
+
 def test_stopping_takes_the_status_away(look: Look) -> None:
     assert look(built("arm"), events.Stopping("SIGINT"))[1:] == ["14:03:12  stopped by SIGINT"]
 

@@ -114,6 +114,10 @@ class Resumed(Event, frozen=True):
     """Robots are built again."""
 
 
+class Running(RobotEvent, frozen=True):
+    """The command of `--exec` begins after a build of the robot."""
+
+
 class Ran(RobotEvent, frozen=True):
     """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` follows."""
 

@@ -24,15 +24,13 @@ from urdfsync.state.store import State, Store
 
 _MAX_STEPS = 1000
 """Folders and links on the way to a file: links may lead in a circle."""
-CONFIG = ""
-"""Stands for the configuration where a robot's name is expected."""
 
 
 class RobotPaths(msgspec.Struct, frozen=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
     inputs: frozenset[str]
-    """Source and dependencies, wherever they may be found, as the configuration and the source name them."""
+    """Configuration, source and dependencies, wherever these may be found, as configuration and source name them."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
     built_hash: str = ""
@@ -44,7 +42,8 @@ class RobotPaths(msgspec.Struct, frozen=True):
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root, shown), None
-    outputs, inputs = {*parents.files(robot), *map(str, store.paths(robot.name))}, {str(robot.source)}
+    inputs = {str(config.file), str(robot.source)}
+    outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
         state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
@@ -84,7 +83,7 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Folders to watch with all folders below; if it names robots, every file there matters to these."""
 
     def robots_for(self, path: str) -> set[str]:
-        """Return the robots to which a change of a path matters, and `CONFIG` for the configuration."""
+        """Return the robots to which a change of a path matters."""
         found = set(self.by_path.get(path, ()))
         for tree, robots in self.trees.items():
             if robots and path.startswith(f"{tree}{os.sep}"):
@@ -93,7 +92,7 @@ class WatchedPaths(msgspec.Struct, frozen=True):
 
 
 def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> WatchedPaths:
-    """Return where to look for changes of the configuration and of robots; `paths` are by the names of these.
+    """Return where to look for changes; `paths` are by the names of robots.
 
     Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
     """
@@ -109,7 +108,6 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
                 by_path.setdefault(place, set()).add(name)
         return way[-1] if way else path
 
-    add(str(config.file), CONFIG)
     for robot in config.robots:
         if robot.name in paths:
             outputs = paths[robot.name].outputs

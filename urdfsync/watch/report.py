@@ -60,10 +60,10 @@ class TextReport:
         self._log = EventLog(console, screen)
         has_status = not console.quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
         self._area = StatusArea(sys.stdout) if has_status else None
+        self._commands: set[str] = set()
+        """Robots for which a command of `--exec` runs."""
 
     def __enter__(self) -> Self:
-        if self._area:
-            self._area.start()
         return self
 
     def __exit__(
@@ -71,12 +71,17 @@ class TextReport:
     ) -> None:
         """Take the status away; what scrolled stays."""
         if self._area:
-            self._area.close()
+            self._area.write((), ())
 
     def show(self, event: events.Event) -> None:
         """Show an event."""
         clock = now().strftime("%H:%M:%S")
         self._table.take(event, clock)
+        match event:
+            case events.Running(robot):
+                self._commands.add(robot)
+            case events.Ran(robot):
+                self._commands.discard(robot)
         lines = list(self._log.lines(event, clock))
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
@@ -85,5 +90,7 @@ class TextReport:
         if self._area is None:
             write_lines(texts, sys.stdout)
         else:
-            rows = self._table.lines(self._area.room, marks=has_marks(sys.stdout))
-            self._area.write(texts, () if isinstance(event, events.Stopping) else list(rows))
+            # a command knows nothing of the status, and would write into it
+            is_shown = not (self._commands or isinstance(event, events.Stopping))
+            rows = self._table.lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
+            self._area.write(texts, list(rows))

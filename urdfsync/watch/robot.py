@@ -28,12 +28,12 @@ def read_state(path: str, known: FileState | None = None, *, follow: bool = True
     """
     try:
         status = os.stat(path, follow_symlinks=follow)  # noqa: PTH116 - many, and often
-        if not stat.S_ISREG(status.st_mode):
-            word = "folder" if stat.S_ISDIR(status.st_mode) else "other"
-            return FileState(NO_STAT, word, word)
         facts = stat_of(status)
         if known is not None and known.stat == facts:
             return known
+        if not stat.S_ISREG(status.st_mode):
+            word = "folder" if stat.S_ISDIR(status.st_mode) else "other"
+            return FileState(NO_STAT, word, word)
         content = read_unrecorded(path)
     except OSError as error:
         word = "missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}"
