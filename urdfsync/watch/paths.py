@@ -76,19 +76,16 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Where changes of the paths of all robots show; without symbolic links, as events have none."""
 
     by_path: Mapping[str, set[str]] = {}
-    """Robots by each of their files, and by each folder and link on the way there."""
+    """Robots by each of their files outside of `trees`, and by each folder and link on the way there."""
     folders: frozenset[str] = frozenset()
     """Folders to watch, without those below."""
     trees: Mapping[str, set[str]] = {}
-    """Folders to watch with all folders below; if it names robots, every file there matters to these."""
+    """Folders to watch with all folders below, and the robots to which every file there matters."""
 
     def robots_for(self, path: str) -> set[str]:
         """Return the robots to which a change of a path matters."""
         found = set(self.by_path.get(path, ()))
-        for tree, robots in self.trees.items():
-            if robots and path.startswith(f"{tree}{os.sep}"):
-                found |= robots
-        return found
+        return found.union(*(robots for tree, robots in self.trees.items() if path.startswith(f"{tree}{os.sep}")))
 
 
 def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> WatchedPaths:
@@ -96,31 +93,20 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
 
     Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
     """
-    root = _real(str(config.root))
+    root = _way_to(str(config.root))[-1]
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
     trees: dict[str, set[str]] = {}
-
-    def add(path: str, name: str) -> str:
-        way = _way_to(path)
-        for place in way:
-            if place not in above:
-                by_path.setdefault(place, set()).add(name)
-        return way[-1] if way else path
-
-    for robot in config.robots:
-        if robot.name in paths:
-            outputs = paths[robot.name].outputs
-            for path in paths[robot.name].inputs:
-                add(path, robot.name)
-            folders = {folder: add(folder, robot.name) for folder in {os.path.dirname(path) for path in outputs}}  # noqa: PTH120
-            for path in outputs:  # thousands, and no links: a build refuses those
-                folder, _, file = path.rpartition(os.sep)
-                by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(robot.name)
-            trees.setdefault(add(str(robot.folder), robot.name), set())
-            if robot.templates:
-                trees.setdefault(add(str(robot.templates), robot.name), set()).add(robot.name)
-    trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
+    for robot in (robot for robot in config.robots if robot.name in paths):
+        own, package = paths[robot.name], os.path.join(str(robot.folder), "")  # noqa: PTH118
+        # a package has thousands of files, and a domain's templates some
+        folders = [str(robot.folder), *([str(robot.templates)] if robot.templates else [])]
+        for path in (*own.inputs, *(path for path in own.outputs if not path.startswith(package)), *folders):
+            *way, place = _way_to(path)
+            for step in {*way, place} - above:
+                by_path.setdefault(step, set()).add(robot.name)
+            if path in folders and os.path.isdir(place):  # noqa: PTH112
+                trees.setdefault(place, set()).add(robot.name)
     inside = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)
     watched: set[str] = set()
@@ -134,21 +120,15 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
     return WatchedPaths(by_path, frozenset(watched), trees)
 
 
-def _real(path: str) -> str:
-    way = _way_to(path)
-    return way[-1] if way else path
-
-
 def _way_to(path: str) -> list[str]:
     """Return each folder and link on the way to a path, with the targets of links; at last the path without links."""
-    way: list[str] = []
-    parts = [*reversed(Path(path).parts)]
-    place = parts.pop()
+    *parts, place = reversed(Path(path).parts)
+    way = [place]
     while parts and len(way) < _MAX_STEPS:
         folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
         way.append(place)
         with contextlib.suppress(OSError):  # no link, or nothing at all
             target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
-            parts += reversed(Path(target).parts)
-            place = parts.pop()
+            *more, place = reversed(Path(target).parts)
+            parts += more
     return way
