@@ -19,7 +19,7 @@ from typing import IO, Any, Self
 from urdfsync.engine.options import BuildOptions
 from urdfsync.watch import events
 from urdfsync.watch.daemon import Daemon, WatchOptions
-from urdfsync.watch.debounce import Times
+from urdfsync.watch.robot import Times
 
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0

@@ -26,11 +26,10 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
-from urdfsync.watch.debounce import Debouncer, Times
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import WatchedRobot, read_state
+from urdfsync.watch.robot import Debouncer, Times, WatchedRobot, read_state
 from urdfsync.watch.single_instance import InstanceLock
 
 _PAUSE = 0.25
