@@ -76,11 +76,11 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Where changes of the paths of all robots show; without symbolic links, as events have none."""
 
     by_path: Mapping[str, set[str]] = {}
-    """Robots by each of their files outside of `trees`, and by each folder and link on the way there."""
+    """Robots by each of their files, and by each folder and link on the way there."""
     folders: frozenset[str] = frozenset()
     """Folders to watch, without those below."""
     trees: Mapping[str, set[str]] = {}
-    """Folders to watch with all folders below, and the robots to which every file there matters."""
+    """Folders to watch with all folders below; if it names robots, every file there matters to these."""
 
     def robots_for(self, path: str) -> set[str]:
         """Return the robots to which a change of a path matters."""
@@ -97,22 +97,33 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
     trees: dict[str, set[str]] = {}
+
+    def add(path: str, name: str) -> str:
+        """Note who wants to know of a path, and of what is on the way there. Returns the path without links."""
+        way = _way_to(path)
+        for place in way:
+            if place not in above:
+                by_path.setdefault(place, set()).add(name)
+        return way[-1]
+
     for robot in (robot for robot in config.robots if robot.name in paths):
-        own, package = paths[robot.name], os.path.join(str(robot.folder), "")  # noqa: PTH118
-        # a package has thousands of files, and a domain's templates some
-        folders = [str(robot.folder), *([str(robot.templates)] if robot.templates else [])]
-        for path in (*own.inputs, *(path for path in own.outputs if not path.startswith(package)), *folders):
-            *way, place = _way_to(path)
-            for step in {*way, place} - above:
-                by_path.setdefault(step, set()).add(robot.name)
-            if path in folders and os.path.isdir(place):  # noqa: PTH112
-                trees.setdefault(place, set()).add(robot.name)
-    inside = tuple(f"{tree}{os.sep}" for tree in trees)
+        name, own = robot.name, paths[robot.name]
+        for path in own.inputs:
+            add(path, name)
+        folders = {folder: add(folder, name) for folder in {os.path.dirname(path) for path in own.outputs}}  # noqa: PTH120
+        for path in own.outputs:  # thousands, and no links: a build refuses those
+            folder, _, file = path.rpartition(os.sep)
+            by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
+        trees.setdefault(add(str(robot.folder), name), set())
+        if robot.templates:
+            trees.setdefault(add(str(robot.templates), name), set()).add(name)
+    trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
+    in_trees = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)
     watched: set[str] = set()
     for path in by_path:
         folder = os.path.dirname(path)  # noqa: PTH120
-        if folder in watched or f"{folder}{os.sep}".startswith(inside) or os.path.dirname(folder) == folder:  # noqa: PTH120
+        if folder in watched or f"{folder}{os.sep}".startswith(in_trees) or os.path.dirname(folder) == folder:  # noqa: PTH120
             continue
         # a file that does not exist is not waited for in the folders above the configuration's
         if os.path.exists(path) if folder in above else os.path.isdir(folder):  # noqa: PTH110, PTH112
