@@ -188,6 +188,7 @@ def test_the_other_events_look_as_shown() -> None:
         events.Failed(failed),
         events.Checking("arm"),
         events.CheckDone("arm", Checked.WRONG, 2.464, (mistake,)),
+        events.Running("arm"),
         events.Ran("arm", 2),
         events.Noted((warning,)),
         events.Recovered("all folders are watched again"),

@@ -19,7 +19,7 @@ from typing import IO, Any, Self
 from urdfsync.engine.options import BuildOptions
 from urdfsync.watch import events
 from urdfsync.watch.daemon import Daemon, WatchOptions
-from urdfsync.watch.debounce import Times
+from urdfsync.watch.robot import Times
 
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
@@ -168,9 +168,6 @@ class Daemons:
         with self._news:
             self.events.append(event)
             self._news.notify_all()
-
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Nothing."""
 
     def rest(self) -> None:
         """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""

@@ -29,7 +29,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, observer, precommit
 from urdfsync.watch.daemon import Daemon
-from urdfsync.watch.debounce import Times
+from urdfsync.watch.robot import Times
 
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["Settling", "Building", "Built"]

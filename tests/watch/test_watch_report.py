@@ -171,21 +171,13 @@ def test_the_terminal_is_left_in_order_whatever_happens(terminal: Terminal) -> N
     assert screen.rows[-1] == ""
 
 
+def test_a_command_has_the_terminal_for_itself(look: Look) -> None:
+    assert look(built("arm"), events.Running("arm"))[1:] == []
+    assert look(built("arm"), events.Running("arm"), events.Ran("arm", 0), robots=("arm",))[-1] == "✓ arm  in step"
+
+
 def test_stopping_takes_the_status_away(look: Look) -> None:
     assert look(built("arm"), events.Stopping("SIGINT"))[1:] == ["14:03:12  stopped by SIGINT"]
-
-
-def test_a_long_build_shows_its_progress_now_and_then(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
-    moments = iter([100.0, 100.4, 100.6, 100.7, 100.9])
-    screen = terminal()
-    people = TextReport(Console())
-    monkeypatch.setattr("urdfsync.watch.report.time.monotonic", lambda: next(moments))
-    tell(people, events.Building("arm"))
-    rows = []
-    for done in range(4):
-        people.progress("reading", done, 4)
-        rows.append(screen.shown()[-1])
-    assert rows == ["… arm  building", *2 * ["… arm  building: reading 1 of 4"], "… arm  building: reading 3 of 4"]
 
 
 def test_colours_obey_no_color(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -202,7 +194,6 @@ def test_colours_obey_no_color(terminal: Terminal, monkeypatch: pytest.MonkeyPat
 def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFixture[str]) -> None:
     with TextReport(Console()) as people:
         tell(people, built("arm", Kind.UPDATE), FAILED)
-        people.progress("reading", 1, 2)
     streams = capsys.readouterr()
     assert [line[8:] for line in streams.out.splitlines()] == [
         "  watching 1 robot of urdfsync.toml",

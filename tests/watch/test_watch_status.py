@@ -96,16 +96,6 @@ def test_what_a_check_found_yields_to_what_is_worse() -> None:
     assert words(WRONG, FAILED) == "error: arm.urdf:12: this is no XML"
 
 
-def test_progress_is_that_of_the_build_under_way() -> None:
-    found = board(events.Building("arm"), events.Settling("cart"), robots=("arm", "cart"))
-    found.progress("arm", 0, 1)
-    assert [status.text for status in found.rows.values()] == ["building", "settling"]
-    found.progress("reading", 3, 12)
-    assert [status.text for status in found.rows.values()] == ["building: reading 3 of 12", "settling"]
-    found.progress("waiting for another build", 0, 1)
-    assert found.rows["arm"].text == "building: waiting for another build"
-
-
 def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
     found = board(BUILT, WRONG, events.Settling("cart"), started("crane", "arm"), robots=("arm", "cart"))
     assert [(robot, status.text) for robot, status in found.rows.items()] == [

@@ -75,7 +75,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 def _options(args: argparse.Namespace, console: Console) -> WatchOptions:
     from urdfsync.watch.daemon import WatchOptions
-    from urdfsync.watch.debounce import Times
+    from urdfsync.watch.robot import Times
 
     return WatchOptions(
         file=args.config or config.find(config.working_folder()),

@@ -29,11 +29,10 @@ from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import Tree, digest, templates_digest, text_digest
+from urdfsync.files import templates_digest
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
 from urdfsync.state.modelfile import ConversionFacts
-from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
@@ -241,7 +240,7 @@ def _with_version(
             place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
             actions.append(Action(place, kind, known_file[0], known_file[1]))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
-    edited = _find_edited(result, own, robot) if own else frozenset()
+    edited = _find_edited(own, robot, options) if own else frozenset()
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
@@ -293,13 +292,7 @@ def _read(
     return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
 
 
-def _find_edited(result: Result, config: Config, robot: RobotConfig) -> frozenset[str]:
-    """Return the files among the actions that are others on disk than the last build wrote."""
-    state, tree, edited = Store(config.root, shown).load(robot.name), Tree(robot.output, shown), set()
-    for action in result.actions:
-        record = state.manifest.files.get(action.path) if state else None
-        mine = tree.read(Path(os.path.normpath(config.root / action.path))) if record and record.base else None
-        if record and mine is not None:
-            is_same = (digest if record.role is Role.IMPORT else text_digest)(mine) == record.base
-            edited |= set() if is_same else {action.path}
-    return frozenset(edited)
+def _find_edited(config: Config, robot: RobotConfig, options: BuildOptions) -> frozenset[str]:
+    """Return the files that are others on disk than the last build wrote."""
+    (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
+    return frozenset(action.path for action in result.actions.decided if action.kind in {*_MINE, Kind.KEEP})

@@ -12,7 +12,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
@@ -26,11 +26,10 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
-from urdfsync.watch.debounce import Debouncer, Times
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
-from urdfsync.watch.paths import CONFIG, WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import WatchedRobot, read_state
+from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
+from urdfsync.watch.robot import Debouncer, Times, WatchedRobot, read_state
 from urdfsync.watch.single_instance import InstanceLock
 
 _PAUSE = 0.25
@@ -70,10 +69,7 @@ class Daemon:
         self._checks = CheckQueue(self._queue, options.build)
         self._commands = CommandRunner(self._queue, options.command, options.file.absolute().parent)
         self._config: Config
-        self._config_file = str(options.file.absolute())
-        self._config_hash = read_state(self._config_file).sha256
-        self._config_debouncer = Debouncer(options.times)
-        self._config_errors: tuple[Diagnostic, ...] = ()
+        self._config_hash = self._hash_config()
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
@@ -104,7 +100,6 @@ class Daemon:
                         self._rescan()
                     elif self._is_polling and time.monotonic() >= self._next_poll:
                         self._poll()
-                    self._settle_config()
                     self._build_settled()
         except KeyboardInterrupt:
             if not self._stop_signal:
@@ -115,18 +110,17 @@ class Daemon:
         if diagnostics:
             self._listener.show(events.Noted(diagnostics))
 
-    def _progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the build under way, which is a place at which it can be given up."""
+    def _progress(self, _what: str, _done: int, _total: int) -> None:
+        """Give up the build under way, which has come to a place for that."""
         if self._stop_signal:
             raise KeyboardInterrupt
-        self._listener.progress(what, done, total)
 
     # The configuration
 
     def _use(self, loaded: Config, again: bool = False) -> None:
         """Put a configuration in force, and build all. Raises ConfigError for robots that it lacks."""
         robots = loaded.select(self._options.robots)
-        self._config, self._config_errors = loaded, ()
+        self._config = loaded
         self._checks.use(loaded)
         before, self._robots = self._robots, {}
         for robot in robots:  # of those that were watched before, the last results are still known
@@ -140,28 +134,20 @@ class Daemon:
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
 
-    def _look_at_config(self) -> None:
-        if self._config_debouncer.is_idle and read_state(self._config_file).sha256 != self._config_hash:
-            self._config_debouncer.touch(time.monotonic())
+    def _hash_config(self) -> str:
+        return read_state(str(self._options.file.absolute())).sha256
 
-    def _settle_config(self) -> None:
-        """Read the configuration again once it has settled; while it is invalid, the last valid one stays in force."""
-        debouncer, now = self._config_debouncer, time.monotonic()
-        if not debouncer.is_due(now):
-            return
-        found = read_state(self._config_file).sha256
-        if not debouncer.add_sample(found, now):
-            return
-        debouncer.rest()
-        if found == self._config_hash:
-            return
-        self._config_hash = found
+    def _reload_config(self) -> bool:
+        """Read the configuration again if it has changed; while it is invalid, the last valid one stays in force."""
+        before, self._config_hash = self._config_hash, self._hash_config()
+        if before == self._config_hash:
+            return False
         try:
             self._use(config.load(self._options.file), again=True)
         except ConfigError as error:
-            if error.diagnostics != self._config_errors:
-                self._config_errors = error.diagnostics
-                self._note(error.diagnostics)
+            self._note(error.diagnostics)
+            return False
+        return True
 
     # Events
 
@@ -175,22 +161,20 @@ class Daemon:
                     case str():
                         paths.add(message)
                     case CommandEnded():
-                        self._listener.show(events.Ran(message.robot, message.code))
-                        self._note(self._commands.finish(message))
+                        self._show_all(self._commands.finish(message))
                     case CheckEnded():
                         self._show_all(self._checks.finish(message))
                 message = self._queue.get_nowait()
         if paths:
             self._receive_paths(paths)
 
-    def _show_all(self, found: Sequence[events.Event]) -> None:
+    def _show_all(self, found: Iterable[events.Event]) -> None:
         for event in found:
             self._listener.show(event)
 
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
-        debouncers = [self._config_debouncer, *(watched.debouncer for watched in self._robots.values())]
-        due = [debouncer.due for debouncer in debouncers if debouncer.due is not None]
+        due = [watched.debouncer.due for watched in self._robots.values() if watched.debouncer.due is not None]
         if not due and not self._is_warm:
             return 0.0
         due.append(self._next_rescan)
@@ -204,8 +188,6 @@ class Daemon:
         for path in paths:
             for name in self._watched.robots_for(path):
                 by_robot.setdefault(name, set()).add(path)
-        if CONFIG in by_robot:
-            self._look_at_config()
         affected = [watched for name, watched in self._robots.items() if name in by_robot]
         known = (path in one.files or path in one.paths.outputs for one in affected for path in by_robot[one.name])
         if not all(known):
@@ -244,7 +226,6 @@ class Daemon:
         now = time.monotonic()
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         self._watch_folders()
-        self._look_at_config()
         idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
         self._touch([watched for watched in idle if watched.has_changed()])
         for watched in idle:
@@ -254,7 +235,6 @@ class Daemon:
     def _poll(self) -> None:
         """Look at the inputs of all robots."""
         self._next_poll = time.monotonic() + _POLL
-        self._look_at_config()
         idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
         self._touch([watched for watched in idle if watched.has_changed(watched.files.keys() - watched.paths.outputs)])
 
@@ -276,7 +256,11 @@ class Daemon:
         now, robots = time.monotonic(), self._robots.values()
         if self._is_paused:
             self._update_pause()
-        ready = [watched for watched in robots if watched.debouncer.is_due(now) and self._has_settled(watched, now)]
+        due = [watched for watched in robots if watched.debouncer.is_due(now)]
+        settled = [watched for watched in due if watched.debouncer.add_sample(watched.read_files(), now)]
+        if settled and self._reload_config():
+            return
+        ready = [watched for watched in settled if self._is_ready(watched, now)]
         if ready and self._update_pause():
             for watched in ready:
                 watched.debouncer.touch(now + _PAUSE)
@@ -286,12 +270,9 @@ class Daemon:
             self._is_warm = True
             build.warm_up(self._config, [watched.robot for watched in robots])
 
-    def _has_settled(self, watched: WatchedRobot, now: float) -> bool:
-        """Take the sample of a robot that is due. Returns whether the robot is to be built now."""
-        hashes = watched.read_files()
-        if not watched.debouncer.add_sample(hashes, now):
-            return False
-        if watched.failure is None and hashes == watched.built:
+    def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
+        """Return whether a robot is to be built, of which the files have settled."""
+        if watched.failure is None and watched.hashes() == watched.built:
             if watched.is_announced:
                 self._listener.show(events.Unchanged(watched.name))
             watched.invalid_since = None
@@ -376,4 +357,4 @@ class Daemon:
             self._listener.show(events.Built(result, files, recovered))
         watched.failure, watched.is_announced, watched.left_alone = None, False, left_alone
         if files:
-            self._note(self._commands.run(watched.robot, files))
+            self._show_all(self._commands.run(watched.robot, files))

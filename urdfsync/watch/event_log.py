@@ -33,6 +33,7 @@ _PLAIN: dict[type[events.Event], str] = {
     events.Unchanged: "as before",
     events.Building: "building",
     events.Checking: "checking",
+    events.Running: "command begins",
     events.Ran: "command ended with {0.code}",
     events.Paused: "paused: {0.reason}",
     events.Resumed: "building again",
@@ -126,18 +127,12 @@ class EventLog:
         """Yield the line of a check, and its findings unless they are those of the last one."""
         wrong = event.checked is Checked.WRONG
         keys = frozenset((one.code, one.message, one.file) for one in event.diagnostics)
-        before = self._told.get((event.robot, "check"))
-        known = not self._is_new(event.robot, "check", keys if wrong else ())
-        said = check_result(event.checked, event.diagnostics)
-        took = f" ({event.seconds:.1f} s)" if event.seconds else ""
-        if self._console.quiet and (known or not wrong):
-            pass
-        elif wrong:
-            yield self._line(clock, event.robot, said + (" as before" if known else took), "bold red", error=True)
-        else:
-            yield self._line(clock, event.robot, f"{said}{' again' if before else ''}{took}")
-        if self._console.verbose or not (wrong and known):
-            yield from self._findings(event.diagnostics)
+        is_new = self._is_new(event.robot, "check", keys)
+        if wrong or not self._console.quiet:
+            took = f" ({event.seconds:.1f} s)" if event.seconds else ""
+            said = f"{check_result(event.checked, event.diagnostics)}{took}"
+            yield self._line(clock, event.robot, said, "bold red" if wrong else "", error=wrong)
+        yield from self._findings(event.diagnostics if is_new or self._console.verbose else ())
 
     def _is_new(self, robot: str, topic: str, found: Collection[Hashable]) -> bool:
         """Return whether anything was found, and not the same in the robot's last build; remember it."""

@@ -114,6 +114,10 @@ class Resumed(Event, frozen=True):
     """Robots are built again."""
 
 
+class Running(RobotEvent, frozen=True):
+    """The command of `--exec` begins after a build of the robot."""
+
+
 class Ran(RobotEvent, frozen=True):
     """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` follows."""
 
@@ -133,8 +137,4 @@ class Listener(Protocol):
 
     def show(self, event: Event) -> None:
         """Show an event; the daemon waits meanwhile."""
-        ...
-
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the build under way; may be called often."""
         ...

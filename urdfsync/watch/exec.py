@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from queue import SimpleQueue
 
@@ -13,10 +13,13 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.watch import events
 
 _MAX_VARIABLE = 100_000
 """Bytes of an environment variable: systems limit one to 128 KiB."""
 _STDERR = 2
+_NOT_FOUND = 127
+"""Exit code of a shell for a command that can't be started."""
 
 
 class CommandEnded(msgspec.Struct, frozen=True):
@@ -27,28 +30,29 @@ class CommandEnded(msgspec.Struct, frozen=True):
 
 
 class CommandRunner:
-    """The command, and for which robots it runs and has to run again. Both methods return what went wrong."""
+    """The command, and for which robots it runs and has to run again. Both methods yield events to be shown at once."""
 
     def __init__(self, queue: SimpleQueue[object], command: str, folder: Path) -> None:
         self._queue, self._command, self._folder = queue, command, folder
         self._running: set[str] = set()
         self._waiting: dict[str, tuple[RobotConfig, tuple[Path, ...]]] = {}
 
-    def run(self, robot: RobotConfig, files: Sequence[Path]) -> tuple[Diagnostic, ...]:
+    def run(self, robot: RobotConfig, files: Sequence[Path]) -> Iterator[events.Event]:
         """Run the command for a robot of which these files changed, once the one that runs for it has ended.
 
         Several changes in that time are one more run. `CommandEnded` is put into the queue at the end.
         """
         if not self._command:
-            return ()
+            return
         if robot.name in self._running:
             _, before = self._waiting.get(robot.name, (robot, ()))
             self._waiting[robot.name] = robot, tuple(dict.fromkeys((*before, *files)))
-            return ()
+            return
         text = "\n".join(map(str, files))
         if len(os.fsencode(text)) > _MAX_VARIABLE:
             text = str(robot.folder)
         names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
+        yield events.Running(robot.name)
         try:
             process = subprocess.Popen(  # noqa: S602 - a shell command is what the user gives
                 self._command,
@@ -59,27 +63,27 @@ class CommandRunner:
                 stdout=_STDERR,  # its output would break the lines of --json
             )
         except OSError as error:
-            return (_warning(robot.name, f"can't be started: {error.strerror or error}"),)
+            yield events.Ran(robot.name, _NOT_FOUND)
+            yield _warning(robot.name, f"can't be started: {error.strerror or error}")
+            return
         self._running.add(robot.name)
         threading.Thread(target=self._wait, args=(robot.name, process), daemon=True).start()
-        return ()
 
-    def finish(self, ended: CommandEnded) -> tuple[Diagnostic, ...]:
+    def finish(self, ended: CommandEnded) -> Iterator[events.Event]:
         """Take note of the end of a command, and run it again if more files have changed."""
         robot, code = ended.robot, ended.code
         self._running.discard(robot)
-        found: tuple[Diagnostic, ...] = ()
+        yield events.Ran(robot, code)
         if code:
-            how = f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}"
-            found = (_warning(robot, how),)
-        waiting = self._waiting.pop(robot, None)
-        return found + (self.run(*waiting) if waiting else ())
+            yield _warning(robot, f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}")
+        if waiting := self._waiting.pop(robot, None):
+            yield from self.run(*waiting)
 
     def _wait(self, robot: str, process: subprocess.Popen[bytes]) -> None:
         self._queue.put(CommandEnded(robot, process.wait()))
 
 
-def _warning(robot: str, what: str) -> Diagnostic:
+def _warning(robot: str, what: str) -> events.Noted:
     message = f"robot `{robot}`: the command of --exec {what}"
     hint = "it runs again after the next build that changes something"
-    return Diagnostic(Severity.WARNING, "exec", message, hint=hint)
+    return events.Noted((Diagnostic(Severity.WARNING, "exec", message, hint=hint),))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import logging
 import os
@@ -48,7 +49,8 @@ class Observer(events.FileSystemEventHandler):
         self._queue = queue
         self._paths = WatchedPaths()
         self._backend: BaseObserver | None = None
-        self._watches: dict[tuple[str, bool], tuple[ObservedWatch, tuple[int, int]]] = {}
+        self._watches: dict[tuple[str, bool, int, int], ObservedWatch] = {}
+        """By folder, whether folders below are watched, too, and the numbers of device and file."""
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Pass on both paths of an event."""
@@ -63,57 +65,39 @@ class Observer(events.FileSystemEventHandler):
         """
         self._paths = paths
         try:
-            backend = self._start()
+            if self._backend is None:
+                backend = observers.Observer()
+                backend.start()
+                self._backend = backend
         except (OSError, RuntimeError) as error:  # threading raises RuntimeError if there are no more threads
             return (_not_watched(error, "the files", ""),)
-        folders = dict.fromkeys(paths.folders, False) | dict.fromkeys(paths.trees, True)
-        wanted = {(folder, deep): identity for folder, deep in folders.items() if (identity := _identity(folder))}
+        backend, wanted = self._backend, set()
+        for folder, deep in {**dict.fromkeys(paths.folders, False), **dict.fromkeys(paths.trees, True)}.items():
+            with contextlib.suppress(OSError):  # gone again
+                status = os.stat(folder)  # noqa: PTH116
+                wanted.add((folder, deep, status.st_dev, status.st_ino))
         alive = {emitter.watch for emitter in backend.emitters if emitter.is_alive()}
-        for key, (watch, identity) in list(self._watches.items()):
-            if wanted.get(key) != identity or watch not in alive:
-                backend.unschedule(watch)
-                del self._watches[key]
+        for key in [key for key, watch in self._watches.items() if key not in wanted or watch not in alive]:
+            backend.unschedule(self._watches.pop(key))
         found: dict[int | None, Diagnostic] = {}
-        for key in wanted.keys() - self._watches.keys():
+        for key in wanted - self._watches.keys():
+            folder, deep, *_ = key
             try:
-                self._watches[key] = self._watch(backend, *key), wanted[key]
+                if not os.access(folder, os.R_OK):  # watchdog says nothing then
+                    raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+                self._watches[key] = backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
             except (OSError, RuntimeError) as error:
                 number = getattr(error, "errno", None)
                 if number not in (errno.ENOENT, errno.ENOTDIR):  # gone again: its parent is watched
-                    name = shown(Path(key[0]))
+                    name = shown(Path(folder))
                     found.setdefault(number, _not_watched(error, f"the folder {name}", name))
         return tuple(found.values())
 
-    def _start(self) -> BaseObserver:
-        """Return the running backend. Raises OSError or RuntimeError if the system gives none."""
-        if self._backend is not None and not self._backend.is_alive():
-            self.close()
-        if self._backend is None:
-            backend = observers.Observer()
-            backend.start()
-            self._backend = backend
-        return self._backend
-
-    def _watch(self, backend: BaseObserver, folder: str, deep: bool) -> ObservedWatch:
-        if not os.access(folder, os.R_OK):  # watchdog says nothing then
-            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-        return backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
-
     def close(self) -> None:
         """Watch nothing any more."""
-        self._watches.clear()
         if self._backend is not None:
             self._backend.stop()
             self._backend.join()
-            self._backend = None
-
-
-def _identity(folder: str) -> tuple[int, int] | None:
-    try:
-        found = os.stat(folder)  # noqa: PTH116
-    except OSError:
-        return None
-    return found.st_dev, found.st_ino
 
 
 def _not_watched(error: Exception, what: str, place: str) -> Diagnostic:

@@ -24,15 +24,13 @@ from urdfsync.state.store import State, Store
 
 _MAX_STEPS = 1000
 """Folders and links on the way to a file: links may lead in a circle."""
-CONFIG = ""
-"""Stands for the configuration where a robot's name is expected."""
 
 
 class RobotPaths(msgspec.Struct, frozen=True):
     """The files of one robot, absolute, and what the last build recorded of its source."""
 
     inputs: frozenset[str]
-    """Source and dependencies, wherever they may be found, as the configuration and the source name them."""
+    """Configuration, source and dependencies, wherever these may be found, as configuration and source name them."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
     built_hash: str = ""
@@ -44,7 +42,8 @@ class RobotPaths(msgspec.Struct, frozen=True):
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root, shown), None
-    outputs, inputs = {*parents.files(robot), *map(str, store.paths(robot.name))}, {str(robot.source)}
+    inputs = {str(config.file), str(robot.source)}
+    outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
         state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
@@ -84,51 +83,47 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Folders to watch with all folders below; if it names robots, every file there matters to these."""
 
     def robots_for(self, path: str) -> set[str]:
-        """Return the robots to which a change of a path matters, and `CONFIG` for the configuration."""
+        """Return the robots to which a change of a path matters."""
         found = set(self.by_path.get(path, ()))
-        for tree, robots in self.trees.items():
-            if robots and path.startswith(f"{tree}{os.sep}"):
-                found |= robots
-        return found
+        return found.union(*(robots for tree, robots in self.trees.items() if path.startswith(f"{tree}{os.sep}")))
 
 
 def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> WatchedPaths:
-    """Return where to look for changes of the configuration and of robots; `paths` are by the names of these.
+    """Return where to look for changes; `paths` are by the names of robots.
 
     Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
     """
-    root = _real(str(config.root))
+    root = _way_to(str(config.root))[-1]
     above = {root, *map(str, Path(root).parents)}
     by_path: dict[str, set[str]] = {}
     trees: dict[str, set[str]] = {}
 
     def add(path: str, name: str) -> str:
+        """Note who wants to know of a path, and of what is on the way there. Returns the path without links."""
         way = _way_to(path)
         for place in way:
             if place not in above:
                 by_path.setdefault(place, set()).add(name)
-        return way[-1] if way else path
+        return way[-1]
 
-    add(str(config.file), CONFIG)
-    for robot in config.robots:
-        if robot.name in paths:
-            outputs = paths[robot.name].outputs
-            for path in paths[robot.name].inputs:
-                add(path, robot.name)
-            folders = {folder: add(folder, robot.name) for folder in {os.path.dirname(path) for path in outputs}}  # noqa: PTH120
-            for path in outputs:  # thousands, and no links: a build refuses those
-                folder, _, file = path.rpartition(os.sep)
-                by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(robot.name)
-            trees.setdefault(add(str(robot.folder), robot.name), set())
-            if robot.templates:
-                trees.setdefault(add(str(robot.templates), robot.name), set()).add(robot.name)
+    for robot in (robot for robot in config.robots if robot.name in paths):
+        name, own = robot.name, paths[robot.name]
+        for path in own.inputs:
+            add(path, name)
+        folders = {folder: add(folder, name) for folder in {os.path.dirname(path) for path in own.outputs}}  # noqa: PTH120
+        for path in own.outputs:  # thousands, and no links: a build refuses those
+            folder, _, file = path.rpartition(os.sep)
+            by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
+        trees.setdefault(add(str(robot.folder), name), set())
+        if robot.templates:
+            trees.setdefault(add(str(robot.templates), name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
-    inside = tuple(f"{tree}{os.sep}" for tree in trees)
+    in_trees = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)
     watched: set[str] = set()
     for path in by_path:
         folder = os.path.dirname(path)  # noqa: PTH120
-        if folder in watched or f"{folder}{os.sep}".startswith(inside) or os.path.dirname(folder) == folder:  # noqa: PTH120
+        if folder in watched or f"{folder}{os.sep}".startswith(in_trees) or os.path.dirname(folder) == folder:  # noqa: PTH120
             continue
         # a file that does not exist is not waited for in the folders above the configuration's
         if os.path.exists(path) if folder in above else os.path.isdir(folder):  # noqa: PTH110, PTH112
@@ -136,21 +131,15 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
     return WatchedPaths(by_path, frozenset(watched), trees)
 
 
-def _real(path: str) -> str:
-    way = _way_to(path)
-    return way[-1] if way else path
-
-
 def _way_to(path: str) -> list[str]:
     """Return each folder and link on the way to a path, with the targets of links; at last the path without links."""
-    way: list[str] = []
-    parts = [*reversed(Path(path).parts)]
-    place = parts.pop()
+    *parts, place = reversed(Path(path).parts)
+    way = [place]
     while parts and len(way) < _MAX_STEPS:
         folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
         way.append(place)
         with contextlib.suppress(OSError):  # no link, or nothing at all
             target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
-            parts += reversed(Path(target).parts)
-            place = parts.pop()
+            *more, place = reversed(Path(target).parts)
+            parts += more
     return way

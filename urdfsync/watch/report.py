@@ -5,7 +5,6 @@ from __future__ import annotations
 import datetime
 import json
 import sys
-import time
 from types import TracebackType
 from typing import Any, Self
 
@@ -19,11 +18,6 @@ from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog
 from urdfsync.watch.status import StatusTable
 from urdfsync.watch.terminal import StatusArea
-
-_PATIENCE = 0.5
-"""Seconds of a build before its progress is shown."""
-_PACE = 0.2
-"""Seconds between two lines of progress."""
 
 
 def now() -> datetime.datetime:
@@ -56,9 +50,6 @@ class JsonReport:
         sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
         sys.stdout.flush()
 
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Do nothing: begin and end of a build are enough."""
-
 
 class TextReport:
     """Lines that scroll and, on a terminal, the status of each robot below them."""
@@ -69,11 +60,10 @@ class TextReport:
         self._log = EventLog(console, screen)
         has_status = not console.quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
         self._area = StatusArea(sys.stdout) if has_status else None
-        self._build_began = self._progress_shown = 0.0
+        self._commands: set[str] = set()
+        """Robots for which a command of `--exec` runs."""
 
     def __enter__(self) -> Self:
-        if self._area:
-            self._area.start()
         return self
 
     def __exit__(
@@ -81,14 +71,17 @@ class TextReport:
     ) -> None:
         """Take the status away; what scrolled stays."""
         if self._area:
-            self._area.close()
+            self._area.write((), ())
 
     def show(self, event: events.Event) -> None:
         """Show an event."""
         clock = now().strftime("%H:%M:%S")
-        if isinstance(event, events.Building):
-            self._build_began = time.monotonic()
         self._table.take(event, clock)
+        match event:
+            case events.Running(robot):
+                self._commands.add(robot)
+            case events.Ran(robot):
+                self._commands.discard(robot)
         lines = list(self._log.lines(event, clock))
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
@@ -97,15 +90,7 @@ class TextReport:
         if self._area is None:
             write_lines(texts, sys.stdout)
         else:
-            self._area.write(texts, () if isinstance(event, events.Stopping) else self._status(self._area))
-
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Show how far a build is that takes some time."""
-        moment, area = time.monotonic(), self._area
-        if area and moment - self._build_began >= _PATIENCE and moment - self._progress_shown >= _PACE:
-            self._progress_shown = moment
-            self._table.progress(what, done, total)
-            area.write((), self._status(area))
-
-    def _status(self, area: StatusArea) -> list[Any]:
-        return list(self._table.lines(area.room, marks=has_marks(sys.stdout)))
+            # a command knows nothing of the status, and would write into it
+            is_shown = not (self._commands or isinstance(event, events.Stopping))
+            rows = self._table.lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
+            self._area.write(texts, list(rows))

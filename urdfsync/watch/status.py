@@ -105,13 +105,6 @@ class StatusTable:
             case _:
                 pass
 
-    def progress(self, what: str, done: int, total: int) -> None:
-        """Take note of how far the build under way is."""
-        for robot, status in self._builds.items():
-            if status.activity is Activity.BUILDING and what != robot:
-                count = f" {done} of {total}" if total > 1 else ""
-                self._builds[robot] = RobotStatus(Activity.BUILDING, f"{Activity.BUILDING}: {what}{count}")
-
     def lines(self, room: int, *, marks: bool) -> Iterator[Text]:
         """Yield a line for each robot for which there is room, and one for all others.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.watch.debounce import Debouncer, Times
+from urdfsync.watch.robot import Debouncer, Times
 
 TIMES = Times(settle=0.3, sample=0.2)
 SMALLEST = 1e-6
