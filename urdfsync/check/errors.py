@@ -13,7 +13,7 @@ import msgspec
 
 from urdfsync.check.compilers.compiler import Complaint
 from urdfsync.check.package import PackageFiles
-from urdfsync.check.report import listed
+from urdfsync.check.results import listed
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.phrases import counted

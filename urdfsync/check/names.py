@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfsync.check import libraries
 from urdfsync.check.package import CheckedPackage
-from urdfsync.check.report import listed
+from urdfsync.check.results import listed
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.files import StoredClasses

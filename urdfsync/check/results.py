@@ -181,3 +181,10 @@ def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
         return Exit.ERROR
     wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
     return Exit.OUT_OF_STEP if found & wrong else Exit.IN_STEP
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
+    if len(names) > 3:
+        names = [*names[:2], f"{len(names) - 2} more"]
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)

@@ -14,8 +14,7 @@ from urdfsync.check import compilers, layout, libraries, names
 from urdfsync.check.cache import UserCache, fingerprint
 from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
 from urdfsync.check.package import CheckedPackage, missing_resources, read_package
-from urdfsync.check.report import listed
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStep
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, listed
 from urdfsync.config import Config, RobotConfig, library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
