@@ -147,9 +147,7 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
     assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
         ("unbalanced", "modelica/Arm/Own.mo")
     ]
-    assert [(one.model, one.unknowns > 100) for one in result.compiled] == [
-        *(("Arm", False), ("ArmRun", True), ("ArmTest", True))
-    ]
+    assert [one.model for one in result.compiled if one.unknowns > 100] == ["Arm", "ArmRun", "ArmTest"]
     assert result.deviations
     assert not result.differs
     assert (result.status(strict=False), result.status(strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)

@@ -96,7 +96,7 @@ def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> l
 def standard(library: Path) -> str:
     """The folder with the part of the standard library in the folder `library` that robots need."""
     found = modelica_libraries.find_standard_library(os.environ, library)
-    return str(modelica_libraries.standard_library_copy(found, (), CACHE))
+    return str(modelica_libraries.standard_library_copy(found.parts, (), CACHE))
 
 
 def compile_task(model: str, *libraries: str) -> Task:

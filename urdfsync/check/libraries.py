@@ -166,21 +166,21 @@ def library_state(path: Path) -> str:
     return total.hexdigest()
 
 
-def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cache: UserCache) -> Path:
+def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
     """A copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
 
     It is made once for each state of the library. The whole is copied as well, without its resources: the compiler
     wants all parts in one folder, and would read all that is in this one. Raises CacheError, or LibraryError for a
     library that lacks what robots need.
     """
-    modelica = library.parts["Modelica"]
+    modelica = parts["Modelica"]
     paths = [modelica.joinpath(*part) for part in _COPIED]
     if missing := [path for path in paths if not (path.is_dir() or path.with_name(f"{path.name}.mo").is_file())]:
         names = " and no ".join(f"`Modelica.{'.'.join(path.relative_to(modelica).parts)}`" for path in missing[:3])
         message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
         raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
-    key = fingerprint(_COPY_REVISION, sorted(map(library_state, library.parts.values())))[:16]
+    key = fingerprint(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
 
     def ignored(folder: str, names: list[str]) -> set[str]:
@@ -200,7 +200,7 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
                 made = Path(folder) / "library"
                 made.mkdir()
-                for name, path in library.parts.items():
+                for name, path in parts.items():
                     if path.suffix == ".mo":
                         shutil.copyfile(path, made / f"{name}.mo")
                     else:
