@@ -146,7 +146,6 @@ class Compilation:
                 except (UrdfsyncError, OSError) as error:
                     done[label] = []
                     self._result.add(errors.findings_of(error))
-        self._result.megabytes = max((one.megabytes for results in done.values() for one in results), default=0.0)
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:

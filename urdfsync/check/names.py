@@ -11,9 +11,9 @@ from urdfsync.check.package import CheckedPackage
 from urdfsync.check.results import listed
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.modelica.scopes import Node, Scopes
+from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 
@@ -35,9 +35,8 @@ def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnos
             return None
 
     around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
-    sources = StoredClasses(
-        robot.target.package, robot.folder, package.files.texts, {**around, **package.users_files}, find
-    )
+    others = {**around, **package.users_files}
+    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find)
     users = [name for name, one in sources.users.items() if Path(one.file) in package.users_files]
     message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
     unread = [path for path in sources.unread if path in package.users_files and path not in around]
@@ -46,10 +45,10 @@ def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnos
     return _check_classes(package, scopes, sources.own), [*found, *_check_classes(package, scopes, users)]
 
 
-def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[tuple[str, ...]]) -> list[Diagnostic]:
+def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[ClassName]) -> list[Diagnostic]:
     """One finding for all places in a file that have the same fault."""
     places: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
-    for node in [node for name in sorted(names) if isinstance(node := scopes.node(name), Node)]:
+    for node in filter(None, map(scopes.node, sorted(names))):
         for one in unresolved(node, scopes):
             places.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
     found = [_diagnostic(package, Path(file), alike) for (file, *_), alike in places.items()]
@@ -57,7 +56,7 @@ def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[tupl
 
 
 def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
-    one = min(places, key=lambda place: place.line)
+    one, files = min(places, key=lambda place: place.line), package.files
     severity, code, hint = Severity.WARNING, one.kind.value, ""
     if one.kind is UnresolvedKind.NESTED_REDECLARE:
         message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
@@ -77,9 +76,9 @@ def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved
                 hint = f"`{option}` in the configuration brings it back" if option else hint
     lines = sorted({place.line for place in places} - {one.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
-    files = package.files
-    path = file.relative_to(files.folder).as_posix() if file.is_relative_to(files.folder) else ""
+    if not file.is_relative_to(files.folder):
+        hint = "; ".join(filter(None, (hint, also)))
+        return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
+    path = file.relative_to(files.folder).as_posix()
     hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
-    if path:
-        return files.diagnostic(severity, code, message, path, one.line, hint=hint)
-    return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
+    return files.diagnostic(severity, code, message, path, one.line, hint=hint)

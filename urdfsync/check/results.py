@@ -111,7 +111,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """From beginning to end."""
     megabytes: float = 0.0
-    """Peak memory of a process that worked for it."""
+    """The most memory that its processes took together, looked at ten times a second."""
     reference: str = ""
     """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
 

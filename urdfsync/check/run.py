@@ -132,7 +132,7 @@ def _check(
     """
     name, limit = order.robot, order.options.timeout
     steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
-    fault, deadline = None, time.monotonic() + limit
+    fault, peak, deadline = None, 0, time.monotonic() + limit
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = subprocess.Popen(  # noqa: S603 - a command of ours
             COMMAND,
@@ -154,6 +154,7 @@ def _check(
                     process.wait(_INTERVAL)
                     break
                 used = sum(_memory(one) for one in _family(process))
+                peak = max(peak, used)
                 if time.monotonic() >= deadline:
                     hint = "allow more with `urdfsync check --timeout`"
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
@@ -182,6 +183,7 @@ def _check(
         fault = _failure(order, "check-crashed", message, "report it, with the source")
     if fault:
         step.result.add([fault])
+    step.result.megabytes = peak / 1e6
     return step.result
 
 

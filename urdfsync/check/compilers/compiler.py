@@ -53,8 +53,6 @@ class CompileResult(msgspec.Struct, frozen=True):
     """CPU time of the task."""
     compiling: float = 0.0
     """The part of it before the first run."""
-    megabytes: float = 0.0
-    """Peak memory of the process so far."""
 
 
 class CompileJob(msgspec.Struct, frozen=True):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import re
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -98,12 +97,12 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
     try:
         model = session.loads(task.source, model=task.model, filename=_FILE)
     except rumoca.RumocaError as error:
-        return CompileResult(_words(error), seconds=time.process_time() - started, megabytes=_peak_megabytes())
+        return CompileResult(_words(error), seconds=time.process_time() - started)
     unknowns, states = _counts(model)
     compiling = time.process_time() - started
     runs = tuple(_simulate(model, run, task.values) for run in task.runs)
     seconds = time.process_time() - started
-    return CompileResult("", unknowns, states, runs, seconds, compiling, _peak_megabytes())
+    return CompileResult("", unknowns, states, runs, seconds, compiling)
 
 
 class _Type(msgspec.Struct):
@@ -154,15 +153,3 @@ def _simulate(model: rumoca.Model, run: Simulation, values: tuple[str, ...]) -> 
 def _words(error: Exception) -> str:
     """What the compiler says, without places in its own notation."""
     return _SPAN.sub("", str(error.args[0] if error.args else error))
-
-
-def _peak_megabytes() -> float:
-    """The most resident memory so far."""
-    if sys.platform == "win32":
-        import psutil
-
-        return float(psutil.Process().memory_info().peak_wset) / 1e6
-    import resource
-
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 1e6 if sys.platform == "darwin" else peak * 1024 / 1e6
