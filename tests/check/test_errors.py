@@ -13,7 +13,7 @@ from support import arm
 from support.arm import ELBOW
 from support.modelica import compile_task, execute
 
-from urdfsync.check import errors
+from urdfsync.check.compilation import explain as explain_problem
 from urdfsync.check.compilers import omc, rumoca
 from urdfsync.check.compilers.compiler import Compiler
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -30,7 +30,7 @@ def explain(
     compiler: Compiler = rumoca,
 ) -> list[Diagnostic]:
     """The findings about the package with some edits."""
-    return errors.explain(text, compiler.complaints(text), arm.package(edits), model)
+    return explain_problem(text, compiler.complaints(text), arm.package(edits), model)
 
 
 def explained(text: str, *more: Any, **facts: Any) -> list[str]:
@@ -184,5 +184,5 @@ def test_the_compiler_still_speaks_as_these_texts_do(modelica_library: Path, tmp
     for code, root, outcome in zip(DAMAGES, roots, execute(modelica_library, roots, tasks), strict=True):
         package = arm.package(DAMAGES[code], name=root.name)
         said = outcome.error.replace(str(root), str(arm.DISK))
-        (found,) = errors.explain(said, rumoca.complaints(said), package)
+        (found,) = explain_problem(said, rumoca.complaints(said), package)
         assert (found.code, found.file) == (code, f"{arm.DISK}/{ELBOW}")

@@ -10,8 +10,8 @@ import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
 
-from urdfsync.check.layout import check_around, check_layout
 from urdfsync.check.package import PackageFiles, package_texts
+from urdfsync.check.texts import check_around, check_layout
 from urdfsync.domain import Target
 
 LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"

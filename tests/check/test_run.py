@@ -146,7 +146,7 @@ def test_a_robot_that_is_gone_from_the_configuration_is_told(
     robots: Config, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The configuration was changed between the command and its process."""
-    monkeypatch.setattr(run, "COMMAND", processes.python_module("urdfsync.check"))
+    monkeypatch.setattr(run, "COMMAND", processes.python_module("urdfsync.check.robot"))
     (tmp_path / "urdfsync.toml").write_text('[robots.leg]\nsource = "leg.urdf"\npackage = "Leg"\n')
     (found,) = check(robots, ["early"], CheckOptions(package_paths=(tmp_path,)))
     assert codes(found) == ["unknown-robot"]

@@ -14,7 +14,7 @@ import msgspec
 from urdfsync import __version__
 from urdfsync.check import compilers, libraries, package, run
 from urdfsync.check.cache import UserCache, fingerprint
-from urdfsync.check.errors import findings_of
+from urdfsync.check.compilation import findings_of
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError

@@ -3,25 +3,45 @@
 from __future__ import annotations
 
 import contextlib
+import os
+import re
 import shutil
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check import compilers, errors, physics
+from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache, cache_errors
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, compile_task
-from urdfsync.check.package import CheckedPackage, write_package
-from urdfsync.check.results import MOST_SINGLE_EDITS, CheckOptions, CheckResult, CheckStep, CompiledModel, EditEffect
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.domain import Experiment
+from urdfsync.check.compilers.compiler import (
+    CompileJob,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    Simulation,
+    compile_task,
+)
+from urdfsync.check.package import CheckedPackage, PackageFiles, write_package
+from urdfsync.check.results import (
+    MOST_SINGLE_EDITS,
+    CheckOptions,
+    CheckResult,
+    CheckStep,
+    CompiledModel,
+    EditEffect,
+    agrees,
+    listed,
+)
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.domain import Deviation, Experiment
+from urdfsync.output.phrases import counted
 
-Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
-"""The files of a package, and the tasks to do with it in one process."""
+_MOST_DIAGNOSTICS = 5
+_LONGEST_MESSAGE = 300
+_BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 
 class CheckProgress:
@@ -71,8 +91,8 @@ class Compilation:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
         package, result = self._package, self._result
         try:
-            experiment = physics.experiment(package, complete=True)
-            plain = physics.experiment(package, complete=False) if package.meaningful_edits else None
+            experiment = self._experiment(complete=True)
+            plain = self._experiment(complete=False) if package.meaningful_edits else None
         except UrdfsyncError as error:
             result.add(error.diagnostics)
             self.compile_all()
@@ -93,16 +113,16 @@ class Compilation:
         count = 1 if experiment else max(1, min(self._options.compilers, len(package.models)))
         parts = {f"models{k}": models[k::count] for k in range(count)}
         top = package.robot.target.package
-        jobs: dict[str, Job] = {
+        jobs: dict[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]] = {
             label: (package.files.texts, [compile_task(f"{top}.{model}") for model in part])
             for label, part in parts.items()
         }
         is_same = experiment is not None and experiment.content == package.rendering.content
         if experiment:
             texts = package.generated if is_same else package.rendering.package(experiment.content)
-            jobs["completed"] = (texts, [physics.moving_task(experiment)])
+            jobs["completed"] = (texts, [_moving_task(experiment)])
         if plain:
-            move = [physics.moving_task(plain)]
+            move = [_moving_task(plain)]
             jobs["edited"] = (package.files.texts, move)
             if not is_same:
                 jobs["generated"] = (package.generated, move)
@@ -120,21 +140,34 @@ class Compilation:
         result.add(said)
         if completed is not None:
             result.deviations = tuple(experiment.compare(completed))
-        owners = package.files.owners
-        result.effects = tuple(EditEffect((one,), (), (owners[one],)) for one in package.edits if one not in files)
-        if plain is None:
-            return
-        edited, faults = self._series(done["edited"])
-        if faults:  # no fault of an edited package
-            result.gaps += (f"what edits do was not measured: {faults[0].message}",)
-        generated, said = (completed, []) if is_same else self._series(done["generated"])
-        result.add(said)
-        if generated is not None and edited is not None:
+        whole: Sequence[Deviation] = ()
+        single: dict[str, Sequence[Deviation]] = {}
+        if plain is not None:
+            edited, faults = self._series(done["edited"])
+            generated, said = (completed, []) if is_same else self._series(done["generated"])
+            result.add(said)
+            if faults:  # no fault of an edited package
+                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+            if edited is None or generated is None:
+                return
+            whole = plain.compare(edited, generated)
             moved = {file: self._series(done[file])[0] for file in files if file in jobs}
-            single = {file: series for file, series in moved.items() if series is not None}
-            result.effects = (*physics.find_effects(package, plain, generated, edited, single), *result.effects)
+            single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
+        cosmetic = [file for file in package.edits if file not in files]
+        result.effects = tuple(edit_effects(files, cosmetic, package.files.owners, whole, single))
 
-    def _run_all(self, jobs: Mapping[str, Job]) -> dict[str, list[CompileResult]]:
+    def _experiment(self, *, complete: bool) -> Experiment:
+        """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
+        robot, content = self._package.robot, self._package.rendering.content
+        found = self._package.domain.experiment(content, shown(robot.source), robot.target, robot.options, complete)
+        if found is None:
+            message = "nothing can be compared: there is no reference for this package"
+            raise OutputError(Diagnostic(Severity.ERROR, "no-reference", message, hint="check without `--physics`"))
+        return found
+
+    def _run_all(
+        self, jobs: Mapping[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]]
+    ) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
         self._progress.total = 3 + sum(len(tasks) for _, tasks in jobs.values())
         done: dict[str, list[CompileResult]] = {}
@@ -145,7 +178,7 @@ class Compilation:
                     done[label] = future.result()
                 except (UrdfsyncError, OSError) as error:
                     done[label] = []
-                    self._result.add(errors.findings_of(error))
+                    self._result.add(findings_of(error))
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
@@ -184,7 +217,9 @@ class Compilation:
         elif model not in self._users_models:
             self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
 
-    def _series(self, results: Sequence[CompileResult]) -> tuple[physics.Series | None, list[Diagnostic]]:
+    def _series(
+        self, results: Sequence[CompileResult]
+    ) -> tuple[Mapping[str, Sequence[float]] | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []
@@ -199,7 +234,7 @@ class Compilation:
 
     def _explain(self, problem: str, model: str) -> list[Diagnostic]:
         complaints = compilers.COMPILERS[self._options.compiler].complaints(problem)
-        return errors.explain(problem, complaints, self._package.files, model)
+        return explain(problem, complaints, self._package.files, model)
 
 
 def _readable(path: Path, folder: Path) -> str:
@@ -212,3 +247,81 @@ def _readable(path: Path, folder: Path) -> str:
         (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
         return str(copy)
     return str(path)
+
+
+def _moving_task(experiment: Experiment) -> CompileTask:
+    """The task that moves a package as the experiment wants."""
+    probe = experiment.probe
+    run = Simulation(probe.stop, probe.step)
+    return CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")
+
+
+def edit_effects(
+    files: Sequence[str],
+    cosmetic: Sequence[str],
+    owners: Mapping[str, str],
+    whole: Sequence[Deviation],
+    single: Mapping[str, Sequence[Deviation]],
+) -> Iterator[EditEffect]:
+    """What the edits in `files` do, each apart where that can be told; what no single one does, the others do together.
+
+    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each. In
+    `cosmetic` files only comments and blanks were edited.
+    """
+
+    def effect(files: Sequence[str], found: Sequence[Deviation]) -> EditEffect:
+        return EditEffect(tuple(files), tuple(found), tuple(dict.fromkeys(owners[file] for file in files)))
+
+    changes = [one for one in whole if not agrees(one)]
+    apart = {file: [one for one in found if not agrees(one)] for file, found in single.items()}
+    told = {(one.quantity, one.element, one.unit) for found in apart.values() for one in found}
+    rest = [one for one in changes if (one.quantity, one.element, one.unit) not in told]
+    quiet = [file for file in files if not apart.get(file)]
+    yield from (effect([file], found) for file, found in apart.items() if found)
+    if rest:
+        yield effect(quiet or files, rest)
+    if silent := [*cosmetic, *([] if rest else quiet)]:
+        yield effect(silent, [])
+
+
+def explain(problem: str, complaints: Sequence[Complaint], package: PackageFiles, model: str = "") -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
+
+    `complaints` are what the text says, with the files that people know.
+    """
+    if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
+        equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
+        lacking = abs(equations - unknowns)
+        # without the name of the model, since the models around it lack as many, which need not be said again
+        message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
+        message += "many" if equations > unknowns else "few"
+        path = f"{model.replace('.', '/')}.mo"
+        is_users = path in package.texts and path not in package.owners
+        return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
+    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
+    return list(found)[:_MOST_DIAGNOSTICS]
+
+
+def _diagnostic(complaint: Complaint, package: PackageFiles, code: str) -> Diagnostic:
+    """One complaint; where the compiler does not say where it is, perhaps in the edited file, if there is one."""
+    file, message = Path(complaint.file), complaint.message.removesuffix(".")
+    message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
+    edited = [shown(package.folder / path) for path in sorted(package.edited)]
+    look = f"look at {listed(edited)}, which {'was' if len(edited) == 1 else 'were'} edited" if edited else ""
+    place = complaint.line, complaint.column
+    if file.is_absolute() and file.is_relative_to(package.folder):
+        path = file.relative_to(package.folder).as_posix().removeprefix(".")
+        return package.diagnostic(Severity.ERROR, code, message, path, *place, hint=package.by_hand(path) or look)
+    if file.is_absolute():
+        return Diagnostic(Severity.ERROR, code, message, shown(file), *place, hint=look)
+    where = edited[0] if len(edited) == 1 else shown(package.folder)
+    return Diagnostic(Severity.ERROR, code, message, where, hint=look)
+
+
+def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
+    """What an error says, that of the system included, as findings."""
+    if isinstance(error, UrdfsyncError):
+        return error.diagnostics
+    place = os.fsdecode(error.filename or "")
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)

@@ -9,8 +9,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -26,8 +25,6 @@ from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
-
-_URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
 class PackageFiles(msgspec.Struct, frozen=True):
@@ -152,22 +149,6 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
 def _words(text: bytes) -> list[str]:
     """What a text says but for comments, blanks and ends of line."""
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
-
-
-def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
-    """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
-    own, output = package.robot.target.package, package.robot.output
-    hint = "`urdfsync build` brings back what it imported; else put the file there"
-    for path in sorted(package.on_disk):
-        text, addresses = package.files.text(path), set[str]()
-        for found in _URI.finditer(text):
-            top, folder = found[1], output.joinpath(*found[1].split("."))
-            is_ours = f"{own}.".startswith(f"{top}.") or top.startswith(f"{own}.")
-            if is_ours and folder.is_dir() and found[0] not in addresses and not (folder / found[2]).exists():
-                addresses.add(found[0])
-                line = text.count("\n", 0, found.start()) + 1
-                message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
-                yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
 
 
 def holds_class(path: PurePosixPath) -> bool:

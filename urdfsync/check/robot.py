@@ -1,20 +1,24 @@
-"""The check of one robot: files, then names, then compiling and balance, then the comparison with a reference."""
+"""The check of one robot: files, then names, then compiling and balance, then the comparison with a reference.
+
+As a program it takes the order for one robot from stdin, and writes a line with each step to stdout.
+"""
 
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from urdfsync import __version__
-from urdfsync.check import compilers, layout, libraries, names
+from urdfsync import __version__, processes
+from urdfsync.check import compilers, libraries, texts
 from urdfsync.check.cache import UserCache, fingerprint
-from urdfsync.check.compilation import CheckProgress, Compilation
-from urdfsync.check.errors import findings_of
-from urdfsync.check.package import CheckedPackage, missing_resources, read_package
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, listed
-from urdfsync.config import Config, RobotConfig, library_folder, shown
+from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
+from urdfsync.check.package import CheckedPackage, read_package
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, listed, to_text
+from urdfsync.check.run import RobotOrder
+from urdfsync.config import Config, RobotConfig, library_folder, load, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
@@ -49,9 +53,9 @@ def _check(
     result.diagnostics = package.source_diagnostics
     progress.begin("checking files and names")
     cache, top, lacking = UserCache.default(), robot.target.package.partition(".")[0], None
-    texts = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
+    contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in package.domain.uses(robot.options)]
-    others = libraries.needed_libraries(texts, top, libraries.search_path(robot), uses)
+    others = libraries.needed_libraries(contents, top, libraries.search_path(robot), uses)
     try:
         standard = libraries.find_standard_library(os.environ, config.check.library).parts
     except libraries.LibraryError as error:
@@ -68,8 +72,8 @@ def _check(
             result.add([lacking])
         result.gaps = (f"nothing was compiled: {lacking.message}; {lacking.hint}",)
         return result
-    texts += [text for path in others.values() for text in libraries.library_texts(path).values()]
-    copy = libraries.standard_library_copy(standard, texts, cache)
+    contents += [text for path in others.values() for text in libraries.library_texts(path).values()]
+    copy = libraries.standard_library_copy(standard, contents, cache)
     used = {**({LIBRARY: library_folder() / LIBRARY} if top != LIBRARY else {}), **others}
     compilation = Compilation(package, options, result, progress, folder, (copy, standard), used)
     if options.physics and compilers.COMPILERS[options.compiler].SIMULATES:
@@ -89,18 +93,18 @@ def _check(
 def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
     """Check files and names; returns why nothing can be compiled, empty if it can."""
     robot = package.robot
-    found = layout.check_layout(package.files)
-    found += layout.check_around({robot.output / path: content for path, content in package.around.items()})
+    found = texts.check_layout(package.files)
+    found += texts.check_around({robot.output / path: content for path, content in package.around.items()})
     message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
     found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
-    found += missing_resources(package)
+    found += texts.missing_resources(package)
     result.add(found)
     if package.users_files:
         files = listed([shown(path) for path in sorted(package.users_files)])
         result.unchecked = (f"{files} outside of the package: names were checked, but nothing there was compiled",)
     if any(one.severity is Severity.ERROR and one.code != "missing-resource" for one in found):
         return "the files are not in order"
-    own, others = names.check_names(package)
+    own, others = texts.check_names(package)
     result.add([*own, *others])
     return "names in the package mean nothing" if any(one.severity is Severity.ERROR for one in own) else ""
 
@@ -113,6 +117,31 @@ def _result_key(package: CheckedPackage, options: CheckOptions, paths: Mapping[s
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
         *(shown(robot.folder), package.irregular, package.source_diagnostics),
         [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
-        *(sorted(texts.items()) for texts in (package.files.texts, package.generated, package.around)),
+        *(sorted(files.items()) for files in (package.files.texts, package.generated, package.around)),
         sorted(package.users_files.items()),
     )
+
+
+def main() -> None:
+    """Check the robot that is ordered."""
+    answers = processes.reserve_stdout()
+    order = from_text(sys.stdin.buffer.readline(), RobotOrder)
+    processes.end_with_parent()
+
+    def answer(step: CheckStep) -> None:
+        answers.write(to_text(step).encode() + b"\n")
+        answers.flush()
+
+    os.chdir(order.folder)
+    try:
+        config = load(Path(order.config))
+        (robot,) = config.select([order.robot])
+    except UrdfsyncError as error:  # the configuration has changed since
+        result = CheckResult(order.robot, "", diagnostics=error.diagnostics)
+    else:
+        result = check_robot(config, robot, order.options, answer, Path(order.workspace))
+    answer(CheckStep("", 1.0, result, is_last=True))
+
+
+if __name__ == "__main__":
+    main()

@@ -28,7 +28,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
 from urdfsync.engine.pool import connect_cluster
 
-COMMAND = tuple(processes.python_module("urdfsync.check"))
+COMMAND = tuple(processes.python_module("urdfsync.check.robot"))
 """Starts the process that checks one robot."""
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9
