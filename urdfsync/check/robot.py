@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 
 from urdfsync import __version__, processes
@@ -52,30 +52,26 @@ def _check(
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     result.diagnostics = package.source_diagnostics
     progress.begin("checking files and names")
-    cache, top, lacking = UserCache.default(), robot.target.package.partition(".")[0], None
+    cache, top = UserCache.default(), robot.target.package.partition(".")[0]
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in package.domain.uses(robot.options)]
-    others = libraries.needed_libraries(contents, top, libraries.search_path(robot), uses)
-    try:
-        standard = libraries.find_standard_library(os.environ, config.check.library).parts
-    except libraries.LibraryError as error:
-        standard, (lacking,) = {}, error.diagnostics
-    key = _result_key(package, options, {**standard, **others})
+    needed = libraries.find_libraries(config, robot, contents, uses)
+    key = _result_key(package, options, needed)
     if known := cache.load(key, CheckResult):
         return known
 
-    if reason := _check_texts(package, result):
+    if reason := _check_texts(package, needed, result):
         result.gaps = (f"nothing was compiled, since {reason}",)
         return result
-    if lacking is not None:
+    if needed.problem is not None:
         if config.check.library is not None or options.physics:
-            result.add([lacking])
-        result.gaps = (f"nothing was compiled: {lacking.message}; {lacking.hint}",)
+            result.add([needed.problem])
+        result.gaps = (f"nothing was compiled: {needed.problem.message}; {needed.problem.hint}",)
         return result
-    contents += [text for path in others.values() for text in libraries.library_texts(path).values()]
-    copy = libraries.standard_library_copy(standard, contents, cache)
-    used = {**({LIBRARY: library_folder() / LIBRARY} if top != LIBRARY else {}), **others}
-    compilation = Compilation(package, options, result, progress, folder, (copy, standard), used)
+    contents += [text for path in needed.others.values() for text in libraries.library_texts(path).values()]
+    copy = libraries.standard_library_copy(needed.standard, contents, cache)
+    used = {**({LIBRARY: library_folder() / LIBRARY} if top != LIBRARY else {}), **needed.others}
+    compilation = Compilation(package, options, result, progress, folder, (copy, needed.standard), used)
     if options.physics and compilers.COMPILERS[options.compiler].SIMULATES:
         compilation.compare()
     else:
@@ -90,7 +86,7 @@ def _check(
     return result
 
 
-def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
+def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:
     """Check files and names; returns why nothing can be compiled, empty if it can."""
     robot = package.robot
     found = texts.check_layout(package.files)
@@ -104,19 +100,19 @@ def _check_texts(package: CheckedPackage, result: CheckResult) -> str:
         result.unchecked = (f"{files} outside of the package: names were checked, but nothing there was compiled",)
     if any(one.severity is Severity.ERROR and one.code != "missing-resource" for one in found):
         return "the files are not in order"
-    own, others = texts.check_names(package)
+    own, others = texts.check_names(package, needed.standard)
     result.add([*own, *others])
     return "names in the package mean nothing" if any(one.severity is Severity.ERROR for one in own) else ""
 
 
-def _result_key(package: CheckedPackage, options: CheckOptions, paths: Mapping[str, Path]) -> str:
-    """SHA-256 (hex) over all that a check rests on; `paths` are those of libraries."""
+def _result_key(package: CheckedPackage, options: CheckOptions, needed: libraries.Libraries) -> str:
+    """SHA-256 (hex) over all that a check rests on."""
     robot = package.robot
     return fingerprint(
         *(__version__, compilers.installed_version(options.compiler, "pin"), options.physics, options.compiler),
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
         *(shown(robot.folder), package.irregular, package.source_diagnostics),
-        [(name, str(path), libraries.library_state(path)) for name, path in sorted(paths.items())],
+        needed.state(),
         *(sorted(files.items()) for files in (package.files.texts, package.generated, package.around)),
         sorted(package.users_files.items()),
     )

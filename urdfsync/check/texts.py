@@ -7,7 +7,6 @@ is.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -225,8 +224,8 @@ def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
                 yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
 
 
-def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnostic]]:
-    """What is wrong with names in the package, and in the user's files outside of it.
+def check_names(package: CheckedPackage, standard: Mapping[str, Path]) -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """What is wrong with names in the package, and in the user's files outside of it; `standard` is the MSL.
 
     Each fault is told once in each file, at its first line.
     """
@@ -235,12 +234,9 @@ def check_names(package: CheckedPackage) -> tuple[list[Diagnostic], list[Diagnos
     def find(name: str) -> Path | None:
         if name == LIBRARY != robot.target.package.partition(".")[0]:
             return library_folder() / LIBRARY
-        if name not in libraries.STANDARD:
-            return libraries.find_library(name, libraries.search_path(robot))
-        try:
-            return libraries.find_standard_library(os.environ, package.config.check.library).parts[name]
-        except libraries.LibraryError:
-            return None
+        if name in libraries.STANDARD:
+            return standard.get(name)
+        return libraries.find_library(name, libraries.search_path(robot))
 
     around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
     others = {**around, **package.users_files}
