@@ -110,7 +110,7 @@ class Missing(NamedTuple):
 
 
 def _predefined(name: str, components: Iterable[str] = ()) -> Node:
-    parts = tuple(Component(Name((one,), 0), Name(("",), 0)) for one in components)
+    parts = [Component(Name((one,), 0), Name(("",), 0)) for one in components]
     return Node(Class(Name((name,), 0), "type", components=parts), (name,))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
 from urdfsync.modelica.scopes import ANYTHING, OPAQUE, Element, Missing, Node, Scopes, Types
@@ -88,7 +88,7 @@ class _Walk:
         yield from self._missing(used.type, self._scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
-    def _uses(self, names: tuple[Name, ...], scope: Node | None) -> Iterator[Unresolved]:
+    def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
         for name in names:
             kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
             yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind)
