@@ -47,8 +47,8 @@ _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?
 class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
-    def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
-        self._result, self._tell = result, tell
+    def __init__(self, robot: str, tell: Callable[[CheckStep], None]) -> None:
+        self._robot, self._tell = robot, tell
         self._lock = threading.Lock()  # steps of several compilers must not mix
         self._begun, self.total = 0, 6
 
@@ -57,7 +57,7 @@ class CheckProgress:
         with self._lock:
             done = min(self._begun / self.total, 1.0)
             self._begun += 1
-            self._tell(CheckStep(f"{self._result.robot}: {what}", done, self._result))
+            self._tell(CheckStep(f"{self._robot}: {what}", done))
 
 
 class Compilation:

@@ -144,13 +144,12 @@ class CheckResult(msgspec.Struct):
 
 
 class CheckStep(msgspec.Struct, frozen=True):
-    """What is being done, how far the check of the robot is (0 to 1), and what is known so far."""
+    """What is being done, and how far the check of the robot is (0 to 1)."""
 
     what: str
     done: float
-    result: CheckResult
-    is_last: bool = False
-    """Whether nothing more comes after this result."""
+    result: CheckResult | None = None
+    """What came out, with the last step."""
 
 
 def to_text(value: Any) -> str:

@@ -27,10 +27,10 @@ from urdfsync.modelica.names import LIBRARY
 def check_robot(
     config: Config, robot: RobotConfig, options: CheckOptions, tell: Callable[[CheckStep], None], folder: Path
 ) -> CheckResult:
-    """Check one robot; `tell` gets the result as it grows, `folder` is an empty one for copies of the package."""
+    """Check one robot; `tell` gets each step before it is done, `folder` is an empty one for copies of the package."""
     result, begin = CheckResult(robot.name, robot.target.package), time.monotonic()
     try:
-        result = _check(config, robot, options, result, CheckProgress(result, tell), folder)
+        result = _check(config, robot, options, result, CheckProgress(robot.name, tell), folder)
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))
     result.seconds = time.monotonic() - begin
@@ -136,7 +136,7 @@ def main() -> None:
         result = CheckResult(order.robot, "", diagnostics=error.diagnostics)
     else:
         result = check_robot(config, robot, order.options, answer, Path(order.workspace))
-    answer(CheckStep("", 1.0, result, is_last=True))
+    answer(CheckStep("", 1.0, result))
 
 
 if __name__ == "__main__":

@@ -125,7 +125,7 @@ def _check(
     nothing that the process started is left.
     """
     name, limit = order.robot, order.options.timeout
-    steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
+    steps[name] = CheckStep("", 0.0)
     fault, peak, deadline = None, 0, time.monotonic() + limit
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = psutil.Popen(
@@ -153,7 +153,7 @@ def _check(
                     hint = "allow more with `urdfsync check --timeout`"
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
                 elif used > memory and not is_alone:
-                    steps[name] = CheckStep(f"{name}: waits for more memory", 0.0, CheckResult(name, order.package))
+                    steps[name] = CheckStep(f"{name}: waits for more memory", 0.0)
                     return None
                 elif used > memory:
                     message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
@@ -169,14 +169,14 @@ def _check(
             reader.join(_PATIENCE)
         errors.seek(0)
         words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
-    step = steps[name]
-    if fault is None and not stopped.is_set() and (process.returncode or not step.is_last):
+    result = steps[name].result or CheckResult(name, order.package)
+    if fault is None and not stopped.is_set() and (process.returncode or steps[name].result is None):
         message = ": ".join([f"its process ended with {processes.exit_cause(process.returncode)}", *words])
         fault = _failure(order, "check-crashed", message, "report it, with the source")
     if fault:
-        step.result.add([fault])
-    step.result.megabytes = peak / 1e6
-    return step.result
+        result.add([fault])
+    result.megabytes = peak / 1e6
+    return result
 
 
 def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrder) -> None:
