@@ -12,7 +12,7 @@ from urdfsync.check.results import TOLERANCE, EditEffect
 from urdfsync.domain import Deviation, Quantity
 
 FILES = ["A.mo", "B.mo", "C.mo"]
-OWNERS = {"A.mo": "joint a", "B.mo": "joint b", "C.mo": "joint b", "D.mo": "robot"}
+OWNERS = {"A.mo": "joint a", "B.mo": "joint b", "C.mo": "joint b"}
 
 
 def torque(joint: str, difference: float) -> Deviation:
@@ -23,16 +23,13 @@ def effects(
     files: Sequence[str],
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
-    cosmetic: Sequence[str] = (),
 ) -> list[EditEffect]:
-    return list(edit_effects(files, cosmetic, OWNERS, whole, single))
+    return list(edit_effects(files, OWNERS, whole, single))
 
 
 def test_one_edited_file_does_it_all() -> None:
-    found = effects(["A.mo"], [torque("elbow", 2.0), torque("wrist", 1e-15)], {}, ["D.mo"])
-    (effect, silent) = found
-    assert effect == EditEffect(("A.mo",), (torque("elbow", 2.0),), ("joint a",))
-    assert silent == EditEffect(("D.mo",), (), ("robot",))
+    found = effects(["A.mo"], [torque("elbow", 2.0), torque("wrist", 1e-15)], {})
+    assert found == [EditEffect(("A.mo",), (torque("elbow", 2.0),), ("joint a",))]
 
 
 def test_edits_are_told_apart() -> None:

@@ -92,7 +92,7 @@ class Compilation:
         package, result = self._package, self._result
         try:
             experiment = self._experiment(complete=True)
-            plain = self._experiment(complete=False) if package.meaningful_edits else None
+            plain = self._experiment(complete=False) if package.edits else None
         except UrdfsyncError as error:
             result.add(error.diagnostics)
             self.compile_all()
@@ -108,7 +108,7 @@ class Compilation:
 
         `experiment` is for the package as it is generated from a completed source, `plain` for the edited one.
         """
-        package, result, files = self._package, self._result, self._package.meaningful_edits
+        package, result, files = self._package, self._result, self._package.edits
         models = [*package.models, *self._users_models]
         count = 1 if experiment else max(1, min(self._options.compilers, len(package.models)))
         parts = {f"models{k}": models[k::count] for k in range(count)}
@@ -153,8 +153,7 @@ class Compilation:
             whole = plain.compare(edited, generated)
             moved = {file: self._series(done[file])[0] for file in files if file in jobs}
             single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
-        cosmetic = [file for file in package.edits if file not in files]
-        result.effects = tuple(edit_effects(files, cosmetic, package.files.owners, whole, single))
+        result.effects = tuple(edit_effects(files, package.files.owners, whole, single))
 
     def _experiment(self, *, complete: bool) -> Experiment:
         """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
@@ -258,15 +257,13 @@ def _moving_task(experiment: Experiment) -> CompileTask:
 
 def edit_effects(
     files: Sequence[str],
-    cosmetic: Sequence[str],
     owners: Mapping[str, str],
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
 ) -> Iterator[EditEffect]:
     """What the edits in `files` do, each apart where that can be told; what no single one does, the others do together.
 
-    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each. In
-    `cosmetic` files only comments and blanks were edited.
+    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
     """
 
     def effect(files: Sequence[str], found: Sequence[Deviation]) -> EditEffect:
@@ -278,10 +275,8 @@ def edit_effects(
     rest = [one for one in changes if (one.quantity, one.element, one.unit) not in told]
     quiet = [file for file in files if not apart.get(file)]
     yield from (effect([file], found) for file, found in apart.items() if found)
-    if rest:
+    if rest or quiet:
         yield effect(quiet or files, rest)
-    if silent := [*cosmetic, *([] if rest else quiet)]:
-        yield effect(silent, [])
 
 
 def explain(problem: str, complaints: Sequence[Complaint], package: PackageFiles, model: str = "") -> list[Diagnostic]:

@@ -22,7 +22,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
 from urdfsync.modelica.files import files_that_use, has_word
-from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 
@@ -71,7 +70,6 @@ class PackageFiles(msgspec.Struct, frozen=True):
 class CheckedPackage(msgspec.Struct):
     """One robot as it is now."""
 
-    config: Config
     robot: RobotConfig
     domain: Domain
     rendering: Rendering
@@ -96,8 +94,6 @@ class CheckedPackage(msgspec.Struct):
     """The classes that have to compile by themselves, by their names below the package, the main one first."""
     edits: tuple[str, ...]
     """The edited files that have a part in the main model."""
-    meaningful_edits: tuple[str, ...]
-    """Those of them in which more than comments and blanks differ."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> CheckedPackage:
@@ -121,7 +117,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     edited = edited_files(generated, on_disk) if in_step else []
     edits = tuple(path for path in edited if path not in benches)
     return CheckedPackage(
-        config=config,
         robot=robot,
         domain=domain,
         rendering=rendering,
@@ -136,7 +131,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         users_files=users_files(config, robot),
         models=models,
         edits=edits,
-        meaningful_edits=tuple(path for path in edits if _words(generated[path]) != _words(on_disk[path])),
     )
 
 
@@ -144,11 +138,6 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
     """The Modelica files that differ from what is generated, by their path below the package."""
     paths = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
     return [path for path in paths if normalised(on_disk[path]) != generated[path]]
-
-
-def _words(text: bytes) -> list[str]:
-    """What a text says but for comments, blanks and ends of line."""
-    return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
 def holds_class(path: PurePosixPath) -> bool:
