@@ -278,6 +278,21 @@ def test_a_file_that_the_package_refers_to_and_that_is_not_there_is_named(arm: P
     assert "missing-resource" not in codes(check())
 
 
+def test_a_file_that_goes_is_missed_although_the_package_was_right(
+    arm: Path, modelica_library: Path, compiler: Compiler
+) -> None:
+    """What is not compiled again is looked through again."""
+    cover = '  parameter String cover = "modelica://Arm/Resources/cover.stl";\n'
+    replace(arm / "Links" / "Hand.mo", "equation\n", f"{cover}equation\n")
+    (arm / "Resources").mkdir(exist_ok=True)
+    (arm / "Resources" / "cover.stl").touch()
+    assert [check().status(strict=True) for _ in range(2)] == [CheckStatus.RIGHT] * 2
+    assert len(compiler.models) == 3
+    (arm / "Resources" / "cover.stl").unlink()
+    assert codes(check()) == ["missing-resource"]
+    assert len(compiler.models) == 3
+
+
 # --- names ------------------------------------------------------------------------------------------------------------
 
 

@@ -134,6 +134,14 @@ class CheckResult(msgspec.Struct):
         """Add findings, each once."""
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
+    def take(self, models: CheckResult) -> None:
+        """Take over what compiling and comparing gave."""
+        for name in ("compiled", "deviations", "effects", "notes", "reference"):
+            setattr(self, name, getattr(models, name))
+        self.unchecked += models.unchecked
+        self.gaps += models.gaps
+        self.add(models.diagnostics)
+
     def status(self, strict: bool) -> CheckStatus:
         """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
         if self.failed:

@@ -29,45 +29,48 @@ def check_robot(
 ) -> CheckResult:
     """Check one robot; `tell` gets each step before it is done, `folder` is an empty one for copies of the package."""
     result, begin = CheckResult(robot.name, robot.target.package), time.monotonic()
+    progress = CheckProgress(robot.name, tell)
     try:
-        result = _check(config, robot, options, result, CheckProgress(robot.name, tell), folder)
+        progress.begin("reading the source and the package")
+        request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+        package = read_package(config, robot, request)
+        result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
+        result.diagnostics = package.source_diagnostics
+        progress.begin("checking files and names")
+        contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
+        uses = [name for name, _ in package.domain.uses(robot.options)]
+        needed = libraries.find_libraries(config, robot, contents, uses)
+        if reason := _check_texts(package, needed, result):
+            result.gaps = (f"nothing was compiled, since {reason}",)
+        elif needed.problem is not None:
+            if config.check.library is not None or options.physics:
+                result.add([needed.problem])
+            result.gaps = (f"nothing was compiled: {needed.problem.message}; {needed.problem.hint}",)
+        else:
+            result.take(_check_models(package, options, needed, contents, progress, folder))
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))
     result.seconds = time.monotonic() - begin
     return result
 
 
-def _check(
-    config: Config,
-    robot: RobotConfig,
+def _check_models(
+    package: CheckedPackage,
     options: CheckOptions,
-    result: CheckResult,
+    needed: libraries.Libraries,
+    contents: list[bytes],
     progress: CheckProgress,
     folder: Path,
 ) -> CheckResult:
-    """Fill the result, or return an earlier one: compiling takes 20 s for a six-axis arm, minutes for a humanoid."""
-    progress.begin("reading the source and the package")
-    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
-    package = read_package(config, robot, request)
-    result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
-    result.diagnostics = package.source_diagnostics
-    progress.begin("checking files and names")
-    cache, top = UserCache.default(), robot.target.package.partition(".")[0]
-    contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
-    uses = [name for name, _ in package.domain.uses(robot.options)]
-    needed = libraries.find_libraries(config, robot, contents, uses)
+    """Compile the package, and compare it if that is wanted; returns what came of that, perhaps from an earlier check.
+
+    It takes 20 s for a six-axis arm, minutes for a humanoid. `contents` are all texts of the package.
+    """
+    robot, cache = package.robot, UserCache.default()
     key = _result_key(package, options, needed)
     if known := cache.load(key, CheckResult):
         return known
-
-    if reason := _check_texts(package, needed, result):
-        result.gaps = (f"nothing was compiled, since {reason}",)
-        return result
-    if needed.problem is not None:
-        if config.check.library is not None or options.physics:
-            result.add([needed.problem])
-        result.gaps = (f"nothing was compiled: {needed.problem.message}; {needed.problem.hint}",)
-        return result
+    result, top = CheckResult(robot.name, robot.target.package), robot.target.package.partition(".")[0]
     contents += [text for path in needed.others.values() for text in libraries.library_texts(path).values()]
     copy = libraries.standard_library_copy(needed.standard, contents, cache)
     used = {**({LIBRARY: library_folder() / LIBRARY} if top != LIBRARY else {}), **needed.others}
@@ -78,7 +81,7 @@ def _check(
         if options.physics:
             result.gaps = (f"poses and efforts were not compared: `--tool {options.compiler}` only compiles",)
         else:
-            result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
+            result.unchecked = ("poses and efforts were not compared: `--physics` does that",)
         compilation.compile_all()
     result.compiled = tuple(sorted(result.compiled, key=lambda one: package.models.index(one.model)))
     if not (result.failed or result.gaps or result.differs):  # what is wrong or missing is looked at again
@@ -106,15 +109,14 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
 
 
 def _result_key(package: CheckedPackage, options: CheckOptions, needed: libraries.Libraries) -> str:
-    """SHA-256 (hex) over all that a check rests on."""
+    """SHA-256 (hex) over all that compiling and comparing a package rests on."""
     robot = package.robot
     return fingerprint(
         *(__version__, compilers.installed_version(options.compiler, "pin"), options.physics, options.compiler),
         *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
-        *(shown(robot.folder), package.irregular, package.source_diagnostics),
+        shown(robot.folder),  # findings name files as they are seen from the working folder
         needed.state(),
         *(sorted(files.items()) for files in (package.files.texts, package.generated, package.around)),
-        sorted(package.users_files.items()),
     )
 
 
