@@ -155,7 +155,7 @@ def test_a_record_that_is_left_out_stays_and_its_users_are_told_with_the_option(
     (project / "modelica" / "Bench.mo").write_text(BENCH)
     found = said(capsys, "build")
     assert f"modelica/{RECORD}: warning: the file is no longer generated; {option}" in found
-    assert f"modelica/Bench.mo:4: warning: `Arm.ArmParameters` is used here, and no longer generated; {option}" in found
+    assert f"modelica/Bench.mo:4: warning: `ArmParameters` is used here, and no longer generated; {option}" in found
     assert "modelica/Bench.mo:3: warning: `phi_start` is used here" in found
     assert "modelica/Bench.mo:8: warning: `robot.rotationalAxis` is used here" in found
     assert "frame_b" not in found  # that of the world

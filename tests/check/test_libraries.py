@@ -199,26 +199,26 @@ def names(folder: Path) -> set[str]:
 def test_what_robots_need_is_copied_and_all_if_more_is_named(
     text: str, whole: bool, small: StandardLibrary, cache: UserCache
 ) -> None:
-    copied = standard_library_copy(small, [text.encode()], cache)
+    copied = standard_library_copy(small.parts, [text.encode()], cache)
     partners = {"Complex.mo", "ModelicaServices/package.mo"}
     wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
     assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
 
 
 def test_a_copy_is_made_once_for_each_state(small: StandardLibrary, cache: UserCache) -> None:
-    first = standard_library_copy(small, (), cache)
+    first = standard_library_copy(small.parts, (), cache)
     (first / "mark").touch()
     os.utime(first, (0, 0))
     with ThreadPoolExecutor(8) as pool:
-        assert set(pool.map(lambda _: standard_library_copy(small, (), cache), range(8))) == {first}
+        assert set(pool.map(lambda _: standard_library_copy(small.parts, (), cache), range(8))) == {first}
     assert (first / "mark").exists()
     assert first.stat().st_mtime > 0, "its last use is noted"
     (small.parts["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
-    assert standard_library_copy(small, (), cache) != first
+    assert standard_library_copy(small.parts, (), cache) != first
 
 
 def test_a_library_without_what_robots_need_is_a_clear_error(tmp_path: Path, cache: UserCache) -> None:
     bare = find_standard_library({}, whole(tmp_path / "bare", "4.1.0"))
     with pytest.raises(LibraryError, match=r"is broken: there is no `Modelica\.Blocks` and no `Modelica\.Constants`"):
-        standard_library_copy(bare, (), cache)
+        standard_library_copy(bare.parts, (), cache)
     assert not cache.folder.exists()

@@ -188,5 +188,4 @@ def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.Monk
         program.write_text(f"#!/bin/sh\necho OpenModelica {version}\n")
         program.chmod(0o755)
         found.append(installed_version("omc"))
-        assert f"OpenModelica {version}" in found[-1]
     assert len(set(found)) == 3

@@ -10,8 +10,8 @@ import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
 
-from urdfsync.check.layout import check_around, check_layout
 from urdfsync.check.package import PackageFiles, package_texts
+from urdfsync.check.texts import check_around, check_layout
 from urdfsync.domain import Target
 
 LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"
@@ -286,6 +286,13 @@ def test_packages_and_libraries_around_are_sound() -> None:
 )
 def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
     assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
+
+
+def test_a_package_around_is_called_like_its_folder() -> None:
+    """A compiler would look for the robot's package in vain."""
+    found = around({"Plant/Robots/package.mo": "within Plant;\npackage Robot\nend Robot;\n"})
+    message = "the class is called `Robot`, but its folder `Robots`; give class and folder the same name"
+    assert found == [f"Plant/Robots/package.mo:2: error: {message} [wrong-name]"]
 
 
 def test_what_keeps_no_compiler_from_reading_files_around_is_not_said() -> None:

@@ -13,27 +13,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from urdfsync.modelica.lexer import lex
+
 LIBRARY = Path(__file__).parents[2] / "modelica" / "UrdfSync"
 
 Point = tuple[float, float]
 
-_TOKEN = re.compile(
-    r"""\s+ | //[^\n]* | /\*.*?\*/
-    | (?P<string>"(?:\\.|[^"\\])*")
-    | (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
-    | (?P<name>(?:[A-Za-z_]\w*|'[^']*')(?:\.[A-Za-z_]\w*)*)
-    | (?P<mark>.)""",
-    re.VERBOSE | re.DOTALL,
-)
 _CLOSING = {")", "}", "]", ",", ";"}
-
-
-@dataclasses.dataclass(frozen=True)
-class Token:
-    """A word of Modelica: its kind (string, number, name or mark) and its text."""
-
-    kind: str
-    text: str
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,50 +34,42 @@ class Call:
         return self.arguments.get(key, default)
 
 
-@functools.cache
-def tokens(text: str) -> tuple[Token, ...]:
-    """The words of a Modelica text, without white space and comments."""
-    return tuple(Token(match.lastgroup, match.group()) for match in _TOKEN.finditer(text) if match.lastgroup)
-
-
 class _Reader:
     """Reads values of annotations: numbers, strings, names, arrays, calls; other expressions as their text."""
 
-    def __init__(self, words: Sequence[Token], start: int = 0) -> None:
-        self._words = words
-        self._next = start
+    def __init__(self, words: Sequence[str], start: int) -> None:
+        self._words, self._next = words, start
 
     def value(self) -> Any:
         """The value that begins here."""
         start = self._next
         result = self._primary()
-        if self._peek() in _CLOSING:
-            return result
         depth = 0
         while depth or self._peek() not in _CLOSING:
-            depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(self._take().text, 0)
-        return " ".join(word.text for word in self._words[start : self._next])
+            depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(self._take(), 0)
+            result = " ".join(self._words[start : self._next])
+        return result
 
     def _primary(self) -> Any:
         word = self._take()
-        if word.kind == "number":
-            return float(word.text)
-        if word.kind == "string":
-            return word.text[1:-1].replace('\\"', '"').replace("\\\\", "\\")
-        if word.text == "-" and self._words[self._next].kind == "number":
-            return -float(self._take().text)
-        if word.text == "{":
+        if word[0].isdigit() or (word in "-." and self._peek()[:1].isdigit()):
+            return float(word if word[0].isdigit() else word + self._take())
+        if word[0] == '"':
+            return word[1:-1].replace('\\"', '"').replace("\\\\", "\\")
+        if word == "{":
             return [value for _, value in self._items("}")]
-        if word.kind == "name" and self._peek() == "(":
+        while self._peek() == ".":
+            word += self._take() + self._take()
+        if word[0].isalpha() and self._peek() == "(":
             self._take()
-            return Call(word.text, {key: value for key, value in self._items(")") if key})
-        return word.text
+            return Call(word, {key: value for key, value in self._items(")") if key})
+        return word
 
     def _items(self, end: str) -> Iterator[tuple[str, Any]]:
         while self._peek() != end:
             key = ""
-            if self._words[self._next].kind == "name" and self._words[self._next + 1].text == "=":
-                key = self._take().text
+            if self._words[self._next + 1] == "=":
+                key = self._take()
                 self._take()
             result = self.value()
             yield (key or (result.name if isinstance(result, Call) and end == ")" else "")), result
@@ -100,17 +78,17 @@ class _Reader:
         self._take()
 
     def _peek(self) -> str:
-        return self._words[self._next].text
+        return self._words[self._next]
 
-    def _take(self) -> Token:
+    def _take(self) -> str:
         self._next += 1
         return self._words[self._next - 1]
 
 
 def annotations_in(text: str) -> list[Call]:
     """Every `annotation (…)` of a Modelica text, in the order of the text."""
-    words = tokens(text)
-    return [_Reader(words, at).value() for at, word in enumerate(words) if word == Token("name", "annotation")]
+    words = [token.text for token in lex(text)[0]]
+    return [_Reader(words, at).value() for at, word in enumerate(words) if word == "annotation"]
 
 
 @dataclasses.dataclass(frozen=True)

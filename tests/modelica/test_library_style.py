@@ -1,4 +1,7 @@
-"""House rules of the Modelica library that no compiler checks, over every file that the library holds."""
+"""House rules of the Modelica library that no compiler checks, over every file that the library holds.
+
+That its layout is right, tests/check/test_package_layout.py says.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,6 @@ from typing import Any
 
 import pymoca.ast
 import pymoca.parser
-import pytest
 import rumoca
 from icons import LIBRARY, annotations_in
 from lxml import etree
@@ -54,15 +56,6 @@ def nested(node: Any) -> Iterator[Any]:
 
 
 @functools.cache
-def members(folder: Path) -> list[str]:
-    """What belongs into the folder's package: files, sub-packages, and what `package.mo` itself declares."""
-    files = [file.stem for file in folder.glob("*.mo") if file.name != "package.mo"]
-    packages = [path.parent.name for path in folder.glob("*/package.mo")]
-    node = parsed(folder / "package.mo")
-    return [*files, *packages, *node.classes, *node.symbols]
-
-
-@functools.cache
 def documentation(file: Path) -> str:
     """The documentation text of the file's class, empty if there is none."""
     notes = [note.get("Documentation") for note in annotations_in(text(file))]
@@ -88,28 +81,6 @@ def test_files_are_plain_text_with_a_final_newline() -> None:
         if found
     }
     assert faults == {}
-
-
-def test_within_and_class_name_follow_the_path() -> None:
-    faults = []
-    for file in FILES:
-        package, _, name = full_name(file).rpartition(".")
-        head = re.match(r"within (?P<package>[\w.]*) ?;\n\n", text(file))
-        short = re.search(rf"^type {name} = ", text(file), re.MULTILINE)
-        if not head or head["package"] != package or not (short or text(file).endswith(f"\nend {name};\n")):
-            faults.append(where(file))
-    assert faults == []
-
-
-def test_every_folder_with_classes_is_a_package() -> None:
-    assert [where(file) for file in FILES if not (file.parent / "package.mo").exists()] == []
-
-
-@pytest.mark.parametrize("folder", FOLDERS, ids=where)
-def test_package_order_lists_exactly_the_members_and_these_differ_by_more_than_case(folder: Path) -> None:
-    order = (folder / "package.order").read_text("utf-8").splitlines()
-    assert sorted(order) == sorted(members(folder))
-    assert len({name.casefold() for name in order}) == len(order)
 
 
 def test_every_class_has_a_description() -> None:

@@ -12,7 +12,7 @@ import pytest
 from urdfsync.check import libraries
 from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Stored, Unknown
+from urdfsync.modelica.scopes import ANYTHING, OPAQUE, Element, Missing, Node, Scopes
 from urdfsync.modelica.syntax import Name
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
@@ -109,10 +109,13 @@ class Texts:
 
     def __init__(self, *texts: str) -> None:
         found = [one for text in texts for one in parse(text).classes]
-        self.classes: dict[tuple[str, ...], Stored] = {(str(one.name),): Stored(one, f"{one.name}.mo") for one in found}
+        names = [(str(one.name),) for one in found]
+        self.classes: dict[tuple[str, ...], Node] = {
+            name: Node(one, name, f"{one.name}.mo") for name, one in zip(names, found, strict=True)
+        }
 
-    def stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
-        return UNKNOWN if name == ("Modelica",) else self.classes.get(name)
+    def stored(self, name: tuple[str, ...]) -> Node | None:
+        return OPAQUE if name == ("Modelica",) else self.classes.get(name)
 
     def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
         return [other[-1] for other in self.classes if other[:-1] == name]
@@ -221,12 +224,8 @@ def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
     assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
     assert told("Plant.Crane crane(redeclare User.Telescope boom);") == []
-    assert [
-        one.kind for one in found(PLANT, USER, "model M\n Plant.Test t(crane(redeclare Nowhere boom));\nend M;")
-    ] == [
-        UnresolvedKind.NESTED_REDECLARE,
-        UnresolvedKind.CLASS,
-    ]
+    both = found(PLANT, USER, "model M\n Plant.Test t(crane(redeclare Nowhere boom));\nend M;")
+    assert {one.kind for one in both} == {UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.CLASS}
 
 
 def test_a_modifier_by_a_name_with_dots_is_told_apart() -> None:
@@ -256,7 +255,7 @@ def test_what_a_name_means() -> None:
     assert isinstance(boom, Element)
     assert {str(one) for one in boom.types} == {"Plant.Links.Boom", "Plant.Parts.PartialPart", "User.Telescope"}
     assert isinstance(scopes.lookup(Name(("crane", "boom", "width"), 1), mine), Missing)
-    assert scopes.lookup(Name(("Modelica", "Constants", "pi"), 1), mine) is UNKNOWN
+    assert scopes.lookup(Name(("Modelica", "Constants", "pi"), 1), mine) is ANYTHING
 
 
 @pytest.mark.parametrize("text", [MARKED_PLANT, MARKED_USER], ids=["package", "user"])

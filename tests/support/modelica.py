@@ -66,8 +66,6 @@ class Outcome:
     """CPU time."""
     compiling: float
     """The part of it before the first run."""
-    megabytes: float
-    """Peak of the process so far."""
 
 
 def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Outcome]:
@@ -80,7 +78,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
     try:
         results = list(run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE))
     except CompilerError as error:
-        return [Outcome(str(error), 0, (), 0, 0, 0) for _ in todo]
+        return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
     return [_outcome(result) for result in results]
 
 
@@ -96,7 +94,7 @@ def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> l
 def standard(library: Path) -> str:
     """The folder with the part of the standard library in the folder `library` that robots need."""
     found = modelica_libraries.find_standard_library(os.environ, library)
-    return str(modelica_libraries.standard_library_copy(found, (), CACHE))
+    return str(modelica_libraries.standard_library_copy(found.parts, (), CACHE))
 
 
 def compile_task(model: str, *libraries: str) -> Task:
@@ -115,4 +113,4 @@ def _outcome(result: CompileResult) -> Outcome:
     for run in result.runs:
         values = {name: np.array(series) for name, series in run.values.items()}
         runs.append(Series(run.problem, values.pop("time", np.array([])), values))
-    return Outcome(result.problem, result.unknowns, tuple(runs), result.seconds, result.compiling, result.megabytes)
+    return Outcome(result.problem, result.unknowns, tuple(runs), result.seconds, result.compiling)

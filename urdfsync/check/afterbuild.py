@@ -6,7 +6,6 @@ an arm. One that is wrong is checked again after each build: whoever builds twic
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
@@ -46,20 +45,14 @@ class BuildChecker:
             texts = package.package_texts(robot.folder)
             around = package.files_around(self._config, robot, texts)
             users = package.users_files(self._config, robot)
-            top = robot.target.package.partition(".")[0]
             every = [*texts.values(), *around.values(), *users.values()]
-            used = libraries.needed_libraries(every, top, libraries.search_path(robot), ())
-            absent = ""
-            try:
-                used |= libraries.find_standard_library(os.environ, self._config.check.library).parts
-            except libraries.LibraryError as error:
-                absent = str(error)
-            states = [(name, str(path), libraries.library_state(path)) for name, path in used.items()]
+            needed = libraries.find_libraries(self._config, robot, every)
+            states = needed.state(), str(needed.problem)
         except (UrdfsyncError, OSError):
             return None
         return fingerprint(
             *(__version__, compilers.installed_version("rumoca"), robot.domain, robot.folder, robot.target),
-            *(states, absent, sorted(texts.items()), sorted(around.items()), sorted(users.items())),
+            *(states, sorted(texts.items()), sorted(around.items()), sorted(users.items())),
         )
 
     def known(self, key: str | None) -> BuildCheck | None:

@@ -10,11 +10,10 @@ import hashlib
 import os
 import shutil
 import tempfile
-import time
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import platformdirs
 import psutil
@@ -28,7 +27,6 @@ T = TypeVar("T")
 LIMIT = 2**30
 """Bytes on disk that the cache never grows past: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
-_GRACE = 3600.0  # s: a folder that was used since then stays, since checks may work with it
 
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
 _TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be deleted at any time.\n"
@@ -36,16 +34,6 @@ _TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be 
 
 class CacheError(UrdfsyncError):
     """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
-
-
-class _Entry(NamedTuple):
-    """A file or folder, which is deleted as a whole."""
-
-    path: Path
-    used: float
-    """When it was used last, in seconds of the system's clock."""
-    size: int
-    """Bytes on disk."""
 
 
 def fingerprint(*facts: object) -> str:
@@ -103,40 +91,44 @@ class UserCache:
             self.results.mkdir(mode=0o700, parents=True, exist_ok=True)
             put(self.results / f"{key}.json", to_text(value).encode())
 
-    def trim(self, limit: int = LIMIT) -> None:
-        """Delete what was used longest ago, if the cache comes near the limit. What can't be deleted now stays."""
-        entries = sorted(self._entries(), key=lambda entry: entry.used)
-        total = sum(entry.size for entry in entries)
-        surplus = total - _AFTER * limit if total > _FULL * limit else 0.0
-        recent = time.time() - _GRACE
-        for entry in entries:
-            in_use = entry.used > recent and entry.path.parent in (self.libraries, self.workspaces)
-            if surplus > 0 and not in_use:
-                _delete(entry.path)
-                surplus -= entry.size
+    def trim(self, limit: int = LIMIT) -> int:
+        """Delete what was used longest ago, if the cache comes near the limit; returns the bytes that came free.
+
+        Copies that running checks work with stay, and what can't be deleted now.
+        """
+        entries = sorted(self._entries())
+        total, busy, freed = sum(size for _, _, size in entries), self._busy(), 0
+        for _, path, size in entries if total > _FULL * limit else ():
+            in_use = path in busy or (busy and path.parent == self.libraries)
+            if total - freed > _AFTER * limit and not in_use:
+                _delete(path)
+                freed += 0 if os.path.lexists(path) else size
+        return freed
 
     def clear(self) -> int:
-        """Delete everything that is ours, but for what running checks work with; the bytes that came free.
+        """Delete everything that is ours, but for what running checks work with; returns the bytes that came free.
 
         What the compiler remembers goes in any case: it makes again what it misses.
         """
-        entries = list(self._entries())
-        users = {entry.path: entry.path.name.partition("-")[0] for entry in entries}
-        busy = [path for path, pid in users.items() if path.parent == self.workspaces and _is_alive(pid)]
-        kept = (*busy, *([self.libraries] if busy else []))
-        for entry in entries:
-            if entry.path not in kept and entry.path.parent not in kept:
-                _delete(entry.path)
-        for folder in () if busy else self._folders():
+        freed = self.trim(0)
+        for folder in () if self._busy() else self._folders():
             shutil.rmtree(folder, ignore_errors=True)  # locks of the compiler, and what is being made
-        return sum(entry.size for entry in entries if not os.path.lexists(entry.path))
+        return freed
+
+    def _busy(self) -> list[Path]:
+        """The folders that running checks work in."""
+        pids = {path: path.name.partition("-")[0] for path in self.workspaces.glob("*")}
+        return [path for path, pid in pids.items() if pid.isdecimal() and psutil.pid_exists(int(pid))]
 
     def _folders(self) -> list[Path]:
         folders = (self.libraries, self.workspaces, self.templates, self.results, self.compiler)
         return [folder for folder in folders if folder.is_dir() and not folder.is_symlink()]
 
-    def _entries(self) -> Iterator[_Entry]:
-        """What is deleted as a whole: what is in folders of ours, and each file of the compiler but for its locks."""
+    def _entries(self) -> Iterator[tuple[float, Path, int]]:
+        """What is deleted as a whole, with the time of its last use, and bytes on disk.
+
+        That is what is in folders of ours, and each file of the compiler but for its locks.
+        """
         for folder in self._folders():
             for path in folder.rglob("*") if folder == self.compiler else folder.iterdir():
                 is_folder = path.is_dir() and not path.is_symlink()
@@ -145,8 +137,9 @@ class UserCache:
                 with contextlib.suppress(OSError):  # it is gone: others trim too
                     note = path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
                     used = max(one.lstat().st_mtime for one in (path, note) if os.path.lexists(one))
-                    inside = (path, *(path.rglob("*") if is_folder else ()))
-                    yield _Entry(path, used, sum(_size(one) for one in inside))
+                    inside = [one.lstat() for one in (path, *(path.rglob("*") if is_folder else ()))]
+                    sizes = (max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in inside)
+                    yield used, path, sum(sizes)
 
 
 @contextlib.contextmanager
@@ -158,18 +151,6 @@ def cache_errors(folder: Path) -> Iterator[None]:
         message = f"the cache can't be written to: {error.strerror or error}"
         hint = "make room, or name another folder with XDG_CACHE_HOME"
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
-
-
-def _size(path: Path) -> int:
-    """Bytes on disk; 0 for what has just gone."""
-    with contextlib.suppress(OSError):
-        status = path.lstat()
-        return max(status.st_size, getattr(status, "st_blocks", 0) * 512)
-    return 0
-
-
-def _is_alive(pid: str) -> bool:
-    return pid.isdecimal() and psutil.pid_exists(int(pid))
 
 
 def _delete(path: Path) -> None:

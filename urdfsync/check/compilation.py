@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import shutil
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check import compilers, errors, physics
+from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache, cache_errors
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, compile_task
-from urdfsync.check.libraries import StandardLibrary
-from urdfsync.check.package import CheckedPackage, write_package
+from urdfsync.check.compilers.compiler import (
+    CompileJob,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    Simulation,
+    compile_task,
+)
+from urdfsync.check.package import CheckedPackage, PackageFiles, write_package
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
     CheckOptions,
@@ -25,29 +31,24 @@ from urdfsync.check.results import (
     CheckStep,
     CompiledModel,
     EditEffect,
+    agrees,
+    listed,
 )
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.config import shown
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.domain import Deviation, Experiment
+from urdfsync.output.phrases import counted
 
-Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
-"""The files of a package, and the tasks to do with it in one process."""
-
-
-class _Outcome(msgspec.Struct):
-    """What became of a job."""
-
-    results: list[CompileResult]
-    """Of the tasks, in their order; fewer if the compiler broke down."""
-    folders: Mapping[Path, Path]
-    """Folders that the compiler reads, and those that people know instead."""
-    diagnostics: tuple[Diagnostic, ...] = ()
-    """Why there are fewer."""
+_MOST_DIAGNOSTICS = 5
+_LONGEST_MESSAGE = 300
+_BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 
 class CheckProgress:
     """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
 
-    def __init__(self, result: CheckResult, tell: Callable[[CheckStep], None]) -> None:
-        self._result, self._tell = result, tell
+    def __init__(self, robot: str, tell: Callable[[CheckStep], None]) -> None:
+        self._robot, self._tell = robot, tell
         self._lock = threading.Lock()  # steps of several compilers must not mix
         self._begun, self.total = 0, 6
 
@@ -56,7 +57,7 @@ class CheckProgress:
         with self._lock:
             done = min(self._begun / self.total, 1.0)
             self._begun += 1
-            self._tell(CheckStep(f"{self._result.robot}: {what}", done, self._result))
+            self._tell(CheckStep(f"{self._robot}: {what}", done))
 
 
 class Compilation:
@@ -68,37 +69,30 @@ class Compilation:
         options: CheckOptions,
         result: CheckResult,
         progress: CheckProgress,
-        cache: UserCache,
         folder: Path,
-        standard: StandardLibrary,
-        standard_copy: Path,
+        standard: tuple[Path, Mapping[str, Path]],
         libraries: Mapping[str, Path],
     ) -> None:
-        """`folder` is for copies of the package; `libraries` are needed besides the Modelica Standard Library."""
-        self.compiler = compilers.COMPILERS[options.compiler]
+        """`folder` is for copies of the package.
+
+        `standard` is the folder with a copy of the Modelica Standard Library, and what it is a copy of; `libraries` are
+        needed besides.
+        """
         self._package, self._options, self._result, self._progress = package, options, result, progress
-        self._cache, self._folder, self._libraries = cache, folder, libraries
-        self._standard, self._standard_copy = standard, standard_copy
+        self._folder, (self._standard, parts), self._libraries = folder, standard, libraries
+        self._originals = {str(self._standard / name): path for name, path in parts.items() if path.suffix != ".mo"}
         self._users_models = package.files.models_not_in(package.generated)
-        models = (*package.models, *self._users_models)
-        self._tasks = {model: compile_task(f"{package.robot.target.package}.{model}") for model in models}
-        progress.total = 3 + len(models)
 
     def compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
-        count = max(1, min(self._options.compilers, len(self._package.models)))
-        parts = {f"package{k}": list(self._tasks)[k::count] for k in range(count)}
-        outcomes = self._run_all({label: self._job(models) for label, models in parts.items()})
-        for label, models in parts.items():
-            self._take(models, outcomes[label])
+        self._check(None, None)
 
     def compare(self) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
-        package, result, (main, *others) = self._package, self._result, self._tasks
-        files = package.meaningful_edits
+        package, result = self._package, self._result
         try:
-            experiment = physics.experiment(package, complete=True)
-            plain = physics.experiment(package, complete=False) if files else None
+            experiment = self._experiment(complete=True)
+            plain = self._experiment(complete=False) if package.edits else None
         except UrdfsyncError as error:
             result.add(error.diagnostics)
             self.compile_all()
@@ -107,81 +101,104 @@ class Compilation:
         result.unchecked += experiment.unchecked
         if package.on_disk and not package.in_step:
             result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
-        is_same = experiment.content == package.rendering.content
-        texts = package.generated if is_same else package.rendering.package(experiment.content)
-        move = [physics.moving_task(plain)] if plain else []
-        # Where the package is moved as it is on disk, its main model need not be compiled by itself.
-        is_moved = bool(plain) or (is_same and package.in_step and not package.edits)
-        models = others if is_moved else [main, *others]
-        self._progress.total += 1 + len(move)
-        moving = (texts, [physics.moving_task(experiment)])
-        outcomes = self._run_all({"generated": moving, "package": self._job(models, move)})
-        generated, said = self._series(outcomes["generated"])
-        result.add(said)
-        if generated is not None:
-            result.deviations = tuple(experiment.compare(generated))
-        edited, said = self._series(outcomes["package"]) if plain else (None, [])
-        if said:  # no fault of an edited package
-            result.gaps += (f"what edits do was not measured: {said[0].message}",)
-        self._take(models, outcomes["package"], len(move))
-        has_moved = is_moved and (edited if plain else generated) is not None
+        self._check(experiment, plain)
 
-        # The second round: what the first one asks for.
-        jobs = {"main": self._job([main])} if is_moved and not has_moved else {}
-        if edited is not None and not is_same:
-            jobs["baseline"] = (package.generated, move)
-        if edited is not None and 1 < len(files) <= MOST_SINGLE_EDITS:
+    def _check(self, experiment: Experiment | None, plain: Experiment | None) -> None:
+        """Compile all models, and move the main one by the experiments.
+
+        `experiment` is for the package as it is generated from a completed source, `plain` for the edited one.
+        """
+        package, result, files = self._package, self._result, self._package.edits
+        models = [*package.models, *self._users_models]
+        count = 1 if experiment else max(1, min(self._options.compilers, len(package.models)))
+        parts = {f"models{k}": models[k::count] for k in range(count)}
+        top = package.robot.target.package
+        jobs: dict[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]] = {
+            label: (package.files.texts, [compile_task(f"{top}.{model}") for model in part])
+            for label, part in parts.items()
+        }
+        is_same = experiment is not None and experiment.content == package.rendering.content
+        if experiment:
+            texts = package.generated if is_same else package.rendering.package(experiment.content)
+            jobs["completed"] = (texts, [_moving_task(experiment)])
+        if plain:
+            move = [_moving_task(plain)]
+            jobs["edited"] = (package.files.texts, move)
+            if not is_same:
+                jobs["generated"] = (package.generated, move)
             own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-            for file in files:
+            for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
                 jobs[file] = ({**package.generated, **own, file: package.on_disk[file]}, move)
-        outcomes = self._run_all(jobs)
-        if has_moved:
-            result.compiled += (CompiledModel(main, 0, 0),)
-        elif is_moved:
-            self._take([main], outcomes["main"])
-        baseline, said = self._series(outcomes["baseline"]) if "baseline" in jobs else (generated, [])
+
+        done = self._run_all(jobs)
+        for label, part in parts.items():
+            for model, one in zip(part, done[label], strict=False):
+                self._note(model, one)
+        if experiment is None:
+            return
+        completed, said = self._series(done["completed"])
         result.add(said)
-        owners = package.files.owners
-        cosmetic = [file for file in package.edits if file not in files]
-        result.effects = tuple(EditEffect((file,), (), (owners[file],)) for file in cosmetic)
-        if plain and baseline is not None and edited is not None:
-            moved = {file: self._series(outcomes[file])[0] for file in files if file in jobs}
-            single = {file: series for file, series in moved.items() if series is not None}
-            result.effects = (*physics.find_effects(package, plain, baseline, edited, single), *result.effects)
+        if completed is not None:
+            result.deviations = tuple(experiment.compare(completed))
+        whole: Sequence[Deviation] = ()
+        single: dict[str, Sequence[Deviation]] = {}
+        if plain is not None:
+            edited, faults = self._series(done["edited"])
+            generated, said = (completed, []) if is_same else self._series(done["generated"])
+            result.add(said)
+            if faults:  # no fault of an edited package
+                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+            if edited is None or generated is None:
+                return
+            whole = plain.compare(edited, generated)
+            moved = {file: self._series(done[file])[0] for file in files if file in jobs}
+            single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
+        result.effects = tuple(edit_effects(files, package.files.owners, whole, single))
 
-    def _job(self, models: Sequence[str], first: Sequence[CompileTask] = ()) -> Job:
-        """A job on the package as it is checked: some tasks, then models by themselves."""
-        return self._package.files.texts, [*first, *(self._tasks[model] for model in models)]
+    def _experiment(self, *, complete: bool) -> Experiment:
+        """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
+        robot, content = self._package.robot, self._package.rendering.content
+        found = self._package.domain.experiment(content, shown(robot.source), robot.target, robot.options, complete)
+        if found is None:
+            message = "nothing can be compared: there is no reference for this package"
+            raise OutputError(Diagnostic(Severity.ERROR, "no-reference", message, hint="check without `--physics`"))
+        return found
 
-    def _run_all(self, jobs: Mapping[str, Job]) -> dict[str, _Outcome]:
-        """Do jobs, some at the same time; both sides are by their labels."""
+    def _run_all(
+        self, jobs: Mapping[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]]
+    ) -> dict[str, list[CompileResult]]:
+        """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
+        self._progress.total = 3 + sum(len(tasks) for _, tasks in jobs.values())
+        done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._options.compilers) as pool:
-            outcomes = dict(zip(jobs, pool.map(self._run, jobs, jobs.values()), strict=True))
-        for outcome in outcomes.values():
-            self._result.add(outcome.diagnostics)
-            self._result.megabytes = max([self._result.megabytes, *(one.megabytes for one in outcome.results)])
-        return outcomes
+            futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
+            for label, future in futures.items():
+                try:
+                    done[label] = future.result()
+                except (UrdfsyncError, OSError) as error:
+                    done[label] = []
+                    self._result.add(findings_of(error))
+        return done
 
-    def _run(self, label: str, job: Job) -> _Outcome:
-        robot, parts, (texts, todo) = self._package.robot, self._standard.parts, job
-        copies = {self._standard_copy / name: path for name, path in parts.items() if path.suffix != ".mo"}
-        folder = self._folder / label.replace("/", "-")
-        outcome = _Outcome([], copies)
-        try:
-            with cache_errors(self._cache.folder):
-                top = write_package(folder, robot, texts, self._package.around)
-                roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
-            outcome.folders = {**copies, top: robot.output / top.name}
-            tasks = tuple(self._with_imports(task) for task in todo)
-            whole = CompileJob((str(self._standard_copy), *roots, str(top)), tasks)
-            with contextlib.closing(compilers.run_job(self._options.compiler, whole, self._cache)) as results:
-                for number, task in enumerate(tasks):
-                    what = task.title.removeprefix(f"{robot.target.package}.")
-                    self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
-                    outcome.results.append(next(results))
-        except (UrdfsyncError, OSError) as error:
-            outcome.diagnostics = findings_of(error)
-        return outcome
+    def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
+        """Do tasks with a package in a process. Problems name the files that people know, and not their copies."""
+        robot, cache, folder = self._package.robot, UserCache.default(), self._folder / label.replace("/", "-")
+        with cache_errors(cache.folder):
+            top = write_package(folder, robot, texts, self._package.around)
+            roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
+        originals = {**self._originals, str(top): robot.output / top.name}
+        job = CompileJob((str(self._standard), *roots, str(top)), tuple(map(self._with_imports, tasks)))
+        results = []
+        with contextlib.closing(compilers.run_job(self._options.compiler, job, cache)) as found:
+            for number, task in enumerate(tasks):
+                what = task.title.removeprefix(f"{robot.target.package}.")
+                self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
+                one = next(found)
+                problem = one.problem
+                for copy, original in originals.items():
+                    problem = problem.replace(copy, str(original))
+                results.append(msgspec.structs.replace(one, problem=problem))
+        return results
 
     def _with_imports(self, task: CompileTask) -> CompileTask:
         """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
@@ -189,42 +206,34 @@ class Compilation:
         imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
         return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
-    def _take(self, models: Sequence[str], outcome: _Outcome, skip: int = 0) -> None:
-        """Take note of models that were compiled by themselves, behind `skip` other tasks."""
-        for model, one in zip(models, outcome.results[skip:], strict=False):
-            is_users = model in self._users_models
-            if one.problem:
-                said = self._explain(one.problem, outcome, model)
-                if is_users:  # what does not compile by itself may be meant to be a part of something
-                    said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
-                self._result.add(said)
-            elif not is_users:
-                self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
+    def _note(self, model: str, one: CompileResult) -> None:
+        """Take note of a model that was compiled by itself."""
+        if one.problem:
+            said = self._explain(one.problem, model)
+            if model in self._users_models:  # it may be meant to be a part of something
+                said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
+            self._result.add(said)
+        elif model not in self._users_models:
+            self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
 
-    def _series(self, outcome: _Outcome) -> tuple[physics.Series | None, list[Diagnostic]]:
-        """The simulation that a job begins with; None, and why, if there is none."""
-        if not outcome.results:
+    def _series(
+        self, results: Sequence[CompileResult]
+    ) -> tuple[Mapping[str, Sequence[float]] | None, list[Diagnostic]]:
+        """The one simulation of a job; None, and why, if there is none."""
+        if not results:
             return None, []
-        result = outcome.results[0]
+        (result,) = results
         if result.problem:
-            return None, self._explain(result.problem, outcome, "the comparison")
+            return None, self._explain(result.problem, "")
         (run,) = result.runs
         if run.problem:
             message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
 
-    def _explain(self, problem: str, outcome: _Outcome, model: str) -> list[Diagnostic]:
-        complaints = self.compiler.complaints(problem)
-        return errors.explain(problem, complaints, self._package.files, outcome.folders, model)
-
-
-def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
-    """What an error says, that of the system included, as findings."""
-    if isinstance(error, UrdfsyncError):
-        return error.diagnostics
-    place = os.fsdecode(error.filename or "")
-    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)
+    def _explain(self, problem: str, model: str) -> list[Diagnostic]:
+        complaints = compilers.COMPILERS[self._options.compiler].complaints(problem)
+        return explain(problem, complaints, self._package.files, model)
 
 
 def _readable(path: Path, folder: Path) -> str:
@@ -237,3 +246,77 @@ def _readable(path: Path, folder: Path) -> str:
         (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
         return str(copy)
     return str(path)
+
+
+def _moving_task(experiment: Experiment) -> CompileTask:
+    """The task that moves a package as the experiment wants."""
+    probe = experiment.probe
+    run = Simulation(probe.stop, probe.step)
+    return CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")
+
+
+def edit_effects(
+    files: Sequence[str],
+    owners: Mapping[str, str],
+    whole: Sequence[Deviation],
+    single: Mapping[str, Sequence[Deviation]],
+) -> Iterator[EditEffect]:
+    """What the edits in `files` do, each apart where that can be told; what no single one does, the others do together.
+
+    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
+    """
+
+    def effect(files: Sequence[str], found: Sequence[Deviation]) -> EditEffect:
+        return EditEffect(tuple(files), tuple(found), tuple(dict.fromkeys(owners[file] for file in files)))
+
+    changes = [one for one in whole if not agrees(one)]
+    apart = {file: [one for one in found if not agrees(one)] for file, found in single.items()}
+    told = {(one.quantity, one.element, one.unit) for found in apart.values() for one in found}
+    rest = [one for one in changes if (one.quantity, one.element, one.unit) not in told]
+    quiet = [file for file in files if not apart.get(file)]
+    yield from (effect([file], found) for file, found in apart.items() if found)
+    if rest or quiet:
+        yield effect(quiet or files, rest)
+
+
+def explain(problem: str, complaints: Sequence[Complaint], package: PackageFiles, model: str = "") -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
+
+    `complaints` are what the text says, with the files that people know.
+    """
+    if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
+        equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
+        lacking = abs(equations - unknowns)
+        # without the name of the model, since the models around it lack as many, which need not be said again
+        message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
+        message += "many" if equations > unknowns else "few"
+        path = f"{model.replace('.', '/')}.mo"
+        is_users = path in package.texts and path not in package.owners
+        return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
+    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
+    return list(found)[:_MOST_DIAGNOSTICS]
+
+
+def _diagnostic(complaint: Complaint, package: PackageFiles, code: str) -> Diagnostic:
+    """One complaint; where the compiler does not say where it is, perhaps in the edited file, if there is one."""
+    file, message = Path(complaint.file), complaint.message.removesuffix(".")
+    message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
+    edited = [shown(package.folder / path) for path in sorted(package.edited)]
+    look = f"look at {listed(edited)}, which {'was' if len(edited) == 1 else 'were'} edited" if edited else ""
+    place = complaint.line, complaint.column
+    if file.is_absolute() and file.is_relative_to(package.folder):
+        path = file.relative_to(package.folder).as_posix().removeprefix(".")
+        return package.diagnostic(Severity.ERROR, code, message, path, *place, hint=package.by_hand(path) or look)
+    if file.is_absolute():
+        return Diagnostic(Severity.ERROR, code, message, shown(file), *place, hint=look)
+    where = edited[0] if len(edited) == 1 else shown(package.folder)
+    return Diagnostic(Severity.ERROR, code, message, where, hint=look)
+
+
+def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
+    """What an error says, that of the system included, as findings."""
+    if isinstance(error, UrdfsyncError):
+        return error.diagnostics
+    place = os.fsdecode(error.filename or "")
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)

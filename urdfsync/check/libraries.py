@@ -6,7 +6,6 @@ import hashlib
 import os
 import re
 import shutil
-import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -16,7 +15,7 @@ import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, fingerprint
 from urdfsync.check.package import package_texts
-from urdfsync.config import RobotConfig
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY
 
@@ -39,6 +38,7 @@ _COPY_REVISION = 2  # raised when other parts are copied
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+_LIBRARY_NAME = re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?(\w+)|(?<![\w.\])'])\.?\b(\w+)\s*\.")
 _STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
 _STANDARD_ALIAS = re.compile(rb"=\s*Modelica\s*;")
 _HINT = (
@@ -72,17 +72,16 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     for place in [configured] if configured else library_folders(environment):
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
-            for name in STANDARD[1:]:  # of the same version, else of one that is near
+            for name in STANDARD[1:]:  # of the same version, else the newest
                 others = _versions(place, name)
-                same = [other for number, other in others if number == version]
-                near = [other for number, other in others if number[:1] in (version[:1], ())]
-                parts |= {name: (same or near)[0]} if same or near else {}
+                if others:
+                    parts[name] = dict(others).get(version, others[0][1])
             if len(parts) == len(STANDARD):
                 found.append(StandardLibrary(version, parts))
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
-    code, message = "no-standard-library", "there is no Modelica Standard Library"
+    code, message, hint = "no-standard-library", "there is no Modelica Standard Library", _HINT
     if found:
         place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
         code, oldest = "standard-library-too-old", ".".join(map(str, OLDEST))
@@ -90,8 +89,8 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     if configured:
         code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
         if (configured / "package.mo").is_file():
-            raise LibraryError(code, message, f"name the folder around it: {configured.parent}")
-    raise LibraryError(code, message, _HINT)
+            hint = f"name the folder around it: {configured.parent}"
+    raise LibraryError(code, message, hint)
 
 
 def library_folders(environment: Mapping[str, str]) -> list[Path]:
@@ -103,19 +102,42 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
     homes = [Path(os.path.expanduser("~")), *paths("APPDATA")]  # noqa: PTH111 - Path.home() fails without a home
     own = [home / ".openmodelica" / "libraries" for home in homes]
     installed = [path / "lib" / "omlibrary" for path in paths("OPENMODELICAHOME")]
-    if sys.platform != "win32":
-        installed += [Path("/usr/lib/omlibrary"), Path("/opt/openmodelica/lib/omlibrary")]
+    installed += [Path("/usr/lib/omlibrary"), Path("/opt/openmodelica/lib/omlibrary")]
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
-
-
-def search_path(robot: RobotConfig) -> list[Path]:
-    """The folders in which the libraries of a robot's package are looked for: the one of its package comes first."""
-    return [robot.output, *library_folders(os.environ)]
 
 
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
     """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
+
+
+class Libraries(msgspec.Struct, frozen=True):
+    """The libraries that a package needs, but for UrdfSync."""
+
+    standard: Mapping[str, Path]
+    """The Modelica Standard Library; empty if there is none that suits."""
+    others: Mapping[str, Path]
+    problem: Diagnostic | None = None
+    """Why there is no Modelica Standard Library."""
+
+    def state(self) -> list[tuple[str, str, str]]:
+        """What changes whenever one of them does."""
+        return [(name, str(path), library_state(path)) for name, path in {**self.others, **self.standard}.items()]
+
+
+def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], wanted: Iterable[str] = ()) -> Libraries:
+    """The libraries that the texts of a robot's package need, and `wanted` ones. Raises OutputError."""
+    top, places = robot.target.package.partition(".")[0], search_path(robot)
+    others = needed_libraries(texts, top, places, wanted)
+    try:
+        return Libraries(find_standard_library(os.environ, config.check.library).parts, others)
+    except LibraryError as error:
+        return Libraries({}, others, error.diagnostics[0])
+
+
+def search_path(robot: RobotConfig) -> list[Path]:
+    """The folders in which the libraries of a robot's package are looked for: the one of its package comes first."""
+    return [robot.output, *library_folders(os.environ)]
 
 
 def needed_libraries(
@@ -126,22 +148,17 @@ def needed_libraries(
     A library is named in an import, or where its name and a dot begin a name; components of something else do not
     count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
     """
-    names = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
-    patterns = {}
-    for name in names - {top, LIBRARY, *STANDARD}:
-        word = re.escape(os.fsencode(name))
-        use = rb"\bimport\s+(?:\w+\s*=\s*)?\.?" + word + rb"\s*[.;]|(?<![\w.\])'])\.?\b" + word + rb"\s*\."
-        patterns[name] = re.compile(use)
-    found: dict[str, Path] = {}
-    named, waiting = patterns.keys() & {*wanted}, [_NOISE.sub(b"", text) for text in texts]
+    known = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
+    known -= {top, LIBRARY, *STANDARD}
+    named, waiting, found = set(wanted), list(texts), dict[str, Path]()
     while named or waiting:
-        for name in sorted(named):
-            del patterns[name]
+        for name in sorted(named & known):
+            known.remove(name)
             if path := find_library(name, places):
                 found[name] = path
-                waiting += [_NOISE.sub(b"", text) for text in library_texts(path).values()]
-        code = waiting.pop() if waiting else b""
-        named = {name for name, pattern in patterns.items() if pattern.search(code)}
+                waiting += library_texts(path).values()
+        code = _NOISE.sub(b"", waiting.pop()) if waiting else b""
+        named = {os.fsdecode(word) for match in _LIBRARY_NAME.finditer(code) for word in match.groups() if word}
     return dict(sorted(found.items()))
 
 
@@ -166,21 +183,21 @@ def library_state(path: Path) -> str:
     return total.hexdigest()
 
 
-def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cache: UserCache) -> Path:
+def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
     """A copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
 
     It is made once for each state of the library. The whole is copied as well, without its resources: the compiler
     wants all parts in one folder, and would read all that is in this one. Raises CacheError, or LibraryError for a
     library that lacks what robots need.
     """
-    modelica = library.parts["Modelica"]
+    modelica = parts["Modelica"]
     paths = [modelica.joinpath(*part) for part in _COPIED]
     if missing := [path for path in paths if not (path.is_dir() or path.with_name(f"{path.name}.mo").is_file())]:
         names = " and no ".join(f"`Modelica.{'.'.join(path.relative_to(modelica).parts)}`" for path in missing[:3])
         message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
         raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
-    key = fingerprint(_COPY_REVISION, sorted(map(library_state, library.parts.values())))[:16]
+    key = fingerprint(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
 
     def ignored(folder: str, names: list[str]) -> set[str]:
@@ -200,7 +217,7 @@ def standard_library_copy(library: StandardLibrary, texts: Iterable[bytes], cach
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
                 made = Path(folder) / "library"
                 made.mkdir()
-                for name, path in library.parts.items():
+                for name, path in parts.items():
                     if path.suffix == ".mo":
                         shutil.copyfile(path, made / f"{name}.mo")
                     else:

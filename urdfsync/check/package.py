@@ -9,8 +9,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -23,11 +22,8 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
 from urdfsync.modelica.files import files_that_use, has_word
-from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
-
-_URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
 class PackageFiles(msgspec.Struct, frozen=True):
@@ -74,7 +70,6 @@ class PackageFiles(msgspec.Struct, frozen=True):
 class CheckedPackage(msgspec.Struct):
     """One robot as it is now."""
 
-    config: Config
     robot: RobotConfig
     domain: Domain
     rendering: Rendering
@@ -99,8 +94,6 @@ class CheckedPackage(msgspec.Struct):
     """The classes that have to compile by themselves, by their names below the package, the main one first."""
     edits: tuple[str, ...]
     """The edited files that have a part in the main model."""
-    meaningful_edits: tuple[str, ...]
-    """Those of them in which more than comments and blanks differ."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> CheckedPackage:
@@ -124,7 +117,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     edited = edited_files(generated, on_disk) if in_step else []
     edits = tuple(path for path in edited if path not in benches)
     return CheckedPackage(
-        config=config,
         robot=robot,
         domain=domain,
         rendering=rendering,
@@ -139,7 +131,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         users_files=users_files(config, robot),
         models=models,
         edits=edits,
-        meaningful_edits=tuple(path for path in edits if _words(generated[path]) != _words(on_disk[path])),
     )
 
 
@@ -147,27 +138,6 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
     """The Modelica files that differ from what is generated, by their path below the package."""
     paths = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
     return [path for path in paths if normalised(on_disk[path]) != generated[path]]
-
-
-def _words(text: bytes) -> list[str]:
-    """What a text says but for comments, blanks and ends of line."""
-    return [token.text for token in lex(text.decode(errors="replace"))[0]]
-
-
-def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
-    """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
-    own, output = package.robot.target.package, package.robot.output
-    hint = "`urdfsync build` brings back what it imported; else put the file there"
-    for path in sorted(package.on_disk):
-        text, addresses = package.files.text(path), set[str]()
-        for found in _URI.finditer(text):
-            top, folder = found[1], output.joinpath(*found[1].split("."))
-            is_ours = f"{own}.".startswith(f"{top}.") or top.startswith(f"{own}.")
-            if is_ours and folder.is_dir() and found[0] not in addresses and not (folder / found[2]).exists():
-                addresses.add(found[0])
-                line = text.count("\n", 0, found.start()) + 1
-                message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
-                yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
 
 
 def holds_class(path: PurePosixPath) -> bool:

@@ -111,7 +111,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """From beginning to end."""
     megabytes: float = 0.0
-    """Peak memory of a process that worked for it."""
+    """The most memory that its processes took together, looked at ten times a second."""
     reference: str = ""
     """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
 
@@ -134,6 +134,14 @@ class CheckResult(msgspec.Struct):
         """Add findings, each once."""
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
+    def take(self, models: CheckResult) -> None:
+        """Take over what compiling and comparing gave."""
+        for name in ("compiled", "deviations", "effects", "notes", "reference"):
+            setattr(self, name, getattr(models, name))
+        self.unchecked += models.unchecked
+        self.gaps += models.gaps
+        self.add(models.diagnostics)
+
     def status(self, strict: bool) -> CheckStatus:
         """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
         if self.failed:
@@ -144,13 +152,12 @@ class CheckResult(msgspec.Struct):
 
 
 class CheckStep(msgspec.Struct, frozen=True):
-    """What is being done, how far the check of the robot is (0 to 1), and what is known so far."""
+    """What is being done, and how far the check of the robot is (0 to 1)."""
 
     what: str
     done: float
-    result: CheckResult
-    is_last: bool = False
-    """Whether nothing more comes after this result."""
+    result: CheckResult | None = None
+    """What came out, with the last step."""
 
 
 def to_text(value: Any) -> str:
@@ -181,3 +188,10 @@ def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
         return Exit.ERROR
     wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
     return Exit.OUT_OF_STEP if found & wrong else Exit.IN_STEP
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
+    if len(names) > 3:
+        names = [*names[:2], f"{len(names) - 2} more"]
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)

@@ -14,7 +14,7 @@ import threading
 import time
 from collections.abc import Collection, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from typing import IO, cast
+from typing import IO
 
 import msgspec
 import psutil
@@ -28,7 +28,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
 from urdfsync.engine.pool import connect_cluster
 
-COMMAND = tuple(processes.python_module("urdfsync.check"))
+COMMAND = tuple(processes.python_module("urdfsync.check.robot"))
 """Starts the process that checks one robot."""
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9
@@ -89,12 +89,16 @@ def check_robots(
                 if cluster:
                     futures[order.robot] = pool.submit(check_on_worker, order)
                 else:
-                    futures[order.robot] = pool.submit(
-                        _check, order, budget / count, steps, stopped, is_alone=count == 1
-                    )
+                    limits = budget / count, steps, stopped
+                    futures[order.robot] = pool.submit(_check, order, *limits, is_alone=count == 1)
             for order in orders:
                 await_all([futures[order.robot]])
-                while (result := _result(futures[order.robot], order, cluster)) is None:  # too little memory was left
+                error = futures[order.robot].exception()
+                if cluster and error:  # a worker is lost in one of many ways
+                    found = _failure(order, "check-crashed", f"the worker is lost: {error!r}", "try again")
+                    yield CheckResult(order.robot, order.package, diagnostics=(found,))
+                    continue
+                while (result := futures[order.robot].result()) is None:  # too little memory was left beside others
                     await_all(futures.values())
                     futures[order.robot] = pool.submit(_check, order, budget, steps, stopped, is_alone=True)
                     await_all([futures[order.robot]])
@@ -104,16 +108,6 @@ def check_robots(
             stopped.set()
             for future in futures.values():
                 future.cancel()
-
-
-def _result(future: Future[CheckResult | None], order: RobotOrder, cluster: Executor | None) -> CheckResult | None:
-    if cluster is None:
-        return future.result()
-    try:
-        return future.result()
-    except Exception as error:  # noqa: BLE001 - a worker is lost in one of many ways
-        found = _failure(order, "check-crashed", f"the worker that checked it is lost: {error!r}", "try again")
-        return CheckResult(order.robot, order.package, diagnostics=(found,))
 
 
 def check_on_worker(order: RobotOrder) -> CheckResult | None:
@@ -131,10 +125,10 @@ def _check(
     nothing that the process started is left.
     """
     name, limit = order.robot, order.options.timeout
-    steps[name] = CheckStep("", 0.0, CheckResult(name, order.package))
-    fault, deadline = None, time.monotonic() + limit
+    steps[name] = CheckStep("", 0.0)
+    fault, peak, deadline = None, 0, time.monotonic() + limit
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
-        process = subprocess.Popen(  # noqa: S603 - a command of ours
+        process = psutil.Popen(
             COMMAND,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -142,47 +136,47 @@ def _check(
             env={**os.environ, **processes.importable()},
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends this process
         )
-        stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
-        reader = threading.Thread(target=_read_steps, args=(stdout, steps, order), daemon=True)
+        reader = threading.Thread(target=_read_steps, args=(process.stdout, steps, order), daemon=True)
         reader.start()
         try:
             with contextlib.suppress(OSError):  # it has ended, and its exit code says why
-                stdin.write(to_text(msgspec.structs.replace(order, workspace=str(workspace))).encode() + b"\n")
-                stdin.flush()
+                text = to_text(msgspec.structs.replace(order, workspace=str(workspace)))
+                process.stdin.write(text.encode() + b"\n")
+                process.stdin.flush()
             while fault is None and not stopped.is_set():
-                with contextlib.suppress(subprocess.TimeoutExpired):
+                with contextlib.suppress(psutil.TimeoutExpired):
                     process.wait(_INTERVAL)
                     break
                 used = sum(_memory(one) for one in _family(process))
+                peak = max(peak, used)
                 if time.monotonic() >= deadline:
                     hint = "allow more with `urdfsync check --timeout`"
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
                 elif used > memory and not is_alone:
-                    steps[name] = CheckStep(f"{name}: waits for more memory", 0.0, CheckResult(name, order.package))
+                    steps[name] = CheckStep(f"{name}: waits for more memory", 0.0)
                     return None
                 elif used > memory:
                     message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
         finally:
-            family = _family(process)
-            process.kill()
-            for one in family:
+            for one in _family(process):
                 with contextlib.suppress(psutil.Error):
                     one.kill()
             process.wait()
             with contextlib.suppress(OSError):  # what it did not read is lost
-                stdin.close()
+                process.stdin.close()
             reader.join(_PATIENCE)
         errors.seek(0)
         words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
-    step = steps[name]
-    if fault is None and not stopped.is_set() and (process.returncode or not step.is_last):
+    result = steps[name].result or CheckResult(name, order.package)
+    if fault is None and not stopped.is_set() and (process.returncode or steps[name].result is None):
         message = ": ".join([f"its process ended with {processes.exit_cause(process.returncode)}", *words])
         fault = _failure(order, "check-crashed", message, "report it, with the source")
     if fault:
-        step.result.add([fault])
-    return step.result
+        result.add([fault])
+    result.megabytes = peak / 1e6
+    return result
 
 
 def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrder) -> None:
@@ -199,12 +193,11 @@ def _memory(process: psutil.Process) -> int:
     return 0
 
 
-def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
-    """A process and all that it started; nothing if it has ended."""
+def _family(process: psutil.Popen) -> list[psutil.Process]:
+    """A process and all that it started; itself alone if it has ended."""
     with contextlib.suppress(psutil.Error):
-        first = psutil.Process(process.pid)
-        return [first, *first.children(recursive=True)]
-    return []
+        return [process, *process.children(recursive=True)]
+    return [process]
 
 
 def _failure(order: RobotOrder, code: str, message: str, hint: str) -> Diagnostic:

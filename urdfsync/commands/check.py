@@ -6,7 +6,7 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from rich.filesize import decimal
 
@@ -14,11 +14,11 @@ from urdfsync import config
 from urdfsync.check import run as run_checks
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import COMPILERS
-from urdfsync.check.report import CheckReport, to_json
-from urdfsync.check.results import CheckOptions, CheckResult, exit_code
+from urdfsync.check.report import closing_lines, robot_lines, to_json
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.commands import arguments
 from urdfsync.outcome import Exit
-from urdfsync.output.console import Console, line, rich_console
+from urdfsync.output.console import Console, has_marks, line
 
 _CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
 """Fields of `CheckOptions` that the user may set."""
@@ -71,29 +71,27 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
     options = CheckOptions(package_paths=config.ros_package_path(os.environ), **chosen)
     found = run_checks.check_robots(configuration, robots, options, console.progress)
-    results = show_results(console, found, [robot.name for robot in robots], args.strict)
+    results = show_results(console, found, args.strict)
     code = exit_code(results, args.strict)
     console.end("check", code)
     return code
 
 
-def show_results(
-    console: Console, found: Iterable[CheckResult], robots: Sequence[str], strict: bool
-) -> list[CheckResult]:
+def show_results(console: Console, found: Iterable[CheckResult], strict: bool) -> list[CheckResult]:
     """Show each result as it comes, then what holds for all, as far as the command comes; returns them."""
-    report = CheckReport(rich_console(sys.stdout), robots, strict=strict, verbose=console.verbose, quiet=console.quiet)
     results: list[CheckResult] = []
+    marks = has_marks(sys.stdout)
     try:
         for result in found:
             results.append(result)
             if console.json:
                 console.add_robot(to_json(result, strict))
-            else:
-                console.print(report.lines(result))
-                console.findings(result.diagnostics)
+            elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
+                console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
+            console.findings(result.diagnostics)
     finally:
-        if results and not console.json:
-            console.print(report.end())
+        if not console.json and not console.quiet:
+            console.print(closing_lines(results, strict=strict))
     return results
 
 

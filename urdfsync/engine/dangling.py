@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TypeAlias
 
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -14,35 +13,38 @@ from urdfsync.domain import Target
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
-from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import Element, Node, Scopes, Type
+from urdfsync.modelica.scopes import Element, Scopes, Type
 from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 from urdfsync.state.record import RecordState
-
-Name: TypeAlias = tuple[str, ...]
 
 _EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
 _STAYING = frozenset({Kind.NEEDED, Kind.ORPHAN})
 """What happens to files that stay although they are no longer generated."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
+_LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 
 
 class DanglingNames:
     """The names that a package loses with a build, and their uses."""
 
     def __init__(self, generation: Generation) -> None:
-        self._generation, self._files = generation, generation.inputs.files
+        self._generation, self._inputs, self._files = generation, generation.inputs, generation.inputs.files
         self._package = generation.inputs.robot.target.package
 
     @functools.cached_property
     def lost(self) -> dict[str, str]:
-        """The names that the package loses, with their new names."""
-        generation, inputs, recorded = self._generation, self._generation.inputs, self._generation.inputs.recorded
+        """The names that the package loses, with their new names; empty if there is none.
+
+        A name is lost if an old text declares it, and no new one, also not in the class around it. What a class
+        inherits now is not lost.
+        """
+        generation, inputs, recorded = self._generation, self._inputs, self._inputs.recorded
         before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
         if recorded is None or not before:
             return {}
@@ -52,14 +54,18 @@ class DanglingNames:
             for path in generation.package.artifacts
             if path in generation.changed or states.get(path) in (None, RecordState.WAITING, RecordState.CONFLICT)
         }
-        found = lost_names(before, now, self._renamed_identifiers(), self._is_inherited)
+        new = _declared(now)
+        gone = {path for path in _declared(before) - new if not self._is_inherited(path)}
+        names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
+        known, renamed = {path[-1] for path in new}, self._renamed_identifiers()
+        found = {name: _new_name(name, renamed, known) for name in sorted(names)}
         if recorded.package != self._package:
             found[recorded.package.rpartition(".")[2]] = self._package
         return found
 
     def _renamed_identifiers(self) -> dict[str, str]:
-        """Return old and new identifiers of elements since the last complete build."""
-        inputs, changes = self._generation.inputs, self._generation.changes_since_complete
+        """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
+        inputs, changes = self._inputs, self._generation.changes_since_complete
         complete, recorded, found = inputs.last_complete, inputs.recorded, {}
         if complete is None or recorded is None:
             return {}
@@ -74,17 +80,18 @@ class DanglingNames:
             for name, identifier in identifiers.items():
                 now = changes.renames.get((kind.removesuffix("s"), name), name) if changes else name
                 found[identifier] = new.get(kind, {}).get(now, identifier)
-        return {before: after for before, after in found.items() if before != after}
+        longest_first = sorted(found.items(), key=lambda pair: -len(pair[0]))
+        return {before: after for before, after in longest_first if before != after}
 
     @functools.cached_property
     def _generated(self) -> Scopes:
         """The package as it is generated, without edits."""
         return Scopes(self._planned({}, {}))
 
-    def _is_inherited(self, path: Name) -> bool:
+    def _is_inherited(self, path: ClassName) -> bool:
         """Whether a class has an element because it extends another one; `path` counts from the package."""
         node = self._generated.node((*self._package.split("."), *path[:-1]))
-        return isinstance(node, Node) and isinstance(self._generated.part((Type(node),), path[-1]), Element)
+        return node is not None and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
     def first_use(self, key: str, text: str) -> tuple[str, int] | None:
         """Return the first lost name in a text for a file of the package, with its line; None if there is none."""
@@ -98,7 +105,7 @@ class DanglingNames:
 
         `written` are texts that files are about to get.
         """
-        inputs, files, recorded = self._generation.inputs, self._files, self._generation.inputs.recorded
+        inputs, files, recorded = self._inputs, self._files, self._inputs.recorded
         if recorded is None:
             return []
         known = {action.path: action for action in actions}
@@ -106,66 +113,70 @@ class DanglingNames:
         own = files.classes(inputs.folder) - known.keys()
         mine = {key: written.get(key) or files.any_text(key) for key in sorted(edited | own)}
         around = files.users_files({inputs.folder, recorded.folder})
-        target, options = Target(recorded.package, recorded.class_), inputs.robot.options
-        gone = sorted(self._generation.rewritten.keys() - self._generation.package.artifacts.keys())
-        left_out = {path: option for path in gone if (option := inputs.domain.option_for(path, target, options))}
-        found = []
-        for path, option in left_out.items():
-            action = known.get(inputs.old_key(path))
-            if action and action.kind is Kind.ORPHAN:
-                found.append(_left_out("the file is no longer generated", files.path(action.path), 0, option))
-        if left_out and (mine or around):
-            names = {_class_of(path): option for path, option in left_out.items()}
-            sources = self._planned(mine, around)
-            scopes = Scopes(sources)
-            for name, file, text in self._users_classes(mine, sources):
-                uses = {use.part: use for use in reversed(find_uses(name, text, scopes, names, names))}
-                for use in uses.values():
-                    message = f"`{use.name}` is used here, and no longer generated"
-                    found.append(_left_out(message, file, use.line, names[use.part]))
+        found = list(self._left_out(known, mine, around))
         if not self.lost or not (mine or around):
             return found
         staying = {path: files.any_text(path) for path, action in known.items() if action.kind in _STAYING}
         doubtful = self.lost.keys() - {_class_of(path) for path in staying}
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
-        unread = [((), file, around[file].decode(errors="replace")) for file in sources.unread]
-        for name, file, text in (*self._users_classes(mine, sources), *unread):
-            lines: dict[str, list[Unresolved]] = {}
-            for use in self._uses(name, text, scopes, doubtful):
-                lines.setdefault(use.part, []).append(use)
-            for part, (first, *rest) in lines.items():
+        classes = [(self._class_name(key), files.path(key), text) for key, text in mine.items()]
+        classes += [(name, Path(one.file), "") for name, one in sources.users.items()]
+        classes += [((), file, around[file].decode(errors="replace")) for file in sources.unread]
+        for name, file, text in classes:
+            uses = self._uses(name, text, scopes, doubtful)
+            for part in dict.fromkeys(use.part for use in uses):
+                first, *others = [use for use in uses if use.part == part]
                 message = f"`{first.name}` is used here, but the package has no `{part}` any more"
-                new, others = self.lost[part], sorted({use.line for use in rest} - {first.line})
+                new, lines = self.lost[part], sorted({use.line for use in others} - {first.line})
                 hint = f"it is `{new}` now" if new else "adapt your text to what the package is now"
-                hint += (
-                    f"; also in line{'s' if len(others) > 1 else ''} {', '.join(map(str, others))}" if others else ""
-                )
-                place = shown(file), first.line
-                found.append(Diagnostic(Severity.WARNING, "vanished-name", message, *place, hint=hint))
+                if lines:
+                    hint += f"; also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}"
+                found.append(Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first.line, hint=hint))
         return found
 
-    def _users_classes(self, mine: Mapping[str, str], sources: StoredClasses) -> list[tuple[Name, Path, str]]:
-        """Return the classes of the user's to look at: full name, file, and the text if it is one of the package."""
-        own = [(self._class_name(key), self._files.path(key), text) for key, text in mine.items()]
-        return own + [(name, Path(one.file), "") for name, one in sources.users.items()]
+    def _left_out(
+        self, actions: Mapping[str, Action], mine: Mapping[str, str], around: Mapping[Path, bytes]
+    ) -> Iterator[Diagnostic]:
+        """Yield files that an option leaves out now, where the user edited or uses them."""
+        inputs, recorded = self._inputs, self._inputs.recorded
+        target = Target(recorded.package, recorded.class_) if recorded else inputs.robot.target
+        texts = {self._files.path(key): text for key, text in mine.items()}
+        texts |= {file: content.decode(errors="replace") for file, content in around.items()}
+        for path in sorted(self._generation.rewritten.keys() - self._generation.package.artifacts.keys()):
+            option = inputs.domain.option_for(path, target, inputs.robot.options)
+            if not option:
+                continue
+            hint = f"`{option}` in the configuration keeps it up to date"
+            action = actions.get(inputs.old_key(path))
+            if action and action.kind is Kind.ORPHAN:
+                place, message = shown(self._files.path(action.path)), "the file is no longer generated"
+                yield Diagnostic(Severity.WARNING, "left-out", message, place, hint=hint)
+            for file, text in texts.items():
+                line = next((token.line for token in lex(text)[0] if token.text == _class_of(path)), 0)
+                if line:
+                    message = f"`{_class_of(path)}` is used here, and no longer generated"
+                    yield Diagnostic(Severity.WARNING, "left-out", message, shown(file), line, hint=hint)
 
-    def _uses(self, name: Name, text: str, scopes: Scopes, doubtful: Collection[str]) -> list[Unresolved]:
-        """As `find_uses`, without what the generated text of the class says, too: that is in order."""
-        uses = find_uses(name, text, scopes, self.lost, doubtful)
-        generated = {self._class_name(self._generation.inputs.key(path)) for path in self._generation.package.artifacts}
-        if not uses or name not in generated:
-            return uses
-        fine = {use.name for use in find_uses(name, "", self._generated, self.lost, doubtful)}
-        return [use for use in uses if use.name not in fine]
+    def _uses(self, name: ClassName, text: str, scopes: Scopes, doubtful: Collection[str]) -> list[Unresolved]:
+        """Return the places in a stored class that use lost names and mean nothing, in their order.
+
+        `text` is that of its file: if that is no Modelica, lost names count wherever they stand. Where a class on the
+        way can't be read, `doubtful` names count as meaning nothing, but for those that are generated there, too.
+        """
+        node = scopes.node(name)
+        if node is None:
+            tokens = (token for token in lex(text)[0] if token.text in self.lost)
+            return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
+        found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in _LEGAL]
+        generated = {self._class_name(self._inputs.key(path)) for path in self._generation.package.artifacts}
+        same = self._generated.node(name) if found and name in generated else None
+        fine = {one.name for one in unresolved(same, self._generated, doubtful)} if same else ()
+        return sorted((one for one in found if one.name not in fine), key=lambda one: one.line)
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
-        inputs, recorded, robot = (
-            self._generation.inputs,
-            self._generation.inputs.recorded,
-            self._generation.inputs.robot,
-        )
+        inputs, recorded, robot = self._inputs, self._inputs.recorded, self._inputs.robot
         paths = {inputs.key(path): path for path in self._generation.package.artifacts}
         files = recorded.files if recorded else {}
         old = {key for key, record in files.items() if record.state is not RecordState.ORPHAN}
@@ -183,8 +194,8 @@ class DanglingNames:
         gone = recorded.package if recorded and recorded.package != self._package else ""
         return StoredClasses(self._package, robot.folder, found, others, find, gone)
 
-    def _class_name(self, key: str) -> Name:
-        *folders, file = self._generation.inputs.path(key).removesuffix(".mo").split("/")
+    def _class_name(self, key: str) -> ClassName:
+        *folders, file = self._inputs.path(key).removesuffix(".mo").split("/")
         return (*self._package.split("."), *folders, *([] if file == "package" else [file]))
 
 
@@ -192,38 +203,9 @@ def _class_of(path: str) -> str:
     return path.rpartition("/")[2].removesuffix(".mo")
 
 
-def _left_out(message: str, file: Path, line: int, option: str) -> Diagnostic:
-    hint = f"`{option}` in the configuration keeps it up to date"
-    return Diagnostic(Severity.WARNING, "left-out", message, shown(file), line, hint=hint)
-
-
-def lost_names(
-    before: Mapping[str, str], now: Mapping[str, str], renamed: Mapping[str, str], is_inherited: Callable[[Name], bool]
-) -> dict[str, str]:
-    """The names of classes and components that texts declared before and do not declare now, with their new names.
-
-    Texts are given by the paths of their files below the package; those that are the same in both may be left out.
-    `renamed` are old and new identifiers of elements: names that begin with the old one may begin with the new one now.
-    A new name is empty if there is none. What `is_inherited`, by its path, is not lost.
-    """
-    old, new = _declared(before), _declared(now)
-    gone = {path for path in old - new if not is_inherited(path)}
-    names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
-    known, found = {path[-1] for path in new}, {}
-    for name in sorted(names):
-        found[name] = ""
-        for identifier, now_ in sorted(renamed.items(), key=lambda pair: -len(pair[0])):  # the longest one counts
-            if name.lower().startswith(identifier.lower()):
-                first, end = now_[:1].upper() if name[:1].isupper() else now_[:1].lower(), name[len(identifier) :]
-                candidates = (f"{first}{now_[1:]}{end}", f"{now_}{end}")
-                found[name] = next((candidate for candidate in candidates if candidate in known), "")
-                break
-    return found
-
-
-def _declared(texts: Mapping[str, str]) -> set[Name]:
-    """Return the full names, below the package, of all that texts declare."""
-    found: set[Name] = set()
+def _declared(texts: Mapping[str, str]) -> set[ClassName]:
+    """Return the full names, below the package, of all that texts declare; texts by their paths below it."""
+    found: set[ClassName] = set()
     for path, text in texts.items():
         folder = tuple(path.split("/")[:-1])
         around = folder[:-1] if path.endswith("/package.mo") else folder
@@ -231,21 +213,14 @@ def _declared(texts: Mapping[str, str]) -> set[Name]:
     return found
 
 
-def find_uses(
-    name: Name, text: str, scopes: Scopes, lost: Collection[str], doubtful: Collection[str]
-) -> list[Unresolved]:
-    """Return the places in a stored class that use lost names and mean nothing, in their order.
-
-    `name` is the full name of the class, `text` that of its file. Where a class on the way can't be read, `doubtful`
-    names count as meaning nothing; in a text that is no Modelica, lost ones wherever they stand.
-    """
-    node = scopes.node(name)
-    if not isinstance(node, Node):
-        tokens = (token for token in lex(text)[0] if token.text in lost)
-        return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
-    legal = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
-    found = (one for one in unresolved(node, scopes, doubtful) if one.kind not in legal)
-    return sorted((one for one in found if one.part in lost), key=lambda one: one.line)
+def _new_name(name: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
+    """Return the known name that begins with the new identifier where `name` begins with the old one; else nothing."""
+    for old, new in renamed.items():
+        if name.lower().startswith(old.lower()):
+            first = new[:1].upper() if name[:1].isupper() else new[:1].lower()
+            candidates = (f"{first}{new[1:]}{name[len(old) :]}", f"{new}{name[len(old) :]}")
+            return next((candidate for candidate in candidates if candidate in known), "")
+    return ""
 
 
 def code_words(text: str) -> set[str]:

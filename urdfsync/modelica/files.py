@@ -12,12 +12,14 @@ import re
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
+from typing import TypeAlias
 
 from urdfsync.dependencies import file_type, list_folder
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import UNKNOWN, Stored, Unknown
+from urdfsync.modelica.scopes import OPAQUE, Node
 from urdfsync.modelica.syntax import StoredText
 
+ClassName: TypeAlias = tuple[str, ...]
 _PACKAGE = "package.mo"
 _NOT_CLASSES = "Resources"
 
@@ -39,72 +41,61 @@ class StoredClasses:
         `find` gives the folder or file of any other top-level class, None if there is none. `gone` is a package of
         which nothing counts that is on disk.
         """
-        self._package, self._folder, self._texts = tuple(package.split(".")), folder, texts
-        self._find, self._gone = functools.cache(find), tuple(gone.split(".")) if gone else ()
-        self.users: dict[tuple[str, ...], Stored] = {}
+        self._find = functools.cache(find)
+        self._not_on_disk = [tuple(name.split(".")) for name in (package, gone) if name]
+        self.own: dict[ClassName, tuple[bytes, Path]] = {}
+        """The files of the robot's package by the full names of their classes."""
+        self.users: dict[ClassName, Node] = {}
         """The classes of the user's files, by their full names."""
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
-        for path, content in others.items():
+        for path, content in texts.items():
+            parts = PurePosixPath(path).with_suffix("").parts
+            if path.endswith(".mo") and _NOT_CLASSES not in parts[:-1]:
+                name = (*package.split("."), *(parts[:-1] if parts[-1] == "package" else parts))
+                self.own[name] = content, folder / path
+        for file, content in others.items():
             found = _parsed(content)
-            within = tuple(found.within.split(".")) if found.within else ()
-            expected = _package_around(path, others)
-            if found.is_broken or (expected and within != expected):
-                self.unread.append(path)
+            around = tuple(found.within.split(".")) if found.within else ()
+            expected = _package_around(file, others)
+            if found.is_broken or (expected and around != expected):
+                self.unread.append(file)
                 continue
             for one in found.classes:
-                self.users.setdefault((*within, one.name.parts[0]), Stored(one, str(path)))
+                name = (*around, one.name.parts[0])
+                self.users.setdefault(name, Node(one, name, str(file)))
 
-    @property
-    def own(self) -> list[tuple[str, ...]]:
-        """The full names of the classes that are files of the robot's package."""
-        paths = [PurePosixPath(path) for path in self._texts if path.endswith(".mo")]
-        classes = [path for path in paths if _NOT_CLASSES not in path.parts[:-1]]
-        return [
-            (*self._package, *(path.parent if path.name == _PACKAGE else path.with_suffix("")).parts)
-            for path in classes
-        ]
-
-    def stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
+    def stored(self, name: ClassName) -> Node | None:
         """Return the class with this full name, see `Sources`."""
         if name in self.users:
             return self.users[name]
-        if self._is_own(name):
-            stem = "/".join(name[len(self._package) :])
-            for path in (f"{stem}/{_PACKAGE}".lstrip("/"), f"{stem}.mo"):
-                if path in self._texts:
-                    return _class_in(self._texts[path], name[-1], self._folder / path)
-            return None
-        if self._gone and name[: len(self._gone)] == self._gone:
+        if name in self.own:
+            return _class_in(*self.own[name], name)
+        if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
         if name[-1] in map(_class_name, self.unread):
-            return UNKNOWN
+            return OPAQUE
         file = self._file(name)
         try:
-            return _class_in(file.read_bytes(), name[-1], file) if file else None
+            return _class_in(file.read_bytes(), file, name) if file else None
         except OSError:
-            return UNKNOWN
+            return OPAQUE
 
-    def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
+    def names_in(self, name: ClassName) -> Iterable[str]:
         """Return the names of the classes that are stored below a package, see `Sources`."""
-        found = {other[-1] for other in (*self.users, *self.own) if other[:-1] == name}
-        path = None if not name or self._is_own(name) else self._file(name)
+        found = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
+        path = self._file(name) if name and name not in self.own else None
         if path is not None and path.name == _PACKAGE:
             for entry in path.parent.iterdir():
                 if (entry / _PACKAGE).is_file() or (entry.suffix == ".mo" and entry.name != _PACKAGE):
                     found.add(entry.name.removesuffix(".mo"))
-        return found if name else found | {self._package[0]}
+        return found
 
-    def _is_own(self, name: tuple[str, ...]) -> bool:
-        return name[: len(self._package)] == self._package
-
-    def _file(self, name: tuple[str, ...]) -> Path | None:
+    def _file(self, name: ClassName) -> Path | None:
         """Return the file of a library in which a class is stored."""
         root = self._find(name[0])
-        if root is None or len(name) == 1:
-            return root and (root if root.suffix == ".mo" else root / _PACKAGE)
-        if root.suffix == ".mo":
-            return None
+        if root is None or root.suffix == ".mo":
+            return root if len(name) == 1 else None
         folder = root.joinpath(*name[1:])
         return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if path.is_file()), None)
 
@@ -152,10 +143,10 @@ def _parsed(content: bytes) -> StoredText:
     return parse(content.decode(errors="replace").replace("\r\n", "\n"))
 
 
-def _class_in(content: bytes, name: str, file: Path) -> Stored | Unknown:
+def _class_in(content: bytes, file: Path, name: ClassName) -> Node:
     found = _parsed(content)
-    definition = next((one for one in found.classes if one.name.parts[0] == name), None)
-    return UNKNOWN if definition is None or found.is_broken else Stored(definition, str(file))
+    definition = next((one for one in found.classes if one.name.parts[0] == name[-1]), None)
+    return OPAQUE if definition is None or found.is_broken else Node(definition, name, str(file))
 
 
 def _class_name(path: Path) -> str:

@@ -8,14 +8,12 @@ are read one by one, so that one that is no Modelica does not hide what is wrong
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
 
 import msgspec
 
 from urdfsync.modelica.lexer import Fault, is_name, lex
-from urdfsync.modelica.syntax import Class, Component, Connection, Extends, Import, Modifier, Name, StoredText
+from urdfsync.modelica.syntax import Class, Component, Extends, Import, Modifier, Name, StoredText
 
 _DEEPEST = 50
 """How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
@@ -44,7 +42,7 @@ def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
     parser = _Parser(text)
     parser.document()
-    return StoredText(tuple(parser.faults), parser.within, parser.within_line, tuple(parser.body["classes"]))
+    return StoredText(parser.faults, parser.within, parser.within_line, parser.around.classes)
 
 
 class _FaultError(Exception):
@@ -67,8 +65,8 @@ class _Parser:
         self.at = 0
         self.within: str | None = None
         self.within_line = 0
-        self.body = defaultdict[str, list[Any]](list)
-        """What has been read of the class around this place, by the fields of `Class`."""
+        self.around = Class(Name(("",), 0), "")
+        """The class around this place; at first one that stands for the file."""
         self._open: tuple[str, ...] = ()
         """Names of the classes around this place."""
         self._uses: list[Name] = []
@@ -139,7 +137,7 @@ class _Parser:
     def _each(self, read: Callable[..., None], *arguments: object) -> None:
         """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
         start, uses = self.at, len(self._uses)
-        state = self._depth, self._subscript_depth, self._open, self.body
+        state = self._depth, self._subscript_depth, self._open, self.around
         try:
             self._enter()
             read(*arguments)
@@ -147,7 +145,7 @@ class _Parser:
             self._expect(";")
         except _FaultError as error:
             self.faults.append(error.fault)
-            self._depth, self._subscript_depth, self._open, self.body = state
+            self._depth, self._subscript_depth, self._open, self.around = state
             del self._uses[uses:]
             while self.word not in (";", "end", "", *_SECTIONS):
                 self._step()
@@ -301,7 +299,7 @@ class _Parser:
             raise _FaultError("has an `end` too many", self.line)
         if not self._is_class():
             raise self._lack("a class")
-        self.body["classes"].append(self._class(names, prefixes))
+        self.around.classes.append(self._class(names, prefixes))
 
     def _is_class(self) -> bool:
         return self.word in _CLASSES or any(self.word in prefixes for prefixes in _CLASS_PREFIXES)
@@ -324,10 +322,9 @@ class _Parser:
         found = Class(Name((text,), line), kind, frozenset(prefixes), is_extension=is_extension)
         if not is_extension and self._accept("="):
             return self._short_class(found)
-        arguments = self._arguments() if is_extension else ()
+        found.arguments = self._arguments() if is_extension else ()
         self._description()
-        around, self._open = self._open, (*self._open, text)
-        outer, self.body = self.body, defaultdict[str, list[Any]](list)
+        outer, self._open, self.around = (self._open, self.around), (*self._open, text), found
         self._composition()
         is_other_end = is_name(self.following) and self.following not in self._open
         if self.word != "end" or not (is_other_end or self.following == text):
@@ -335,9 +332,8 @@ class _Parser:
         self._step()
         if (end := self._step()) != text:
             self.faults.append(Fault(f"ends `{text}` with `end {end}`", self.tokens[self.at - 1].line))
-        parts = {field: tuple(values) for field, values in self.body.items()}
-        self._open, self.body = around, outer
-        return msgspec.structs.replace(found, arguments=arguments, **parts)
+        self._open, self.around = outer
+        return found
 
     def _short_class(self, found: Class) -> Class:
         if self._accept("enumeration"):
@@ -348,16 +344,16 @@ class _Parser:
                     literals.append(self._identifier())
                     self._once(seen, literals[-1], f"declares `{literals[-1]}` twice")
                     self._comment()
-            found = msgspec.structs.replace(found, literals=tuple(dict.fromkeys(literals)))
+            found.literals = tuple(dict.fromkeys(literals))
         elif self._accept("der"):
             for _ in self._list():
                 self._name()
-            found = msgspec.structs.replace(found, is_derivative=True)
+            found.is_derivative = True
         else:
             start = len(self._uses)
             name, _ = self._type()
             del self._uses[start:]
-            found = msgspec.structs.replace(found, alias=Extends(name, self._arguments()))
+            found.alias = Extends(name, self._arguments())
         self._comment()
         return found
 
@@ -376,7 +372,7 @@ class _Parser:
             else:
                 start = len(self._uses)
                 self._each(self._equation, equations if section == "equation" else None)
-                self.body["uses"] += self._taken(start)
+                self.around.uses += self._taken(start)
             if word == "annotation" and self.word not in ("end", ""):
                 self.faults.append(Fault(f"goes on after the annotation of `{self._open[-1]}`", self.line))
 
@@ -390,7 +386,7 @@ class _Parser:
         elif self._accept("extends"):
             parent = self._base()
             self._once(names, f"extends {parent.type}", f"extends `{parent.type}` twice")
-            self.body["extends"].append(parent)
+            self.around.extends.append(parent)
             self._annotation()
         elif self._accept("external"):
             self._external()
@@ -398,7 +394,8 @@ class _Parser:
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
             if self._is_class():
                 found = self._class(names, prefixes)
-                self.body["classes"].append(msgspec.structs.replace(found, constraint=self._constraint()))
+                found.constraint = self._constraint()
+                self.around.classes.append(found)
             else:
                 self._components(names, prefixes)
 
@@ -424,7 +421,7 @@ class _Parser:
                 self._expect("*")
                 is_everything = True
         self._comment()
-        self.body["imports"].append(Import(name, alias, tuple(members), is_everything))
+        self.around.imports.append(Import(name, alias, tuple(members), is_everything))
 
     def _external(self) -> None:
         self._description()
@@ -434,14 +431,13 @@ class _Parser:
             if self._accept("="):
                 self._expression()
         # the function of the other language has a name of its own
-        self.body["uses"] += [name for name in self._taken(start) if not name.is_called]
+        self.around.uses += [name for name in self._taken(start) if not name.is_called]
         self._comment()
 
     def _components(self, names: set[str], prefixes: set[str]) -> None:
-        start = len(self._uses)
+        start, found = len(self._uses), list[Component]()
         kind, more = self._type()
         sizes = self._taken(start)
-        found: list[Component] = []
         while not found or self._accept(","):
             line, text = self.line, self._identifier()
             self._once(names, text, f"declares `{text}` twice")
@@ -453,7 +449,7 @@ class _Parser:
             found.append(Component(Name((text,), line), kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
         constraint = self._constraint()
-        self.body["components"] += [msgspec.structs.replace(one, constraint=constraint) for one in found]
+        self.around.components += [msgspec.structs.replace(one, constraint=constraint) for one in found]
 
     def _type(self) -> tuple[Name, set[str]]:
         """A type; returns it with its prefixes."""
@@ -512,26 +508,25 @@ class _Parser:
         start = len(self._uses)
         if self._accept("break"):
             if not self._accept("connect"):
-                return Modifier(self._name(), is_break=True)
+                return Modifier(self._name())
             self._expression()
             del self._uses[start:]
             return None
         if declares and self._is_class():
             definition = self._class(names, prefixes)
-            found = Modifier(definition.name, is_redeclared=is_redeclared, definition=definition)
-        else:
-            kind = self._type()[0] if declares else None
-            name = self._name()
-            if str(name) not in _REPEATABLE:
-                self._once(names, str(name), f"sets `{name}` twice")
-            if declares:
-                self._subscripts()
-            arguments = self._modification()
-            found = Modifier(name, arguments, self._taken(start), is_redeclared, kind)
-            self._description()
-            if declares:
-                self._annotation()
-        return msgspec.structs.replace(found, constraint=self._constraint())
+            return Modifier(definition.name, (), (), is_redeclared, None, definition, self._constraint())
+        kind = self._type()[0] if declares else None
+        name = self._name()
+        if str(name) not in _REPEATABLE:
+            self._once(names, str(name), f"sets `{name}` twice")
+        if declares:
+            self._subscripts()
+        arguments = self._modification()
+        uses = self._taken(start)
+        self._description()
+        if declares:
+            self._annotation()
+        return Modifier(name, arguments, uses, is_redeclared, kind, None, self._constraint())
 
     # --- equations and statements ---------------------------------------------------------------------------------
 
@@ -561,14 +556,12 @@ class _Parser:
 
     def _connect(self, seen: set[str]) -> None:
         texts: list[str] = []
-        names: list[Name] = []
         for mark in ("(", ","):
             self._expect(mark)
             start = self.at
-            names.append(self._reference())
+            self._reference()
             texts.append(self._since(start))
         self._expect(")")
-        self.body["connections"].append(Connection(*names))
         first, second = sorted(texts)
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 

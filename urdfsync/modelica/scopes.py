@@ -1,31 +1,20 @@
 """Resolve names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
 
-It follows chapters 5 and 7 of the language specification 3.6. There are three answers: a name means something, it is
-missing, or that can't be told, since a class on the way is not at hand. Where a component is redeclared, the elements
-of its old type, of its constraining type and of its new one are all accepted, which is more than the language allows:
-so what is called missing is missing.
+It follows chapters 5 and 7 of the language specification 3.6. A name is an element or missing. A class that is not at
+hand is `OPAQUE`: it has any element. Where a component is redeclared, the elements of its old type, of its constraining
+type and of its new one are all accepted, which is more than the language allows: so what is called missing is missing.
 """
 
 from __future__ import annotations
 
-import enum
 import functools
 from collections.abc import Iterable, Sequence
-from typing import Final, Literal, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import msgspec
 
 from urdfsync.modelica.names import FUNCTIONS
 from urdfsync.modelica.syntax import Class, Component, Extends, Import, Modifier, Name
-
-
-class _Unknown(enum.Enum):
-    UNKNOWN = "unknown"
-
-
-UNKNOWN: Final = _Unknown.UNKNOWN
-"""The meaning of a name that can't be found out."""
-Unknown: TypeAlias = Literal[_Unknown.UNKNOWN]
 
 _NUMBER = "value quantity min max start fixed"
 _PREDEFINED = {
@@ -38,28 +27,19 @@ _PREDEFINED = {
     "AssertionLevel": "warning error",
 }
 """Attributes or literals of predefined types."""
-_OPAQUE = frozenset({"Clock", "Connections", "ExternalObject"})
-"""Predefined types of whose elements nothing is said."""
-_FUNCTIONS = FUNCTIONS | {"integer"}
+_ANYTHING = FUNCTIONS | {"integer", "Clock", "Connections", "ExternalObject"}
+"""Functions and predefined types of whose elements nothing is said."""
 _ICONS = ("Modelica", "Icons")
 """The package of the Modelica Standard Library whose classes are pictures: there is nothing to inherit."""
 _DEEPEST = 40
 """So many lookups may lead to each other: more of them go in circles."""
 
 
-class Stored(NamedTuple):
-    """A class that is stored in a file."""
-
-    definition: Class
-    file: str
-    """How the caller knows the file."""
-
-
 class Sources(Protocol):
     """The classes that are stored in files."""
 
-    def stored(self, name: tuple[str, ...]) -> Stored | Unknown | None:
-        """Return the class with this full name; None if there is no file of it, UNKNOWN if it can't be read."""
+    def stored(self, name: tuple[str, ...]) -> Node | None:
+        """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
         ...
 
     def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
@@ -73,13 +53,13 @@ class Node(msgspec.Struct, eq=False, dict=True):
     definition: Class
     name: tuple[str, ...]
     """Its full name."""
-    file: str
-    """As in `Stored`."""
+    file: str = ""
+    """How the source of the class knows its file."""
     parent: Node | None = None
     """The class around it."""
-    classes: dict[str, Node | Unknown | None] = msgspec.field(default_factory=dict)
+    classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
     """Its own classes, as far as anybody has asked for them."""
-    bases: tuple[Type | Unknown, ...] | None = None
+    bases: tuple[Type, ...] | None = None
     """What it extends, once that has been resolved."""
 
     @functools.cached_property
@@ -101,21 +81,19 @@ class Scoped(NamedTuple):
 class Type(NamedTuple):
     """A class as a component or a derived class has it: with all modifiers that are applied to it."""
 
-    node: Node | str
-    """A predefined type by its name."""
+    node: Node
     modifiers: tuple[Scoped, ...] = ()
 
     def __str__(self) -> str:
         return str(self.node)
 
 
-Types: TypeAlias = tuple[Type | Unknown, ...]
+Types: TypeAlias = tuple[Type, ...]
 
 
 class Element(NamedTuple):
     """Something that has a name: a component, a class, a literal, an attribute, or a part of the language itself."""
 
-    name: str
     declaration: Component | Class | None
     types: Types
     """The classes that a component may have, the one that it has first; of a class, what it may stand for."""
@@ -127,6 +105,20 @@ class Missing(NamedTuple):
     part: str
     types: Types = ()
     """The classes that lack it; empty if it is the first part, which was looked for in all scopes."""
+    is_certain: bool = True
+    """False if one of the classes on the way extends one that is not at hand."""
+
+
+def _predefined(name: str, components: Iterable[str] = ()) -> Node:
+    parts = [Component(Name((one,), 0), Name(("",), 0)) for one in components]
+    return Node(Class(Name((name,), 0), "type", components=parts), (name,))
+
+
+OPAQUE = _predefined("")
+"""A class that is not at hand, or can't be read."""
+ANYTHING = Element(None, (Type(OPAQUE),))
+"""An element of such a class."""
+_TYPES = {name: _predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
 
 
 class Scopes:
@@ -134,51 +126,48 @@ class Scopes:
 
     def __init__(self, sources: Sources) -> None:
         self._sources = sources
-        self._tops: dict[str, Node | Unknown | None] = {}
+        self._tops: dict[str, Node | None] = {}
         self._resolving: set[Node] = set()
         """Classes whose base classes are being looked for: these are not looked for in what they inherit."""
         self._depth = 0
 
-    # --- classes at their places ----------------------------------------------------------------------------------
-
-    def node(self, name: Sequence[str]) -> Node | Unknown | None:
-        """Return the class with this full name, not an inherited one."""
-        if name and name[0] not in self._tops:
-            self._tops[name[0]] = self._read((name[0],), None)
-        found = self._tops[name[0]] if name else None
+    def node(self, name: Sequence[str]) -> Node | None:
+        """Return the class with this full name, not an inherited one; None if it is not at hand."""
+        found = self._top(name[0]) if name else None
         for part in name[1:]:
-            if not isinstance(found, Node):
-                break
-            found = self._child(found, part)
-        return found
+            found = found and self._child(found, part)
+        return None if found is OPAQUE else found
 
-    def _child(self, node: Node, name: str) -> Node | Unknown | None:
+    def _top(self, name: str) -> Node | None:
+        if name not in self._tops:
+            self._tops[name] = self._sources.stored((name,))
+        return self._tops[name]
+
+    def _child(self, node: Node, name: str) -> Node | None:
+        if node is OPAQUE:
+            return OPAQUE
         if name not in node.classes:
-            own = next((one for one in node.definition.classes if one.name.parts[0] == name), None)
-            if own is not None:
-                node.classes[name] = Node(own, (*node.name, name), node.file, node)
-            elif node.definition.kind == "package":
-                node.classes[name] = self._read((*node.name, name), node)
-            else:
-                node.classes[name] = None
+            found = next((one for one in node.definition.classes if one.name.parts[0] == name), None)
+            child = Node(found, (*node.name, name), node.file) if found else None
+            if child is None and node.definition.kind == "package":
+                child = self._sources.stored((*node.name, name))
+            if child is not None and child is not OPAQUE:
+                child.parent = node
+            node.classes[name] = child
         return node.classes[name]
-
-    def _read(self, name: tuple[str, ...], parent: Node | None) -> Node | Unknown | None:
-        found = self._sources.stored(name)
-        return Node(found.definition, name, found.file, parent) if isinstance(found, Stored) else found
 
     # --- lookup ---------------------------------------------------------------------------------------------------
 
-    def lookup(self, name: Name, scope: Node | None) -> Element | Missing | Unknown:
+    def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
         """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
         found = self._first(name.parts[0], None if name.is_global else scope)
         for part in name.parts[1:]:
-            if not isinstance(found, Element):
+            if isinstance(found, Missing):
                 break
             found = self.part(found.types, part)
         return found
 
-    def lookup_base(self, name: Name, node: Node) -> Element | Missing | Unknown:
+    def lookup_base(self, name: Name, node: Node) -> Element | Missing:
         """Return the meaning of a name after `extends` in a class: nothing that the class inherits."""
         outer = node in self._resolving
         self._resolving.add(node)
@@ -188,25 +177,29 @@ class Scopes:
             if not outer:
                 self._resolving.discard(node)
 
-    def part(self, types: Types, name: str) -> Element | Missing | Unknown:
+    def part(self, types: Types, name: str) -> Element | Missing:
         """Return the meaning of a name in something that may have any of these types."""
-        every = [UNKNOWN if one is UNKNOWN else self._member(one, name) for one in types]
+        every = [self._member(one, name) for one in types]
         found = [one for one in every if isinstance(one, Element)]
-        unknown: Types = (UNKNOWN,) if UNKNOWN in every else ()
-        if found:
-            united = dict.fromkeys((*(one for element in found for one in element.types), *unknown))
-            return found[0]._replace(types=tuple(united))
-        return UNKNOWN if unknown else Missing(name, types)
+        is_certain = all(one.is_certain for one in every if isinstance(one, Missing))
+        if not found:
+            return Missing(name, types, is_certain)
+        known = [one for one in found if one is not ANYTHING]
+        united = (one for element in found for one in element.types)
+        more = () if is_certain else ANYTHING.types
+        return Element(known[0].declaration, tuple(dict.fromkeys((*united, *more)))) if known else ANYTHING
 
     def types_of(self, used: Extends, scope: Node | None) -> Types:
         """Return the classes that a name stands for, with the modifiers beside it."""
         found = self.lookup(used.type, scope)
-        if not isinstance(found, Element) or isinstance(found.declaration, Component):
-            return (UNKNOWN,)
+        if isinstance(found, Missing) or isinstance(found.declaration, Component):
+            return ANYTHING.types
         return _modified(found.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
     def types_in(self, component: Component, scope: Node) -> Types:
         """Return the types that a component may have by its own declaration, in a class."""
+        if not component.type.parts[0]:  # an attribute of a predefined type
+            return ANYTHING.types
         types = self.types_of(Extends(component.type, component.arguments), scope)
         if component.constraint:
             types += _modified(self.types_of(component.constraint, scope), [Scoped(component.arguments, scope)])
@@ -230,21 +223,16 @@ class Scopes:
     def names_in(self, types: Types) -> dict[str, bool]:
         """The names of all that is known to be in classes, inherited elements included; whether each is a class."""
         found: dict[str, bool] = {}
-        waiting, seen = list(types), set[Node | str]()
+        waiting, seen = [one.node for one in types], {OPAQUE}
         while waiting:
-            one = waiting.pop(0)
-            if one is UNKNOWN or one.node in seen:
-                continue
-            node = one.node
-            seen.add(node)
-            if isinstance(node, str):
-                found |= dict.fromkeys(_PREDEFINED.get(node, "").split(), False)
-                continue
-            below = self._sources.names_in(node.name) if node.definition.kind == "package" else ()
-            classes = (inner.name.parts[0] for inner in node.definition.classes)
-            found |= dict.fromkeys((*node.components, *(node.definition.literals or ())), False)
-            found |= dict.fromkeys((*classes, *below), True)
-            waiting += self.bases(node)
+            node = waiting.pop(0)
+            if node not in seen:
+                seen.add(node)
+                below = self._sources.names_in(node.name) if node.definition.kind == "package" else ()
+                classes = (inner.name.parts[0] for inner in node.definition.classes)
+                found |= dict.fromkeys((*node.components, *(node.definition.literals or ())), False)
+                found |= dict.fromkeys((*classes, *below), True)
+                waiting += [base.node for base in self.bases(node)]
         return found
 
     def names_around(self, scope: Node | None) -> dict[str, bool]:
@@ -256,88 +244,83 @@ class Scopes:
             scope = scope.parent
         return found
 
-    def _first(self, name: str, scope: Node | None) -> Element | Missing | Unknown:
-        unknown = False
+    def _first(self, name: str, scope: Node | None) -> Element | Missing:
+        is_certain = True
         while scope is not None:
             found = self._in_scope(scope, name)
-            if found is not None and (unknown or found is not UNKNOWN or not name[:1].isupper()):
-                return UNKNOWN if unknown else found
-            unknown |= found is UNKNOWN  # nobody inherits what is called like the library in which it stands
+            if isinstance(found, Element):
+                return found if is_certain else ANYTHING
+            is_certain &= found.is_certain
+            if not is_certain and not name[:1].isupper():
+                return found
+            # nobody inherits what is called like the library in which it stands
             scope = None if "encapsulated" in scope.definition.prefixes else scope.parent
-        if name in _PREDEFINED or name in _OPAQUE:
-            return Element(name, None, (Type(name),))
-        if name in _FUNCTIONS:
-            return Element(name, None, (UNKNOWN,))
-        top = self.node((name,))
-        if isinstance(top, Node):
-            return Element(name, top.definition, (Type(top),))
-        return UNKNOWN if unknown or top is UNKNOWN else Missing(name)
+        if name in _ANYTHING:
+            return ANYTHING
+        top = _TYPES.get(name) or self._top(name)
+        if top is not None:
+            return Element(top.definition, (Type(top),)) if top is not OPAQUE else ANYTHING
+        return Missing(name, (), is_certain)
 
-    def _in_scope(self, scope: Node, name: str) -> Element | Unknown | None:
+    def _in_scope(self, scope: Node, name: str) -> Element | Missing:
         found = self._member(Type(scope), name)
-        if found is not None:
+        if isinstance(found, Element) or not found.is_certain:
             return found
         for one in scope.definition.imports:
             if name in _imported(one):
-                return self._import(one, name)
+                member = (dict(one.members)[name],) if one.members else ()
+                imported = self.lookup(one.name._replace(is_global=True, parts=(*one.name.parts, *member)), None)
+                return imported if isinstance(imported, Element) else ANYTHING  # it is told where it is imported
         for one in scope.definition.imports:
-            if one.is_everything and (found := self._import(one, name)) is not None:
-                return found
-        return None
-
-    def _import(self, used: Import, name: str) -> Element | Unknown | None:
-        """What an import clause makes of a name; None if that is not in a package of which everything is imported."""
-        whole = used.name._replace(is_global=True)
-        if used.members:
-            whole = whole._replace(parts=(*whole.parts, dict(used.members)[name]))
-        elif used.is_everything:
-            whole = whole._replace(parts=(*whole.parts, name))
-        found = self.lookup(whole, None)
-        if isinstance(found, Missing):
-            is_inside = used.is_everything and found.types and found.part == name
-            return None if is_inside else UNKNOWN
+            if one.is_everything:
+                imported = self.lookup(one.name._replace(is_global=True, parts=(*one.name.parts, name)), None)
+                if isinstance(imported, Element):
+                    return imported
+                if imported.part != name or not imported.types:
+                    return ANYTHING
         return found
 
     # --- elements of a class --------------------------------------------------------------------------------------
 
-    def _member(self, type_: Type, name: str) -> Element | Unknown | None:
+    def _member(self, type_: Type, name: str) -> Element | Missing:
         """Return an element of a class, its own or an inherited one, with the modifiers that concern it."""
-        if isinstance(type_.node, str):
-            return _predefined(type_.node, name)
         if self._depth > _DEEPEST:
-            return UNKNOWN
+            return ANYTHING
         self._depth += 1
         try:
             return self._member_of(type_.node, type_.modifiers, name)
         finally:
             self._depth -= 1
 
-    def _member_of(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Unknown | None:
-        if node.definition.is_derivative:
-            return UNKNOWN
-        if node.definition.literals is not None:
-            is_literal = name in node.definition.literals or not node.definition.literals
-            return Element(name, None, (Type(node),)) if is_literal else _predefined("enumeration", name)
-        component = node.components.get(name)
-        if component is not None:
+    def _member_of(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
+        definition = node.definition
+        if node is OPAQUE or definition.is_derivative:
+            return ANYTHING
+        if definition.literals is not None:
+            if name in definition.literals or not definition.literals:
+                return Element(None, (Type(node),))
+            return self._member(Type(_TYPES["enumeration"]), name)
+        if component := node.components.get(name):
             return self._component(node, modifiers, component)
         child = self._child(node, name)
-        if isinstance(child, Node):
-            is_open = "replaceable" in child.definition.prefixes
-            types: Types = (Type(child, _nested(modifiers, name)), *([UNKNOWN] if is_open else []))
-            return Element(name, child.definition, types)
-        inherited = self._inherited(node, modifiers, name)
-        is_open = child is UNKNOWN or "expandable" in node.definition.prefixes
-        return UNKNOWN if inherited is None and is_open else inherited
+        if child is None:
+            found = self._inherited(node, modifiers, name)
+            return ANYTHING if isinstance(found, Missing) and "expandable" in definition.prefixes else found
+        is_open = "replaceable" in child.definition.prefixes
+        types = (Type(child, _nested(modifiers, name)), *(ANYTHING.types if is_open else ()))
+        return Element(child.definition, types) if child is not OPAQUE else ANYTHING
 
-    def _inherited(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Unknown | None:
-        unknown = False
+    def _inherited(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
+        is_certain = True
         for base in self.bases(node):
-            found = UNKNOWN if base is UNKNOWN else self._member(Type(base.node, base.modifiers + modifiers), name)
+            if base.node is OPAQUE:
+                is_certain = False
+                continue
+            found = self._member(Type(base.node, base.modifiers + modifiers), name)
             if isinstance(found, Element):
                 return found
-            unknown |= found is UNKNOWN
-        return UNKNOWN if unknown else None
+            is_certain &= found.is_certain
+        return Missing(name, (), is_certain)
 
     def _component(self, node: Node, modifiers: tuple[Scoped, ...], component: Component) -> Element:
         name = component.name.parts[0]
@@ -352,7 +335,7 @@ class Scopes:
         if "redeclare" in component.prefixes:
             before = self._inherited(node, modifiers, name)
             types += before.types if isinstance(before, Element) else ()
-        return Element(name, component, tuple(dict.fromkeys(types)))
+        return Element(component, tuple(dict.fromkeys(types)))
 
     def _bases(self, node: Node) -> Types:
         definition = node.definition
@@ -361,17 +344,17 @@ class Scopes:
         found: Types = ()
         if definition.is_extension and node.parent is not None:
             before = self._inherited(node.parent, (), node.name[-1])
-            types = before.types if isinstance(before, Element) else (UNKNOWN,)
+            types = before.types if isinstance(before, Element) else ANYTHING.types
             found += _modified(types, [Scoped(definition.arguments, node)])
         for one in definition.extends:
             types = self.types_of(one, node)
-            found += () if types == (UNKNOWN,) and one.type.parts[:2] == _ICONS else types
+            found += () if types == ANYTHING.types and one.type.parts[:2] == _ICONS else types
         return found
 
 
 def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
     """Types with more modifiers, which come before those that they have."""
-    return tuple(one if one is UNKNOWN else Type(one.node, (*modifiers, *one.modifiers)) for one in types)
+    return tuple(one if one.node is OPAQUE else Type(one.node, (*modifiers, *one.modifiers)) for one in types)
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
@@ -382,12 +365,6 @@ def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
         for one in arguments
         if one.name.parts == (name,) and one.arguments
     )
-
-
-def _predefined(type_: str, name: str) -> Element | Unknown | None:
-    if type_ in _OPAQUE:
-        return UNKNOWN
-    return Element(name, None, (UNKNOWN,)) if name in _PREDEFINED[type_].split() else None
 
 
 def _imported(used: Import) -> list[str]:

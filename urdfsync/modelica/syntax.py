@@ -6,7 +6,7 @@ left out; of an expression only the names in it remain.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -43,8 +43,6 @@ class Modifier(msgspec.Struct, frozen=True):
     """The new class, if a class is declared anew; its own name is `name`."""
     constraint: Extends | None = None
     """The class after `constrainedby`."""
-    is_break: bool = False
-    """Whether it takes an inherited component away (`extends A(break x)`)."""
 
 
 class Extends(msgspec.Struct, frozen=True):
@@ -80,15 +78,8 @@ class Import(msgspec.Struct, frozen=True):
     """Whether it ends in `.*`."""
 
 
-class Connection(NamedTuple):
-    """A connect equation."""
-
-    first: Name
-    second: Name
-
-
-class Class(msgspec.Struct, frozen=True):
-    """A class definition."""
+class Class(msgspec.Struct, eq=False):
+    """A class definition. Only the parser changes it. Equal to itself only."""
 
     name: Name
     kind: str
@@ -106,24 +97,23 @@ class Class(msgspec.Struct, frozen=True):
     arguments: tuple[Modifier, ...] = ()
     """Modifiers of the class that `is_extension` goes on with."""
     constraint: Extends | None = None
-    imports: tuple[Import, ...] = ()
-    extends: tuple[Extends, ...] = ()
-    classes: tuple[Class, ...] = ()
-    components: tuple[Component, ...] = ()
-    connections: tuple[Connection, ...] = ()
-    uses: tuple[Name, ...] = ()
+    imports: list[Import] = msgspec.field(default_factory=list)
+    extends: list[Extends] = msgspec.field(default_factory=list)
+    classes: list[Class] = msgspec.field(default_factory=list)
+    components: list[Component] = msgspec.field(default_factory=list)
+    uses: list[Name] = msgspec.field(default_factory=list)
     """Names in equations and statements, those in connections included, without the indices of loops."""
 
 
 class StoredText(msgspec.Struct, frozen=True):
     """A file of Modelica, as far as it could be read."""
 
-    faults: tuple[Fault, ...] = ()
+    faults: Sequence[Fault] = ()
     """Everything wrong with its syntax, and everything in it that is there twice."""
     within: str | None = None
     """The package that its `within` clause names; None if it has none."""
     within_line: int = 0
-    classes: tuple[Class, ...] = ()
+    classes: Sequence[Class] = ()
 
     @property
     def is_broken(self) -> bool:
@@ -137,15 +127,13 @@ class Declared(NamedTuple):
     path: tuple[str, ...]
     """Its name, after those of the classes around it."""
     line: int
-    type: str = ""
-    """A component's type; empty for a class."""
 
 
-def declared(classes: tuple[Class, ...], around: tuple[str, ...] = ()) -> Iterator[Declared]:
+def declared(classes: Sequence[Class], around: tuple[str, ...] = ()) -> Iterator[Declared]:
     """Yield all classes and components that are declared in classes, a class before its parts."""
     for one in classes:
         path = (*around, one.name.parts[0])
         yield Declared(path, one.name.line)
         for component in one.components:
-            yield Declared((*path, component.name.parts[0]), component.name.line, str(component.type))
+            yield Declared((*path, component.name.parts[0]), component.name.line)
         yield from declared(one.classes, path)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
-from urdfsync.modelica.scopes import UNKNOWN, Element, Missing, Node, Scopes, Types
+from urdfsync.modelica.scopes import ANYTHING, OPAQUE, Element, Missing, Node, Scopes, Types
 from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
@@ -53,15 +53,15 @@ class Unresolved(NamedTuple):
 def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
     """Yield all that is wrong with names in a class and in the classes inside of it.
 
-    Nothing is said of what can't be told, nor of what seems to be in a library that is not at hand, unless a part of it
-    is one of the `doubtful` names.
+    Nothing is said of what seems to be in a library that is not at hand, nor of an element that a class may inherit
+    from there, unless it is one of the `doubtful` names.
     """
     yield from _Walk(scopes, doubtful)._class(node)
 
 
 class _Walk:
     def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
-        self._scopes, self._doubtful = scopes, frozenset(doubtful)
+        self._scopes, self._doubtful = scopes, doubtful
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -77,11 +77,10 @@ class _Walk:
             yield from self._missing(one.name, found, None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
-        for name in definition.uses:
-            yield from self._use(name, node)
+        yield from self._uses(definition.uses, node)
         for inner in definition.classes:
             child = scopes.node((*node.name, inner.name.parts[0]))
-            if isinstance(child, Node) and child.definition is inner:
+            if child is not None and child.definition is inner:
                 yield from self._class(child)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
@@ -89,9 +88,10 @@ class _Walk:
         yield from self._missing(used.type, self._scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
 
-    def _use(self, name: Name, scope: Node | None) -> Iterator[Unresolved]:
-        kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
-        yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind)
+    def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
+        for name in names:
+            kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
+            yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind)
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
@@ -99,64 +99,38 @@ class _Walk:
         if "redeclare" in component.prefixes and bases:
             found = self._scopes.part(bases, component.name.parts[0])
             yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT)
-        types = self._scopes.types_in(component, node)
-        yield from self._arguments(component.arguments, () if self._is_foreign(component, types) else types, node)
+        yield from self._arguments(component.arguments, self._scopes.types_in(component, node), node)
         if component.constraint:
             yield from self._used(component.constraint, node)
-        for name in component.uses:
-            yield from self._use(name, node)
+        yield from self._uses(component.uses, node)
 
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Yield what is wrong with modifiers of something that may have one of these types; without any, names pass."""
+        """Yield what is wrong with modifiers of something that may have one of these types."""
         for one in arguments:
-            found: object = None
-            inside = types
+            found: Element | Missing = Element(None, types)
             for part in one.name.parts:
-                found = self._scopes.part(inside or (UNKNOWN,), part)
-                if inside:
-                    name = Name((part,), one.name.line)
-                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT)
-                if not isinstance(found, Element):
-                    break
-                inside = found.types
-            if isinstance(found, Element):
+                if isinstance(found, Element):
+                    found = self._scopes.part(found.types, part)
+                    yield from self._missing(Name((part,), one.name.line), found, scope, UnresolvedKind.ELEMENT)
+            new_type = Extends(one.type) if one.type else one.definition.alias if one.definition else None
+            for used in filter(None, (new_type, one.constraint)):
+                yield from self._used(used, scope)
+            if isinstance(found, Element) and found is not ANYTHING:
                 text, line = str(one.name), one.name.line
                 if len(one.name.parts) > 1:
                     yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, text, text, "", line)
                 if depth and one.is_redeclared:
-                    owner = next((str(type_) for type_ in types if type_ is not UNKNOWN), "")
+                    owner = next((str(type_) for type_ in types if type_.node is not OPAQUE), "")
                     yield Unresolved(UnresolvedKind.NESTED_REDECLARE, text, text, owner, line)
-            new_type = Extends(one.type) if one.type else one.definition.alias if one.definition else None
-            for used in filter(None, (new_type, one.constraint)):
-                yield from self._used(used, scope)
-            if isinstance(found, Element):
                 yield from self._arguments(one.arguments, found.types, scope, depth + 1)
-            for name in one.uses:
-                yield from self._use(name, scope)
+            yield from self._uses(one.uses, scope)
 
-    def _is_foreign(self, component: Component, types: Types) -> bool:
-        """Whether a component is of a class in another library, which is not at hand."""
-        top = component.type.parts[:-1][:1]
-        return set(types) == {UNKNOWN} and top != () and self._scopes.node(top) is None
-
-    def _unclear(self, name: Name, scope: Node | None) -> tuple[str, ...]:
-        """Return the parts of a name whose meaning can't be told, without what is inside of such a component."""
-        for count in range(1, len(name.parts)):
-            found = self._scopes.lookup(name._replace(parts=name.parts[:count]), scope)
-            if not isinstance(found, Element):
-                return name.parts[count - 1 :]
-            if isinstance(found.declaration, Component) and self._is_foreign(found.declaration, found.types):
-                return ()
-        return name.parts[-1:]
-
-    def _missing(self, name: Name, found: object, scope: Node | None, kind: UnresolvedKind) -> Iterator[Unresolved]:
-        if found is UNKNOWN and not self._doubtful.isdisjoint(name.parts):
-            doubtful = [part for part in self._unclear(name, scope) if part in self._doubtful]
-            if doubtful:
-                yield Unresolved(kind, str(name), doubtful[0], "", name.line)
-        if not isinstance(found, Missing):
+    def _missing(
+        self, name: Name, found: Element | Missing, scope: Node | None, kind: UnresolvedKind
+    ) -> Iterator[Unresolved]:
+        if isinstance(found, Element) or not (found.is_certain or found.part in self._doubtful):
             return
         if kind is UnresolvedKind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
             kind = UnresolvedKind.ELEMENT  # a component on the way to the function

@@ -53,8 +53,6 @@ class CompileResult(msgspec.Struct, frozen=True):
     """CPU time of the task."""
     compiling: float = 0.0
     """The part of it before the first run."""
-    megabytes: float = 0.0
-    """Peak memory of the process so far."""
 
 
 class CompileJob(msgspec.Struct, frozen=True):
@@ -68,15 +66,10 @@ class Complaint(msgspec.Struct, frozen=True):
     """One thing that a compiler does not like."""
 
     message: str
-    code: str = "does-not-compile"
     file: str = ""
     """As the compiler names it; empty if it does not."""
     line: int = 0
     column: int = 0
-    missing: str = ""
-    """A name that the compiler can't find."""
-    kind: str = ""
-    """Of that name: component, function or class."""
 
 
 class CompilerError(UrdfsyncError):

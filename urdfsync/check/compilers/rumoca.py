@@ -1,14 +1,13 @@
 """rumoca, the embedded compiler: jobs done with it, and its messages.
 
 rumoca says everything in one text: complaints in lines or after semicolons, some with a place in brackets, some drawn
-with a frame around the source. Of names that are not there it does not say where they stand.
+with a frame around the source.
 """
 
 from __future__ import annotations
 
 import math
 import re
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -43,18 +42,12 @@ _SPAN = re.compile(r" @ Span \{.*?\) \}")
 _SHADOW = "variability violation: "
 """rumoca 0.10.2 says this of sound models of the Modelica Standard Library as soon as something else is wrong."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
-_LAYOUT = re.compile(r"invalid Modelica package layout under '[^']*': (.*)", re.DOTALL)
-_LAYOUT_FILE = re.compile(r"\b(file|directory) '([^']*)'")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
 _PIECES = re.compile(r"\n|; (?=\S)")
 _PREFIXES = re.compile(
     r"^(?:- <[^>]*> \[\w+\]: |\w+ failed: |[\w.]+ failed in \w+: |[\w.]+ could not be compiled: |Failed to [^:]*: )+"
 )
 _PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
-_MISSING = re.compile(
-    r"unresolved (?P<kind>component reference|function call|type reference|import|extends base class): '(?P<name>.+)'$"
-    r"|base class not found: `(?P<base>[^`]+)` does not exist$"
-)
 
 
 def program() -> str:
@@ -70,13 +63,6 @@ def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - se
 def complaints(problem: str) -> list[Complaint]:
     """See `Compiler`. A complaint that only follows from another one is left out."""
     text = _COLOURS.sub("", problem).strip()
-    if layout := _LAYOUT.search(text):
-        found = []
-        for rule in re.split(r";\s+(?=PKG-\d+)", layout[1]):
-            file = _LAYOUT_FILE.search(rule)
-            words = _LAYOUT_FILE.sub(r"the \1", re.sub(r"PKG-\d+ ", "", rule, count=1), count=1)
-            found.append(Complaint(one_line(words), "layout", file[2] if file else ""))
-        return found
     found = [_placed(one["words"].replace("│", " "), one) for one in _FRAMED.finditer(text)]
     for piece in () if found else _PIECES.split(text):
         words = _PREFIXES.sub("", piece.strip())
@@ -84,9 +70,6 @@ def complaints(problem: str) -> list[Complaint]:
             continue
         if place := _PLACE.search(words):
             found.append(_placed(words[: place.start()], place))
-        elif named := _MISSING.match(words):
-            kind = {"component reference": "component", "function call": "function"}.get(named["kind"] or "", "class")
-            found.append(Complaint(one_line(words), missing=named["name"] or named["base"], kind=kind))
         else:
             found.append(Complaint(one_line(words)))
     if not found and text:
@@ -114,12 +97,12 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
     try:
         model = session.loads(task.source, model=task.model, filename=_FILE)
     except rumoca.RumocaError as error:
-        return CompileResult(_words(error), seconds=time.process_time() - started, megabytes=_peak_megabytes())
+        return CompileResult(_words(error), seconds=time.process_time() - started)
     unknowns, states = _counts(model)
     compiling = time.process_time() - started
     runs = tuple(_simulate(model, run, task.values) for run in task.runs)
     seconds = time.process_time() - started
-    return CompileResult("", unknowns, states, runs, seconds, compiling, _peak_megabytes())
+    return CompileResult("", unknowns, states, runs, seconds, compiling)
 
 
 class _Type(msgspec.Struct):
@@ -159,26 +142,9 @@ def _simulate(model: rumoca.Model, run: Simulation, values: tuple[str, ...]) -> 
         series = {name: tuple(result[name].tolist()) for name in values}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
-    times = tuple(result.time.tolist())
-    for name, numbers in series.items():
-        if not all(map(math.isfinite, numbers)):  # JSON has no words for them
-            instant = next(time for time, number in zip(times, numbers, strict=True) if not math.isfinite(number))
-            return SimulationResult(problem=f"{name} is not finite at {instant:g} s")
-    return SimulationResult({"time": times, **series})
+    return SimulationResult({"time": tuple(result.time.tolist()), **series})  # all finite, or it says so itself
 
 
 def _words(error: Exception) -> str:
     """What the compiler says, without places in its own notation."""
     return _SPAN.sub("", str(error.args[0] if error.args else error))
-
-
-def _peak_megabytes() -> float:
-    """The most resident memory so far."""
-    if sys.platform == "win32":
-        import psutil
-
-        return float(psutil.Process().memory_info().peak_wset) / 1e6
-    import resource
-
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 1e6 if sys.platform == "darwin" else peak * 1024 / 1e6

@@ -1,0 +1,288 @@
+"""What is wrong with the texts of a package: syntax, layout, names, files that it refers to. No compiler is asked.
+
+The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
+first one: one file that does not parse makes a compiler give up the whole package, often without telling which one it
+is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+from urdfsync.check import libraries
+from urdfsync.check.package import CheckedPackage, PackageFiles, holds_class
+from urdfsync.check.results import listed
+from urdfsync.config import library_folder, shown
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.files import normalised
+from urdfsync.modelica.files import ClassName, StoredClasses
+from urdfsync.modelica.lexer import find_markers
+from urdfsync.modelica.names import LIBRARY, is_identifier, within
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.syntax import StoredText, declared
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
+from urdfsync.spelling import nearest
+
+_ORDER, _PACKAGE = "package.order", "package.mo"
+_QUOTED_NAME = re.compile("'[^'.]+'")
+_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
+_BYTE_ORDER_MARK = "\ufeff"
+_ERROR, _WARNING = Severity.ERROR, Severity.WARNING
+_URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
+
+
+def check_layout(package: PackageFiles) -> list[Diagnostic]:
+    """All that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
+
+    What is generated never gets one.
+    """
+    found: dict[Diagnostic, None] = {}
+    files: dict[PurePosixPath, list[str]] = {PurePosixPath(): []}  # of each class, by its name below the package
+    declarations: dict[PurePosixPath, dict[str, int]] = {}  # lines of what a `package.mo` declares
+    misnamed: dict[PurePosixPath, str] = {}
+    for path in sorted(filter(holds_class, map(PurePosixPath, package.texts))):
+        if culprit := _misnamed_part(path):
+            misnamed[culprit] = culprit.stem if culprit == path else culprit.name
+            kind, noun = ("class", "file") if culprit == path else ("package", "folder")
+            message = f"`{misnamed[culprit]}` can't be the name of a {kind}"
+            hint = f"rename the {noun}, or move it elsewhere"
+            found[package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint)] = None
+            continue
+        name = path.parent if path.name == _PACKAGE else path.with_suffix("")
+        files.setdefault(name, []).append(str(path))
+        for folder in path.parents:
+            files.setdefault(folder, [])
+        text, faults = check_file(package, str(path), ".".join((package.name, *name.parts)))
+        found |= dict.fromkeys(faults)
+        if path.name == _PACKAGE and text:
+            inside = [one for one in declared(text.classes) if len(one.path) == 2]
+            declarations[name] = {one.path[1]: one.line for one in reversed(inside)}
+
+    folders = {folder for name in files if name.parts for folder in [name.parent]} | {PurePosixPath()}
+    folders |= {PurePosixPath(path).parent for paths in files.values() for path in paths}
+    for folder in sorted(folders):
+        place = str(folder / _PACKAGE)
+        if place not in package.texts:
+            message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
+            shown = "" if not folder.parts else str(folder)
+            found[package.diagnostic(_ERROR, "no-package-file", message, shown, hint=hint)] = None
+        stored = sorted(name for name in files if name.parts and name.parent == folder)
+        lines, spellings = declarations.get(folder, {}), dict[str, str]()
+        for name in stored:
+            file, both = f"{name}.mo", f"{name}.mo" in package.texts and name in folders
+            if both:
+                message = f"`{name.name}` is both a file and a folder"
+                found[package.diagnostic(_ERROR, "class-twice", message, file, hint="keep one of them")] = None
+            if line := lines.get(name.name):
+                message = f"`{name.name}` is declared here, and is a {'folder' if name in folders else 'file'} as well"
+                found[package.diagnostic(_ERROR, "class-twice", message, place, line, hint="keep one of them")] = None
+            first = spellings.setdefault(name.name.casefold(), name.name)
+            if first != name.name:
+                message = f"`{name.name}` and `{first}` differ only by case"
+                hint = "rename one: file systems that ignore case do not hold both"
+                found[package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint)] = None
+        if str(folder / _ORDER) in package.texts:
+            present = {name.name for name in stored} | lines.keys()
+            others = {word for path, name in misnamed.items() if path.parent == folder for word in (name, path.name)}
+            is_known = folder in declarations
+            found |= dict.fromkeys(_check_order(package, folder, present, others if is_known else None))
+    return sorted(found, key=lambda one: (one.file, one.line))
+
+
+def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
+    """What keeps a compiler from reading files beside a package: syntax, `within`, and the names of packages.
+
+    `files` are by absolute path, and hold each `package.mo` around a file. Other faults of theirs are left to those
+    who make them.
+    """
+    found: list[Diagnostic] = []
+    for file in sorted(files):
+        top = next((folder for folder in reversed(file.parents) if folder / _PACKAGE in files), None)
+        folder = top or file.parent
+        path = PurePosixPath(file.relative_to(folder).as_posix())
+        if holds_class(path):
+            parts = [*([top.name] if top else []), *path.with_suffix("").parts]
+            first, *others = parts[:-1] if top and path.name == _PACKAGE else parts
+            name = ".".join((first.partition(" ")[0], *others))  # a version may follow the name of a library
+            package = PackageFiles(name, folder, {str(path): files[file]})
+            ignored = {"repeated", "second-class", *(["wrong-within"] if _misnamed_part(path) else [])}
+            ignored |= set() if path.name == _PACKAGE and not _misnamed_part(path) else {"wrong-name"}
+            found += [one for one in check_file(package, str(path), name)[1] if one.code not in ignored]
+    return found
+
+
+def check_file(package: PackageFiles, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
+    """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
+    said: list[Diagnostic] = []
+
+    def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
+        said.append(package.diagnostic(severity, code, message, path, line, hint=hint))
+
+    text = _decoded(package, path)
+    if isinstance(text, Diagnostic):
+        return None, [text]
+    if text.startswith(_BYTE_ORDER_MARK):
+        hint = "save it without: some compilers refuse it"
+        say(_WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
+    found = parse(text)
+    if found.is_broken:  # only the first place is told, since others may follow from it
+        breaking = [fault for fault in found.faults if not fault.is_repetition]
+        first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
+        hint = "correct it first: more places in the file may look wrong because of it" if found.faults[1:] else ""
+        say(_ERROR, "syntax", f"the file {first.reason}", first.line, hint)
+        return None, said
+    for fault in found.faults:
+        severity, code = (_WARNING, "repeated") if fault.reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax")
+        say(severity, code, f"the file {fault.reason}", fault.line)
+    parent, _, expected = name.rpartition(".")
+    if not found.classes:
+        say(_ERROR, "no-class", "the file holds no class", 0, f"write the class `{expected}`, or delete the file")
+        return found, said
+    if (found.within or "") != parent:
+        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
+        if found.within is not None:
+            message = f"the file says `within {found.within};`, but stands in `{parent or 'no package'}`"
+            hint = f"write `{within(name)}`"
+        say(_ERROR, "wrong-within", message, found.within_line or 1, hint)
+    main = next((one for one in found.classes if str(one.name) == expected), found.classes[0])
+    if str(main.name) != expected:
+        place = "folder" if PurePosixPath(path).name == _PACKAGE else "file"
+        message = f"the class is called `{main.name}`, but its {place} `{expected}`"
+        say(_ERROR, "wrong-name", message, main.name.line, f"give class and {place} the same name")
+    for other in found.classes:
+        if other is not main:
+            message = f"the file holds `{other.name}` besides `{main.name}`"
+            hint = "a file in a package holds one class: give it one of its own"
+            say(_ERROR, "second-class", message, other.name.line, hint)
+    return found, said
+
+
+def _check_order(
+    package: PackageFiles, folder: PurePosixPath, present: set[str], others: set[str] | None
+) -> Iterator[Diagnostic]:
+    """Check whether a `package.order` names what is `present` in the folder, each once.
+
+    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
+    """
+    path = str(folder / _ORDER)
+    text = _decoded(package, path)
+    if isinstance(text, Diagnostic):
+        yield text
+        return
+    names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
+    lacking = sorted(present.difference(names))
+    for name in lacking:
+        generated = {str(folder / f"{name}.mo"), str(folder / name / _PACKAGE)} & package.owners.keys()
+        is_ours = generated and str(folder / _PACKAGE) in package.owners
+        hint = "`urdfsync build` adds it" if is_ours else "add it where it belongs: tools put it last, or warn"
+        yield package.diagnostic(_WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint)
+    lines: dict[str, int] = {}
+    for number, name in enumerate(names, start=1):
+        first = lines.setdefault(name, number)
+        if name and first != number:
+            message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
+            yield package.diagnostic(_WARNING, "order-twice", message, path, number, hint=hint)
+        elif name and others is not None and name not in present | others:
+            near = nearest(name, lacking)
+            message = f"`{name}` is named, but is no class and no constant of the package"
+            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
+            yield package.diagnostic(_ERROR, "order-unknown", message, path, number, hint=hint)
+
+
+def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
+    """The outermost folder around a file, or the file itself, whose name no class can have."""
+    parts = [*reversed(path.parents[:-1]), *([] if path.name == _PACKAGE else [path])]
+    names = [(part, part.stem if part is path else part.name) for part in parts]
+    return next((part for part, name in names if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name))), None)
+
+
+def _decoded(package: PackageFiles, path: str) -> str | Diagnostic:
+    """The text of a file, or the finding that it is not UTF-8."""
+    try:
+        return normalised(package.texts[path]).decode()
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        return package.diagnostic(_ERROR, "not-utf8", "the file is not in UTF-8", path, line, hint="save it as UTF-8")
+
+
+def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
+    """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
+    own, output = package.robot.target.package, package.robot.output
+    hint = "`urdfsync build` brings back what it imported; else put the file there"
+    for path in sorted(package.on_disk):
+        text, addresses = package.files.text(path), set[str]()
+        for found in _URI.finditer(text):
+            top, folder = found[1], output.joinpath(*found[1].split("."))
+            is_ours = f"{own}.".startswith(f"{top}.") or top.startswith(f"{own}.")
+            if is_ours and folder.is_dir() and found[0] not in addresses and not (folder / found[2]).exists():
+                addresses.add(found[0])
+                line = text.count("\n", 0, found.start()) + 1
+                message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
+                yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
+
+
+def check_names(package: CheckedPackage, standard: Mapping[str, Path]) -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """What is wrong with names in the package, and in the user's files outside of it; `standard` is the MSL.
+
+    Each fault is told once in each file, at its first line.
+    """
+    robot = package.robot
+
+    def find(name: str) -> Path | None:
+        if name == LIBRARY != robot.target.package.partition(".")[0]:
+            return library_folder() / LIBRARY
+        if name in libraries.STANDARD:
+            return standard.get(name)
+        return libraries.find_library(name, libraries.search_path(robot))
+
+    around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
+    others = {**around, **package.users_files}
+    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find)
+    users = [name for name, one in sources.users.items() if Path(one.file) in package.users_files]
+    message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
+    unread = [path for path in sources.unread if path in package.users_files and path not in around]
+    found = [Diagnostic(Severity.WARNING, "names-unread", message, shown(path), hint=hint) for path in unread]
+    scopes = Scopes(sources)
+    return _check_classes(package, scopes, sources.own), [*found, *_check_classes(package, scopes, users)]
+
+
+def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[ClassName]) -> list[Diagnostic]:
+    """One finding for all places in a file that have the same fault."""
+    places: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
+    for node in filter(None, map(scopes.node, sorted(names))):
+        for one in unresolved(node, scopes):
+            places.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
+    found = [_diagnostic(package, Path(file), alike) for (file, *_), alike in places.items()]
+    return sorted(found, key=lambda one: (one.file, one.line))
+
+
+def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
+    one, files = min(places, key=lambda place: place.line), package.files
+    severity, code, hint = Severity.WARNING, one.kind.value, ""
+    if one.kind is UnresolvedKind.NESTED_REDECLARE:
+        message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
+        hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
+    elif one.kind is UnresolvedKind.DOTTED_MODIFIER:
+        message = f"the modifier of `{one.name}` is not checked: rumoca ignores names with dots in modifiers"
+        first, *rest = one.name.split(".")
+        hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
+    else:
+        severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
+        message = f"there is no {one.kind.value} `{one.name}`"
+        if one.kind is UnresolvedKind.ELEMENT:
+            message = f"{one.owner.rpartition('.')[2]} has no `{one.part}`"
+            robot, snapshot = package.robot, package.rendering.snapshot
+            if one.owner == f"{robot.target.package}.{package.models[0]}":
+                option = package.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)
+                hint = f"`{option}` in the configuration brings it back" if option else hint
+    lines = sorted({place.line for place in places} - {one.line})
+    also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
+    if not file.is_relative_to(files.folder):
+        hint = "; ".join(filter(None, (hint, also)))
+        return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
+    path = file.relative_to(files.folder).as_posix()
+    hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
+    return files.diagnostic(severity, code, message, path, one.line, hint=hint)
