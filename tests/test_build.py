@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
 import shutil
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
-from support.crashes import Operation, before_each
 from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
@@ -213,50 +210,7 @@ def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path)
         Path(MANIFEST).write_text("it need not be readable")
 
 
-def test_the_manifest_says_what_was_built(project: Path) -> None:
-    run()
-    recorded = tomllib.loads(Path(MANIFEST).read_text())
-    assert recorded["source"]["path"] == "ladder.json"
-    assert recorded["names"] == {"elements": {name: name for name in ("C1", "C2", "R1", "R2")}}
-    assert recorded["files"]["Elements/R1.mo"] == {
-        "owner": "element R1",
-        "role": "model",
-        "base": files.digest((project / LADDER / "Elements/R1.mo").read_bytes()),
-    }
-    assert recorded["dependencies"]["step.csv"]["target"] == "Resources/step.txt"
-    model = json.loads((project / ".urdfsync/robots/ladder.json").read_text())
-    assert model["snapshot"]["elements"]["R1"]["ohm"] == 100
-    ignored = (project / ".urdfsync/.gitignore").read_text().splitlines()[1:]
-    assert ignored == ["/*", "!/.gitignore", "!/robots/"]
-
-
-def test_one_broken_robot_does_not_stop_the_others(project: Path) -> None:
-    Path("broken.json").write_text("{")
-    broken = ROBOT.format("broken", "Broken").replace("ladder.json", "broken.json")
-    Path("urdfsync.toml").write_text(ROBOT.format("ladder", "Ladder") + broken + ROBOT.format("other", "Other"))
-    results = run_all()
-    assert [(one.robot, one.failed) for one in results] == [("ladder", False), ("broken", True), ("other", False)]
-    assert exit_code(results) is Exit.ERROR
-    assert (project / "modelica/Other/package.mo").exists()
-    assert not (project / "modelica/Broken").exists()
-
-
 # Hand edits
-
-
-def test_an_edited_file_survives(project: Path) -> None:
-    run()
-    model = project / LADDER / "Elements/R1.mo"
-    edit(model, "v = parameters.R*i;", "v = 2*parameters.R*i;")
-    mine = model.read_bytes()
-    for request in ({}, {"full": True}, {"dry": True}):
-        result = run(**request)
-        assert kinds(result) == {"Elements/R1.mo": Kind.KEEP}
-        assert result.in_step
-    resistor(120)
-    assert kinds(run()) == {"Elements/R1.mo": Kind.KEEP, "Elements/R1Parameters.mo": Kind.UPDATE}
-    assert model.read_bytes() == mine
-    assert tomllib.loads(Path(MANIFEST).read_text())["files"]["Elements/R1.mo"]["state"] == "edited"
 
 
 def test_a_build_may_only_record_what_the_user_did(project: Path, snapshot_of: Snapshot) -> None:
@@ -270,40 +224,6 @@ def test_a_build_may_only_record_what_the_user_did(project: Path, snapshot_of: S
     assert [path for path in after if before.get(path) != after[path]] == [MANIFEST]
     assert not run().renews_state
     assert snapshot_of(project) == after
-
-
-def test_what_was_written_before_a_save_came_in_between_is_told(project: Path) -> None:
-    run()
-    resistor(120)
-    source("220.5", "330")
-    record, count = project / LADDER / "Elements/R2Parameters.mo", 0
-
-    def save(operation: Operation) -> None:
-        nonlocal count
-        if operation.name in ("exchange", "replace") and record in operation.paths and count == 0:
-            count += 1
-            edit(record, "end R2", "// mine\nend R2")
-
-    with before_each(save):
-        result = run()
-    assert count == 1
-    assert kinds(result) == {"Elements/R1Parameters.mo": Kind.UPDATE, "Elements/R2Parameters.mo": Kind.CONFLICT}
-    assert result.changes is not None
-    assert {change.element for change in result.changes.changes} == {"R1", "R2"}
-    assert "// mine" in record.read_text()
-
-
-def test_a_deleted_file_comes_back_but_a_class_made_a_package_counts_as_edited(project: Path) -> None:
-    run()
-    model = project / LADDER / "Elements/R1.mo"
-    model.unlink()
-    (project / LADDER / "Elements/package.order").unlink()
-    assert kinds(run()) == {"Elements/R1.mo": Kind.RESTORE, "Elements/package.order": Kind.RESTORE}
-    model.unlink()
-    model.with_suffix("").mkdir()
-    (model.with_suffix("") / "package.mo").write_text("within Ladder.Elements;\npackage R1\nend R1;\n")
-    assert kinds(run()) == {"Elements/R1.mo": Kind.KEEP}
-    assert not model.exists()
 
 
 def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_settled(
@@ -336,20 +256,6 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_settled(
     assert run().in_step
 
 
-def test_an_edited_record_that_is_no_longer_generated_is_kept(project: Path) -> None:
-    run()
-    record = project / LADDER / "Elements/R2Parameters.mo"
-    edit(record, "220.5", "330")
-    source('"R2"', '"R3"')
-    source("220.5", "330")
-    assert kinds(run())["Elements/R2Parameters.mo"] is Kind.ORPHAN
-    assert "330" in record.read_text()
-    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.ORPHAN}
-    record.unlink()
-    assert kinds(run()) == {"Elements/R2Parameters.mo": Kind.FORGET, "Elements/package.order": Kind.UPDATE}
-    assert kinds(run()) == {}
-
-
 def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
     run()
     elements = project / LADDER / "Elements"
@@ -369,16 +275,6 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
     gone = {"Elements/R2.mo": Kind.FORGET, "Elements/R2Parameters.mo": Kind.DELETE}
     assert kinds(run()) == {**gone, "Elements/package.order": Kind.UPDATE}
     assert kinds(run()) == {}
-
-
-def test_lines_of_the_user_stay_in_order_files(project: Path) -> None:
-    run()
-    order = project / LADDER / "package.order"
-    order.write_bytes(b"Elements\r\nBench\r\nLadder\r\n")
-    assert kinds(run()) == {}
-    configure(**{"class": '"Network"'})
-    assert kinds(run())["package.order"] is Kind.UPDATE
-    assert order.read_bytes() == b"Elements\r\nNetwork\r\nBench\r\n"
 
 
 # The packages around
@@ -465,25 +361,6 @@ def test_outputs_that_cant_be(project: Path, output: str, make: str, words: str)
     assert words in message
 
 
-@pytest.mark.parametrize("place", [LADDER, f"{LADDER}/Elements", f"{LADDER}/Elements/R1.mo"])
-@pytest.mark.parametrize("kind", ["link", "other"])
-def test_what_is_in_the_way_is_left_alone(project: Path, tmp_path: Path, place: str, kind: str) -> None:
-    outside, path = tmp_path / "outside", project / place
-    outside.mkdir()
-    path.parent.mkdir(parents=True)
-    if kind == "link":
-        path.symlink_to(outside, target_is_directory=True)
-    elif path.suffix:
-        path.mkdir()
-    else:
-        path.write_text("mine")
-    message = failure()
-    assert message.startswith(place)
-    assert "[output-in-the-way]" in message
-    assert not list(outside.iterdir())
-    assert not (project / ".urdfsync").exists()
-
-
 @pytest.mark.parametrize(
     ("error", "hint"),
     [
@@ -511,25 +388,6 @@ def test_a_disk_that_refuses_changes_nothing(
     assert failure() == f"{LADDER}/Elements/R3.mo: error: {reason}; {hint}; then build again [output-not-writable]"
     changed = {path for path, entry in snapshot_of(project).items() if before.get(path) != entry}
     assert {path for path in changed if not path.startswith(".urdfsync/base/")} == {"ladder.json"}
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
-@pytest.mark.parametrize(
-    ("place", "words"),
-    [
-        ("ladder.json", "urdfsync.toml:2: error: robot `ladder`: the source ladder.json is no regular file"),
-        (f"{LADDER}/Ladder.mo", "no regular file is where urdfsync would write a file"),
-        (f"{LADDER}/Resources/step.txt", "no regular file is where urdfsync would write a file"),
-        (MANIFEST, "no regular file is where urdfsync would write a file"),
-    ],
-)
-def test_a_pipe_does_not_stop_the_build_for_ever(project: Path, place: str, words: str) -> None:
-    run()
-    Path(place).unlink()
-    os.mkfifo(place)
-    message = failure()
-    assert words in message
-    assert message.count("error: ") == 1
 
 
 def test_a_gitignore_of_the_user_stays(project: Path) -> None:
@@ -696,13 +554,6 @@ def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypat
         words = "it changed while urdfsync looked at it; build again [restless]"
         assert failure() == f"{LADDER}/Resources/step.txt: error: {words}"
     assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
-
-
-def test_package_paths_are_searched(project: Path, tmp_path: Path) -> None:
-    Path("step.csv").rename(tmp_path / "step.csv")
-    assert run(package_paths=(tmp_path,), dry=True).diagnostics == ()
-    configure(package_paths=f'["{tmp_path.as_posix()}"]')
-    assert run().diagnostics == ()
 
 
 @pytest.mark.parametrize("before", [False, True], ids=["never converted", "converted before"])

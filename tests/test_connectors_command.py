@@ -42,11 +42,6 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
     assert "connector-changed" not in said(capsys, "build")
 
 
-def test_numbers_change_no_connector(project: Path, capsys: Capture) -> None:
-    (project / "arm.urdf").write_text(urdfs.robot(urdfs.link("base", 2.0), LINKS[1], SWING))
-    assert "connector-changed" not in said(capsys, "build")
-
-
 def configure(project: Path, lines: str) -> None:
     """Build with other options; the robot stays as it is."""
     (project / "urdfsync.toml").write_text(CONFIG + lines)

@@ -118,15 +118,6 @@ def test_settling_one_conflict_releases_what_waited_which_is_told_till_then(conf
     assert run().changes is None
 
 
-def test_a_choice_for_what_does_not_conflict_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    edit(R1, "end R1;", "// mine\nend R1;")
-    run()
-    before = snapshot_of(project)
-    run(choices={R1: Choice.TAKE, RECORD: Choice.KEEP})
-    assert snapshot_of(project) == before
-
-
 @pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE, None])
 def test_a_file_that_was_there_before_is_a_conflict_that_has_no_merge(project: Path, choice: Choice | None) -> None:
     Path(R1).parent.mkdir(parents=True)
@@ -420,17 +411,6 @@ def test_an_edit_after_a_choice_asks_again(two_conflicts: tuple[str, str]) -> No
     assert conflicts() == [one, two]
 
 
-def test_taking_an_orphan_waits_like_everything_else(two_conflicts: tuple[str, str]) -> None:
-    orphan = f"{LADDER}/Elements/C2.mo"
-    edit(orphan, "equation", "// mine\nequation")
-    source('"C2", "between": ["out", "ground"], "farad": 4.7e-6', '"C9", "between": ["out", "in"], "farad": 1')
-    assert kinds(run())[orphan] is Kind.ORPHAN
-    run(choices={orphan: Choice.TAKE})
-    assert Path(orphan).exists()
-    run(choices=dict.fromkeys(two_conflicts, Choice.TAKE))
-    assert not Path(orphan).exists()
-
-
 def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
     edit("urdfsync.toml", "robots.ladder", "robots.leiter")
     assert len(run().conflicts) == 2
@@ -488,17 +468,6 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
         assert standoff.merge.text is None
         line = standoff.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
         assert standoff.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
-
-
-def test_uses_are_named_as_long_as_a_conflict_waits(project: Path) -> None:
-    run()
-    write_user()
-    edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = C1.v*C1.i;\n\nequation")
-    drop("C1")
-    first, second = run(), run()
-    assert first.conflicts
-    assert warnings(first) == warnings(second)
-    assert len(warnings(first)) == 3
 
 
 def test_own_classes_in_the_package_that_use_what_is_gone_are_named(project: Path) -> None:

@@ -1,4 +1,4 @@
-"""Meshes of a stranger's: each ends in one finding within its limits. `test_hostile` brings some before the commands."""
+"""Meshes of a stranger's: each ends in one finding within its limits. `test_hostile` brings some before commands."""
 
 from __future__ import annotations
 

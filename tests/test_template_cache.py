@@ -11,7 +11,6 @@ import platformdirs
 import pytest
 
 from urdfsync import template_cache
-from urdfsync.check.cache import UserCache
 from urdfsync.render import Renderer, _Sandbox
 
 needs_owners = pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs owners and modes of files")
@@ -170,11 +169,3 @@ def test_a_relative_folder_is_not_used(tmp_path: Path, templates: Path, monkeypa
     monkeypatch.setattr(platformdirs, "user_cache_path", lambda name, appauthor: Path("relative", name))
     assert render(templates) == "a 1\n"
     assert not Path("relative").exists()
-
-
-def test_it_is_a_part_of_the_cache_of_checks(home: Path, templates: Path) -> None:
-    render(templates)
-    cache = UserCache.default()
-    assert cached(home)[0].parent == cache.templates
-    assert cache.clear() > 0
-    assert not cache.templates.exists()

@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import signal
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -122,14 +121,6 @@ def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pyt
 
 def _die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
-
-
-def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "_PAUSE", 0.001)  # the others may be quick
-    told: list[tuple[str, int, int]] = []
-    tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
-    run_all(jobs=2, progress=tell)
-    assert {total for what, _, total in told if what == "reading"} == {COUNT}
 
 
 @pytest.mark.slow

@@ -182,15 +182,6 @@ def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) ->
     assert [entry.held for entry in hold([action], set())] == [False], "without a conflict nothing waits"
 
 
-@pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
-def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
-    merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
-    assert records_after([merged])["a"] == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
-    assert records_after([msgspec.structs.replace(merged, result="new")])["a"] == FileRecord(
-        "link a", Role.MODEL, "new"
-    )
-
-
 def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place; the same while that waits."""
     recorded = {f"{name}.mo": FileRecord(f"part {name}", Role.MODEL, name) for name in "AB"}

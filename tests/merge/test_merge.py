@@ -159,18 +159,6 @@ def test_alike_on_both_sides_is_done_once() -> None:
     assert merge(RECORD, mine, generated).text == mine
 
 
-def test_what_was_taken_over_by_hand_is_not_there_twice() -> None:
-    generated = changed(("1.2,\n", "1.2,\n      load = 3,\n"))
-    mine = changed(("1.2", "1.3"), text=generated)
-    assert merge(RECORD, mine, generated).text == mine
-    elsewhere = changed(("      mass = 1.2", "      load = 3,\n      mass = 1.3"))
-    assert merge(RECORD, elsewhere, generated).text is None
-
-
-def test_numbers_are_never_mixed() -> None:
-    assert merge("a = 1.05;\n", "a = 2.05;\n", "a = 1.07;\n").text is None
-
-
 def test_a_conflict_says_where_and_shows_all_three() -> None:
     mine = changed(("name", "// edited\n    name"), ("1.05", "2.05"))
     result = merge(RECORD, mine, changed(("1.05", "1.07"), ("ixx = 0.005953", "ixx = 0.006")))
@@ -195,12 +183,6 @@ def test_in_a_run_of_changed_lines_only_those_in_conflict_are_marked() -> None:
     assert conflict.base == conflict.mine == conflict.generated == range(11, 12)
     assert "ixx = 1,\n<<<<<<< mine\n" in result.proposal
     assert ">>>>>>> generated\n        izz = 3" in result.proposal
-
-
-def test_a_conflict_can_be_a_place_between_lines() -> None:
-    result = merge("a\nb\n", "a\nmine\nb\n", "a\ngenerated\nb\n")
-    assert result.conflicts[0].base == range(2, 2)
-    assert result.conflicts[0].mine == range(2, 3)
 
 
 @pytest.mark.parametrize(("length", "clean"), [(200, True), (201, False)])
@@ -239,11 +221,6 @@ def test_a_string_over_several_lines_is_not_merged_by_tokens() -> None:
     assert merge(DOCUMENT, mine, generated).text is None
 
 
-def test_a_quote_in_a_comment_begins_no_string() -> None:
-    base = 'a = 1; // 5" pipe\nb = 2;\nc = 3;\n'
-    assert merge(base, base.replace("1", "9"), base.replace("2", "8")).text == base.replace("1", "9").replace("2", "8")
-
-
 @pytest.mark.parametrize(
     ("base", "mine", "generated", "merged"),
     [
@@ -272,12 +249,6 @@ def test_a_quote_in_a_comment_begins_no_string() -> None:
 )
 def test_texts_of_all_kinds(base: str, mine: str, generated: str, merged: str | None) -> None:
     assert merge(base, mine, generated).text == merged
-
-
-def test_markers_stand_on_lines_of_their_own() -> None:
-    lines = merge("a", "b", "c").proposal.splitlines()
-    assert lines == ["<<<<<<< mine", "b", "||||||| base", "a", "=======", "c", ">>>>>>> generated"]
-    assert "\r\n" in merge("a\r\n", "b\r\n", "c\r\n").proposal
 
 
 # --- Modelica -----------------------------------------------------------------------------------------------------

@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 import tomli
 import tomli_w
-from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, edit
 from support.replay import contents
 
@@ -59,27 +58,6 @@ def hostile(project: Path) -> Path:
     noted.write_text(noted.read_text().replace("modelica/Ladder", "modelica/Mine"))
     shutil.rmtree(project / "modelica/Ladder")
     return project
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["build"],
-        ["build", "--full"],
-        ["build", "--repair"],
-        ["build", "--dry-run"],
-        ["build", "--check"],
-        ["status"],
-        ["diff"],
-        ["resolve", "--all", "--take"],
-    ],
-    ids=" ".join,
-)
-def test_a_strangers_manifest_deletes_nothing_of_the_users(hostile: Path, command: Sequence[str]) -> None:
-    run(*command)
-    assert contents(hostile / "modelica/Mine") == OWN
-    run("build")
-    assert contents(hostile / "modelica/Mine") == OWN
 
 
 def test_a_strangers_manifest_moves_no_edits(hostile: Path) -> None:
@@ -173,14 +151,6 @@ def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(project: Path
     assert run("build") == 0
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
-
-
-@NEEDS_GIT
-@pytest.mark.parametrize("mode", ["build", "check"])
-def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    Repository(hostile, monkeypatch).git("add", "-A")
-    run("hook", mode)
-    assert contents(hostile / "modelica/Mine") == OWN
 
 
 @pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])

@@ -237,15 +237,6 @@ def test_a_manifest_is_rebuilt() -> None:
     assert found.dependencies["base.stl"].target_hash == "m2", "what is known of the copy that is there"
 
 
-def test_the_newest_generator_heads_the_state() -> None:
-    newer = msgspec.structs.replace(THEIRS, generator=Generator("urdf", 4, "9d"))
-    foreign = msgspec.structs.replace(THEIRS, generator=Generator("rcnetwork", 9, "9d"))
-    for theirs, revision in ((newer, 4), (foreign, 3)):
-        found = rebuilt(merged(theirs=theirs), {}, {})
-        assert found is not None
-        assert (found.generator.domain, found.generator.revision) == ("urdf", revision)
-
-
 @pytest.mark.parametrize(("mesh", "volume"), [("m1", "m1"), ("m2", "m2"), ("edited", "m1"), (None, "m1")])
 def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str) -> None:
     recovered = merged(json=conflict(model("ours"), model("theirs", "m2")))
@@ -255,13 +246,6 @@ def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str
     united = recovered.model(found)
     assert united is not None
     assert united.imports == expected
-
-
-def test_facts_of_other_bytes_are_left_out() -> None:
-    recovered = merged(OURS, OURS, model("theirs", "m9"))
-    united = recovered.model(OURS)
-    assert united is not None
-    assert united.imports == {}
 
 
 def test_the_snapshot_is_that_of_the_manifest() -> None:

@@ -80,14 +80,6 @@ def test_a_file_that_is_not_as_planned_stays(
     assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
 
 
-def test_a_file_to_delete_that_is_gone_is_no_hindrance(
-    tmp_path: Path, transactions: Transactions, changes: list[Change]
-) -> None:
-    changes[1].path.unlink()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
-
-
 @pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
 def test_a_moved_text_that_finds_its_place_taken_is_kept(
     tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
@@ -100,25 +92,6 @@ def test_a_moved_text_that_finds_its_place_taken_is_kept(
     assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
     assert said.code == "kept-save"
     assert f"{place.name}.saved" in said.message
-
-
-def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    (tmp_path / "renewed.mo").unlink()
-    (tmp_path / "renewed.mo").mkdir()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
-        tmp_path / "renewed.mo",
-        tmp_path / "state/robots/arm.json",
-    )
-    assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}
-
-
-def test_a_new_file_that_somebody_has_made_just_so_is_no_hindrance(
-    tmp_path: Path, transactions: Transactions, changes: list[Change]
-) -> None:
-    (tmp_path / "b/c").mkdir(parents=True)
-    (tmp_path / "b/c/made.mo").write_bytes(b"made")
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
 
 
 def test_an_error_names_what_is_in_the_way(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
