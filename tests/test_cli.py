@@ -66,25 +66,6 @@ def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
     ]
 
 
-def test_conflict(edited: Path, capsys: Capture) -> None:
-    change(edited, '"R2"', '"R3"')
-    model = Path("modelica/Ladder/Ladder.mo")
-    for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
-        assert cli.main(arguments) == 3
-        lines = capsys.readouterr().out.splitlines()
-        assert lines[0] == "ladder: 1 conflict, 5 changes waiting for that"
-        assert f"  conflict   {model}  network" in lines
-        assert '    generated  16    Elements.R3 elementR3 "Element R3";' in lines
-        assert f"    urdfsync resolve {model} --merge" in lines
-    assert cli.main(["build", "--quiet"]) == 3
-    assert capsys.readouterr().out.splitlines() == [
-        "ladder: 1 conflict, 5 changes waiting for that",
-        f"  conflict   {model}  the changes fit together: --merge takes both",
-        "",
-        "  urdfsync resolve --all --robot ladder --merge  merges it",
-    ]
-
-
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
     project: Path, capsys: Capture, snapshot_of: Callable[[Path], object]
 ) -> None:
@@ -298,3 +279,14 @@ def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.Monk
     shown.progress("arm: meshes", 1, 3)
     assert "arm: meshes" in screen.getvalue()
     shown.end("build", Exit.IN_STEP)
+
+
+def test_whatever_the_system_refuses_is_one_line(
+    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise PermissionError(13, "Permission denied", "somewhere")
+
+    monkeypatch.setattr(config, "load", refuse)
+    assert cli.main(["build"]) == 2
+    assert capsys.readouterr().err == "somewhere: error: Permission denied [system]\n"

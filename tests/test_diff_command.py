@@ -170,14 +170,6 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
     assert any(line.startswith("  update     Resources") for line in lines)
 
 
-def test_new_warnings_only(arm: Path, capsys: Capture) -> None:
-    (arm / "tip.stl").unlink()
-    assert said(capsys, "arm.urdf", "--against", "new.urdf")[0] == 1
-    change(arm, "tip.stl", "other.stl", "arm.urdf")
-    cli.main(["diff", "arm.urdf", "--against", "new.urdf"])
-    assert "other.stl" in capsys.readouterr().err
-
-
 # a revision
 
 

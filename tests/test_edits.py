@@ -69,7 +69,7 @@ def conflict(project: Path) -> Path:
     return project
 
 
-# Conflicts and what settles them
+# Conflicts, and what resolves them
 
 
 def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_deletes_them(conflict: Path) -> None:
@@ -100,7 +100,7 @@ def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path)
     assert kinds(run())[R1] is Kind.CONFLICT
 
 
-def test_settling_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
+def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
     waited = run()
     assert RECORD in {action.path for action in waited.actions if action.held}, "its parameter has another name"
     first, again = waited.changes, run().changes
@@ -152,22 +152,6 @@ def test_an_orphan_is_let_go_or_deleted_with_its_record_and_its_lines(project: P
 # Merges
 
 
-def test_an_edit_elsewhere_in_a_record_merges(project: Path) -> None:
-    merging()
-    run()
-    edit(RECORD, "end R1", MAY)
-    resistor(150)
-    assert kinds(run())[RECORD] is Kind.MERGE
-    text = Path(RECORD).read_text()
-    assert "// measured in May" in text
-    assert "150" in text
-    assert kinds(run()) == {RECORD: Kind.KEEP}
-    resistor(100, before=150)
-    run()
-    assert "// measured in May" in Path(RECORD).read_text()
-    assert "150" not in Path(RECORD).read_text()
-
-
 def test_contradicting_edits_are_never_merged(project: Path) -> None:
     merging()
     run()
@@ -186,10 +170,10 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     whole = f"{LADDER}/Ladder.mo"
     edit(whole, "equation", "  Elements.R1 elementR9;\n\nequation")
     rename("R2", "R9")
-    (standoff,) = run().conflict_texts
-    assert (standoff.path, standoff.merge is not None) == (whole, True)
-    assert standoff.merge is None or standoff.merge.text is None
-    assert "elementR9" in standoff.rejected
+    (found,) = run().conflict_texts
+    assert (found.path, found.merge is not None) == (whole, True)
+    assert found.merge is None or found.merge.text is None
+    assert "elementR9" in found.rejected
 
 
 def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapshot_of: Snapshot) -> None:
@@ -356,9 +340,9 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     own.mkdir(parents=True)
     text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
     (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
-    (standoff,) = [s for s in run().conflict_texts if s.path == R1]
-    assert standoff.merge is not None
-    assert standoff.merge.text is not None
+    (found,) = [s for s in run().conflict_texts if s.path == R1]
+    assert found.merge is not None
+    assert found.merge.text is not None
 
 
 def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
@@ -367,9 +351,9 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     resistor(150)
     shutil.rmtree(project / ".urdfsync/base")
     (project / ".urdfsync/robots/ladder.json").unlink()
-    (standoff,) = run().conflict_texts
-    assert standoff.base is None
-    assert standoff.merge is None
+    (found,) = run().conflict_texts
+    assert found.base is None
+    assert found.merge is None
     assert [path.name for path in ASIDE.iterdir()] == ["R1Parameters.generated.mo"]
 
 
@@ -462,12 +446,12 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
     rename("C1", "Tank")
     for _ in range(2):  # the second time, the state knows the new name already
-        (standoff,) = run().conflict_texts
-        assert standoff.path == whole
-        assert standoff.merge is not None
-        assert standoff.merge.text is None
-        line = standoff.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
-        assert standoff.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
+        (found,) = run().conflict_texts
+        assert found.path == whole
+        assert found.merge is not None
+        assert found.merge.text is None
+        line = found.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
+        assert found.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
 
 
 def test_own_classes_in_the_package_that_use_what_is_gone_are_named(project: Path) -> None:

@@ -19,6 +19,7 @@ from support.answers import save, saved
 
 from urdfsync import cli, dependencies, streams, uptodate
 from urdfsync.check import afterbuild
+from urdfsync.output import console
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -445,3 +446,21 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     ours = {f"urdfsync.{name}" for name in ("uptodate", "dependencies", "streams")}
     light = {"__future__", "_contextvars", "collections.abc", "contextvars", "errno", "runpy", "time"}
     assert names[0] - anyway - ours <= {"urdfsync", *light}
+
+
+def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    save(*BUILD)
+    assert "━" in capsys.readouterr().err, "there was one"
+    assert uptodate.print_answer(BUILD) == 0
+    said = capsys.readouterr()
+    assert "━" not in said.err
+    assert said.out.count("in step") == 2
+
+
+def test_a_configuration_that_is_named(folder: Path) -> None:
+    Path("urdfsync.toml").rename("robots.toml")
+    save("build", "--config", "robots.toml")
+    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
+    save("build", "--config=./robots.toml")

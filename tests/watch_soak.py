@@ -227,7 +227,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     held = {robot["name"] for robot in document["robots"] if robot["conflicts"]}
     for robot in document["robots"]:
         yield from (
-            f"not settled: {c['path']}: {c['reason']}" for c in robot["conflicts"] if not _is_edited(project, c)
+            f"not resolved: {c['path']}: {c['reason']}" for c in robot["conflicts"] if not _is_edited(project, c)
         )
     everything = "".join(path.read_text() for path in (project / "modelica").rglob("*.mo*"))  # `.mo.saved`, too
     lost = tags - set(TAG.findall(everything))

@@ -138,27 +138,6 @@ def test_conflicts(mine: Edit, generated: Edit) -> None:
     assert merge(RECORD, changed(generated), changed(mine)).text is None
 
 
-def test_edits_of_one_side_are_judged_one_by_one() -> None:
-    comments = ("mass = 1.2,", "mass = 1.2, // weighed"), ("iyy = 0.029335,", "iyy = 0.029335, // a guess")
-    generated = ("1.2,\n", "1.3,\n      load = 3,\n"), ("0.005953", "1"), ("0.029335", "2"), ("0.030752", "3")
-    expected = changed(*comments, ("1.2,", "1.3,"), ("      inertia", "      load = 3,\n      inertia"), *generated[1:])
-    assert merge(RECORD, changed(*comments), changed(*generated)).text == expected
-
-
-def test_a_line_removed_by_one_side_is_apart_from_the_value_above() -> None:
-    comment = ("ixx = 0.005953,", "ixx = 0.005953, // a guess")
-    generated = ("ixx = 0.005953,\n        iyy = 0.029335,\n", "ixx = 1,\n")
-    expected = changed(("ixx = 0.005953,", "ixx = 1, // a guess"), ("        iyy = 0.029335,\n", ""))
-    assert merge(RECORD, changed(comment), changed(generated)).text == expected
-
-
-def test_alike_on_both_sides_is_done_once() -> None:
-    mine, generated = changed(("1.2", "1.3"), ("1.05", "1.1 // tuned")), changed(("1.2", "1.3"), ("1.05", "1.1"))
-    assert merge(RECORD, mine, generated).text == mine
-    mine, generated = changed(("inertia(", "// full\n      tensor(")), changed(("inertia(", "tensor("))
-    assert merge(RECORD, mine, generated).text == mine
-
-
 def test_a_conflict_says_where_and_shows_all_three() -> None:
     mine = changed(("name", "// edited\n    name"), ("1.05", "2.05"))
     result = merge(RECORD, mine, changed(("1.05", "1.07"), ("ixx = 0.005953", "ixx = 0.006")))
@@ -174,15 +153,6 @@ def test_a_conflict_says_where_and_shows_all_three() -> None:
         ),
         text=mine,
     )
-
-
-def test_in_a_run_of_changed_lines_only_those_in_conflict_are_marked() -> None:
-    generated = changed(("0.005953", "1"), ("0.029335", "2"), ("0.030752", "3"))
-    result = merge(RECORD, changed(("0.029335", "9")), generated)
-    (conflict,) = result.conflicts
-    assert conflict.base == conflict.mine == conflict.generated == range(11, 12)
-    assert "ixx = 1,\n<<<<<<< mine\n" in result.proposal
-    assert ">>>>>>> generated\n        izz = 3" in result.proposal
 
 
 @pytest.mark.parametrize(("length", "clean"), [(200, True), (201, False)])

@@ -17,6 +17,7 @@ from support.networks import ROBOT, Snapshot, configure, rename, run_all
 
 import urdfsync
 from urdfsync import cli, config
+from urdfsync.diagnostics import OutputError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Exit, Result, exit_code
@@ -204,3 +205,9 @@ def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
     assert run(project).in_step
     assert run(project, full=True).in_step
     assert not list(project.rglob("*.urdfsync-tmp"))
+
+
+def test_a_lock_file_that_cant_be_one(path: Path) -> None:
+    path.mkdir(parents=True)
+    with pytest.raises(OutputError, match="it can't be written"):
+        Lock(path, 0).acquire()

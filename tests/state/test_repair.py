@@ -222,21 +222,6 @@ def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, g
 # --- the state that follows ---------------------------------------------------------------------------------------
 
 
-def test_a_manifest_is_rebuilt() -> None:
-    mine = {BASE: "b1", GRIPPER: "edited", "Arm/Links/Finger.mo": None, MESH: "m2"}
-    found = rebuilt(merged(), mine, {BASE: "b2", GRIPPER: "g-ours", MESH: "m2"})
-    assert found is not None
-    assert {path: record.base for path, record in found.files.items()} == {
-        BASE: "b1",
-        GRIPPER: "g-theirs",
-        "Arm/Links/Finger.mo": "f1",
-        MESH: "m2",
-    }
-    assert found.orders == {"Arm/Links/package.order": ("Base", "Gripper", "Finger")}
-    assert found.source == OURS.source
-    assert found.dependencies["base.stl"].target_hash == "m2", "what is known of the copy that is there"
-
-
 @pytest.mark.parametrize(("mesh", "volume"), [("m1", "m1"), ("m2", "m2"), ("edited", "m1"), (None, "m1")])
 def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str) -> None:
     recovered = merged(json=conflict(model("ours"), model("theirs", "m2")))

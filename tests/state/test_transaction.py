@@ -136,3 +136,13 @@ def test_what_cant_be_finished_is_finished_later(
     assert note.message == "the last build of robot `arm` was interrupted; it is finished"
     assert contents(tmp_path) == DONE
     assert transactions.recover() == ()
+
+
+def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    (tmp_path / "renewed.mo").unlink()
+    (tmp_path / "renewed.mo").mkdir()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
+        tmp_path / "renewed.mo",
+        tmp_path / "state/robots/arm.json",
+    )
+    assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}
