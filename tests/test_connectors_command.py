@@ -47,19 +47,6 @@ def configure(project: Path, lines: str) -> None:
     (project / "urdfsync.toml").write_text(CONFIG + lines)
 
 
-def test_a_frame_that_is_asked_for_no_more_is_named_and_so_is_the_key_that_keeps_it(
-    project: Path, capsys: Capture
-) -> None:
-    configure(project, 'frames = ["base"]\n')
-    assert "connector-changed" not in said(capsys, "build"), "one more is no news for what is connected"
-    configure(project, "")
-    assert 'link base frame was baseFrame list "base" in `frames` to keep it' in said(capsys, "diff")
-    note = 'note: link base: its frame `baseFrame` is gone; list "base" in `frames` to keep it [connector-changed]'
-    assert note in said(capsys, "build", "--dry-run")
-    assert note in said(capsys, "build")
-    assert "connector-changed" not in said(capsys, "build")
-
-
 def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Path, capsys: Capture) -> None:
     configure(project, "driven = []\n")
     found = said(capsys, "build")

@@ -110,13 +110,6 @@ def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, sn
     assert snapshot_of(built) == before
 
 
-def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
-    code, lines = said(capsys, "ladder")
-    assert (code, lines[0], lines[2]) == (1, "ladder: never built", "A build: 14 files to write")
-    assert lines[-1] == "  … and 3 more files; --verbose shows them"
-    assert len(said(capsys, "ladder", "--verbose")[1]) == 3 + 14
-
-
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
         file.write(ROBOT.format("other", "Other"))

@@ -162,15 +162,6 @@ def test_bad_sources_are_told_with_file_and_no_exception(case: Case, content: by
     assert {found.file for found in errors} == {"bad"}
 
 
-def test_dependencies_are_only_looked_for_by_the_core(case: Case) -> None:
-    dependency = case.dependency
-    assert dependency.candidates[0] == Path("/sources") / Path(dependency.uri).name
-    assert all(path.is_absolute() for path in dependency.candidates)
-    assert dependency.line > 0
-    assert dependency.noun.isidentifier()
-    generate.check_paths((dependency.target,))
-
-
 def texts(package: generate.Package) -> dict[str, bytes]:
     return {path: package.content(path) for path in package.artifacts}
 

@@ -15,6 +15,8 @@ from support.networks import LADDER, MANIFEST, RECORD, edit
 from support.networks import R1 as MODEL
 
 from urdfsync import cli
+from urdfsync.diagnostics import OutputError
+from urdfsync.files import Tree
 from urdfsync.outcome import Exit
 
 MINE = "// mine\n"
@@ -233,3 +235,9 @@ def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, capsys: Capture)
     assert (edited / RECORD).read_bytes() == before[RECORD]
     assert cli.main(["resolve", RECORD, "--take"]) == Exit.IN_STEP
     assert "120" in (edited / RECORD).read_text()
+
+
+def test_nothing_outside_of_its_root_is_read(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("secret")
+    with pytest.raises(OutputError, match="leaves"):
+        Tree(tmp_path / "root").read(tmp_path / "secret")

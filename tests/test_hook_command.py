@@ -363,18 +363,6 @@ def test_a_mesh_or_table_is_judged_as_it_is_staged(repo: Repository, capsys: Cap
     assert said(capsys, "check", code=0) == []
 
 
-def test_a_dependency_outside_of_the_repository_is_judged_as_it_is_on_disk(repo: Repository, capsys: Capture) -> None:
-    Path("../tables").mkdir()
-    Path("step.csv").rename("../tables/step.csv")
-    edit("urdfsync.toml", "domain", 'package_paths = ["../tables"]\ndomain')
-    run("urdfsync build")
-    repo.commit()
-    resistor(120)
-    assert said(capsys, "check", code=0) == [], "found from the mirror, too"
-    edit("../tables/step.csv", "0.1,5", "0.1,6")
-    assert said(capsys, "check")[0].startswith("ladder: out of step: 1 file to write")
-
-
 def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("robots/left", "robots/right"):
         Path(name).mkdir(parents=True)
@@ -392,22 +380,6 @@ def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeyp
     lines = said(capsys, "check")
     assert lines[-1].startswith("  urdfsync build ladder --config ../left/urdfsync.toml && git add ../left/.urdfsync/")
     assert said(capsys, "check", "robots/right/urdfsync.toml", code=0) == []
-
-
-def test_robots_of_two_configurations_are_told_apart(repo: Repository, capsys: Capture) -> None:
-    Path("robots").mkdir()
-    for name in ("ladder.json", "urdfsync.toml"):
-        Path("robots", name).write_bytes(Path(name).read_bytes())
-    repo.git("add", "robots")
-    resistor(120)
-    repo.git("add", ".")
-    lines = said(capsys, "build")
-    assert lines[:2] == [
-        "ladder (robots/urdfsync.toml): out of step: 13 files written",
-        "ladder (urdfsync.toml): out of step: 1 file written",
-    ]
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
 
 
 def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -489,18 +461,3 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     repo.git("add", ".")
     repo.git("reset", "-q", "--hard")
     assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
-
-
-def test_whatever_passes_is_in_step_in_a_clone(
-    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    resistor(120)
-    edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
-    repo.git("add", ".")
-    run(said(capsys, "build")[-1])
-    assert said(capsys, "check", code=0) == []
-    repo.git("commit", "-qm", "next")
-    git("clone", "-q", ".", "../clone")
-    monkeypatch.chdir("../clone")
-    assert cli.main(["build", "--check", "--quiet"]) == 0
-    assert said(capsys, "check", code=0) == []

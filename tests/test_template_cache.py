@@ -77,13 +77,6 @@ def test_a_damaged_file_is_made_again(home: Path, templates: Path, compiled: lis
     assert len(compiled) == 1 + len(damaged)
 
 
-@pytest.mark.parametrize("place", ["urdfsync", "urdfsync/templates"])
-def test_without_a_folder_templates_are_compiled_all_the_same(home: Path, templates: Path, place: str) -> None:
-    (home / place).parent.mkdir(exist_ok=True)
-    (home / place).write_text("no folder")
-    assert render(templates) == "a 1\n"
-
-
 @needs_owners
 @pytest.mark.parametrize("mode", [0o777, 0o775, 0o702])
 @pytest.mark.parametrize("place", ["urdfsync/templates", "urdfsync", ".", ".."])
@@ -169,3 +162,10 @@ def test_a_relative_folder_is_not_used(tmp_path: Path, templates: Path, monkeypa
     monkeypatch.setattr(platformdirs, "user_cache_path", lambda name, appauthor: Path("relative", name))
     assert render(templates) == "a 1\n"
     assert not Path("relative").exists()
+
+
+@pytest.mark.parametrize("place", ["urdfsync", "urdfsync/templates"])
+def test_without_a_folder_templates_are_compiled_all_the_same(home: Path, templates: Path, place: str) -> None:
+    (home / place).parent.mkdir(exist_ok=True)
+    (home / place).write_text("no folder")
+    assert render(templates) == "a 1\n"

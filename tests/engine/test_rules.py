@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Kind
+from urdfsync.engine.actions import WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import DesiredFile, OnDisk, decide, decide_file, records_after
 from urdfsync.state.record import Choice, FileRecord, RecordState
@@ -52,18 +52,6 @@ def test_decision_table(base: str | None, mine: OnDisk, generated: str | None, k
 
 hashes = st.sampled_from("abc")
 found = st.one_of(st.just(ABSENT), st.just(FOLDER), hashes.map(on_disk))
-
-
-@given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
-def test_after_an_action_the_next_build_has_nothing_to_do(
-    base: str | None, mine: OnDisk, generated: str | None
-) -> None:
-    action = Action("a", decide_file(base, mine, generated), Role.MODEL, "", base, generated)
-    record = records_after([action]).get("a")
-    written = {Kind.DELETE: ABSENT}.get(action.kind, OnDisk(generated)) if action.writes else mine
-    second = decide_file(record.base if record else None, written, generated)
-    quiet = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET}
-    assert second in (CONFLICTS if action.kind in CONFLICTS else quiet)
 
 
 # Files whose element has another name

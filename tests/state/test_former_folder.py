@@ -15,7 +15,6 @@ from support.networks import MANIFEST, edit
 from support.replay import contents
 
 from urdfsync import cli
-from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
@@ -94,18 +93,6 @@ def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
 
 
-@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
-def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
-    assert run("build") == 0
-    clone = tmp_path / "clone"
-    shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
-    config = str(clone / "urdfsync.toml")
-    assert run("build", "--config", config) == 0
-    move(clone)
-    assert run("build", "--config", config) == 0
-    assert not (clone / "modelica/Ladder").exists()
-
-
 def _rename_robot(project: Path) -> None:
     edit(project / "urdfsync.toml", "[robots.ladder]", "[robots.filter]")
 
@@ -172,18 +159,3 @@ def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: s
         else:
             file.mkdir()
     assert Store(tmp_path).written_folders("arm") == frozenset()
-
-
-def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
-    outside, root = tmp_path / "outside", tmp_path / "root"
-    (root / ".urdfsync").mkdir(parents=True)
-    outside.mkdir()
-    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
-        (root / ".urdfsync" / name).symlink_to(outside / "victim")
-    Store(root).note_folders("arm", ["m/Arm"])
-    assert Store(root).written_folders("arm") == {"m/Arm"}
-    shutil.rmtree(root / ".urdfsync")
-    (root / ".urdfsync").symlink_to(outside)
-    with pytest.raises(OutputError, match="symbolic link"):
-        Store(root).note_folders("arm", ["m/Arm"])
-    assert list(outside.iterdir()) == []

@@ -147,16 +147,6 @@ def test_whatever_git_makes_of_two_states_a_file_of_either_is_untouched(tmp_path
             assert {path: record.base for path, record in state.files.items() if path in disk} == disk
 
 
-def test_a_table_that_a_merge_put_in_twice_is_read() -> None:
-    text = dumps(OURS)
-    table = '[files."Links/Gripper.mo"]\nowner = "Gripper"\nrole = "model"\nbase = "other"'
-    found = recover(f"{text}\n{table}", None, "arm.toml", "arm.json")
-    for base in ("g-ours", "other"):
-        state = rebuilt(found, {GRIPPER: base, BASE: "b1"}, {})
-        assert state is not None
-        assert (state.files[GRIPPER].base, state.files[BASE].base) == (base, "b1")
-
-
 @pytest.mark.parametrize(
     "broken",
     [

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync.diagnostics import OutputError, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.files import digest
 from urdfsync.state import file_operations
 from urdfsync.state.transaction import Change, Transactions, UnfinishedError
@@ -50,14 +50,6 @@ OVERTAKEN = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots": b""}
 """After a save in between, nothing is recorded."""
 
 
-def test_all_is_done(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    (tmp_path / "renewed.mo").chmod(0o640)
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
-    assert (tmp_path / "renewed.mo").stat().st_mode & 0o777 == 0o640
-    assert not transactions.pending()
-
-
 @pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
 def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     for folder in (tmp_path, tmp_path / "a"):
@@ -92,15 +84,6 @@ def test_a_moved_text_that_finds_its_place_taken_is_kept(
     assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
     assert said.code == "kept-save"
     assert f"{place.name}.saved" in said.message
-
-
-def test_an_error_names_what_is_in_the_way(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    before = contents(tmp_path)
-    (tmp_path / "b").write_bytes(b"in the way")
-    with pytest.raises(OutputError) as caught:
-        transactions.apply("arm", changes)
-    assert str(caught.value) == ("b: error: a file is where a folder is needed; move it away [output-in-the-way]")
-    assert contents(tmp_path) == {**before, "b": b"in the way"}
 
 
 @pytest.mark.parametrize(
