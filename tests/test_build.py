@@ -18,7 +18,6 @@ from support.networks import kinds as all_kinds
 from urdfsync import files
 from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
-from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state import file_operations
 
@@ -383,15 +382,6 @@ def test_a_gitignore_of_the_user_stays(project: Path) -> None:
     ignore.write_bytes(b"svg/\n\xff")
     run()
     assert ignore.read_bytes() == b"svg/\n\xff"
-
-
-def test_a_recorded_model_of_the_wrong_shape_is_read_again(project: Path) -> None:
-    run()
-    model = project / ".urdfsync/robots/ladder.json"
-    recorded = text_digest(model.read_bytes())
-    model.write_text('{"format": 1, "imports": {}, "snapshot": {"elements": 3}}\n')
-    edit(MANIFEST, recorded, text_digest(model.read_bytes()))
-    assert run().in_step
 
 
 @pytest.mark.parametrize("name", ["toml", "json"])

@@ -240,21 +240,6 @@ def test_edits_move_with_their_elements_new_name(project: Path) -> None:
     assert kinds(run()) == {SHUNT: Kind.KEEP}
 
 
-@pytest.mark.parametrize("is_folder", [False, True], ids=["file", "folder"])
-def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(project: Path, is_folder: bool) -> None:
-    run()
-    edit(R1, "equation", SENSOR)
-    mine, place = Path(R1).read_bytes(), Path(SHUNT)
-    if is_folder:
-        place = place.with_suffix("") / "package.mo"
-        place.parent.mkdir()
-    place.write_text("mine")
-    rename("R1", "Shunt")
-    found = kinds(run())
-    assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
-    assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
-
-
 def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -> None:
     run()
     edit(R1, "model R1", "model R1 // best of all")
@@ -276,31 +261,6 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     assert result.conflict_texts[0].origin == R1
     rename("Branch", "R1")
     assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
-
-
-@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
-def test_a_choice_lets_the_file_go_to_its_new_place(project: Path, choice: Choice) -> None:
-    run()
-    edit(R1, "R1Parameters parameters", "MyParameters parameters")
-    mine = Path(R1).read_text()
-    rename("R1", "Shunt")
-    run()
-    assert not conflicts(choices={SHUNT: choice})
-    assert not Path(R1).exists()
-    assert (Path(SHUNT).read_text() == mine) is (choice is Choice.KEEP)
-    assert run().in_step
-    assert RECORD not in kinds(run())
-
-
-def test_a_file_that_the_user_renamed_himself_is_merged_in_its_place(project: Path) -> None:
-    merging()
-    run()
-    edit(R1, "equation", SENSOR)
-    Path(R1).rename(SHUNT)
-    rename("R1", "Shunt")
-    assert kinds(run())[SHUNT] is Kind.MERGE
-    assert "model Shunt" in Path(SHUNT).read_text()
-    assert "// a sensor here" in Path(SHUNT).read_text()
 
 
 # Bases that are lost
@@ -385,14 +345,6 @@ def test_a_choice_holds_until_the_others_are_made(two_conflicts: tuple[str, str]
     assert not conflicts(choices={two: choice})
     assert all(("+ 1" in Path(path).read_text()) is (choice is Choice.KEEP) for path in (one, two))
     assert run().in_step
-
-
-def test_an_edit_after_a_choice_asks_again(two_conflicts: tuple[str, str]) -> None:
-    one, two = two_conflicts
-    run(choices={one: Choice.TAKE})
-    assert conflicts() == [two]
-    edit(one, "end R1", "  // an afterthought\nend R1")
-    assert conflicts() == [one, two]
 
 
 def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
