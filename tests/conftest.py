@@ -6,13 +6,12 @@ import gc
 import os
 import shutil
 import signal
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import settings
+from support import audit
 
 from urdfsync.check.libraries import LibraryError, find_standard_library
 
@@ -26,45 +25,24 @@ settings.load_profile("urdfsync")
 
 _HOME = Path.home()
 _ALLOWED = {"__pycache__", ".hypothesis", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".coverage", ".git"}
-_WRITES = {
-    "os.remove": slice(1),
-    "os.rename": slice(2),
-    "os.mkdir": slice(1),
-    "os.rmdir": slice(1),
-    "os.link": slice(1, 2),
-    "os.symlink": slice(1, 2),
-    "os.truncate": slice(1),
-}
-"""Which arguments of an event are paths that change."""
 _strays: list[str] = []
 
 
-def _is_guarded(path: object) -> bool:
-    if not isinstance(path, str | bytes | os.PathLike):
-        return False
-    place = Path(os.path.abspath(os.fsdecode(path)))  # noqa: PTH100 - called by an audit hook: no file system access
+def _guard(kind: str, what: str) -> None:
+    """Note a write to the repository or the home folder; caches of tools may be written."""
+    if kind != "write":
+        return
+    place = Path(what)
     if place.is_relative_to(REPOSITORY):
-        return not _ALLOWED & set(place.relative_to(REPOSITORY).parts)
-    inside = place.is_relative_to(_HOME) and _HOME.parent != _HOME
-    return inside and place.relative_to(_HOME).parts[:1] not in ((".cache",), (".matplotlib",), (".config",))
-
-
-def _audit(event: str, arguments: tuple[Any, ...]) -> None:
-    if event == "open":
-        path, mode, flags = arguments[:3]
-        writes = (
-            any(letter in mode for letter in "wax+") if isinstance(mode, str) else flags & (os.O_WRONLY | os.O_RDWR)
-        )
-        paths: Sequence[object] = [path] if writes else []
+        is_stray = not _ALLOWED & set(place.relative_to(REPOSITORY).parts)
     else:
-        changed = _WRITES.get(event, slice(0))
-        if any(isinstance(other, int) and other >= 0 for other in arguments[changed.stop :]) and event != "os.mkdir":
-            return  # shutil.rmtree: relative to an open folder, so the path says nothing
-        paths = arguments[changed]
-    _strays.extend(f"{event} {os.fsdecode(path)}" for path in paths if _is_guarded(path))  # type: ignore[arg-type]
+        inside = place.is_relative_to(_HOME) and _HOME.parent != _HOME
+        is_stray = inside and place.relative_to(_HOME).parts[:1] not in ((".cache",), (".matplotlib",), (".config",))
+    if is_stray:
+        _strays.append(what)
 
 
-sys.addaudithook(_audit)
+audit.listeners.append(_guard)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -42,27 +42,9 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
     assert "connector-changed" not in said(capsys, "build")
 
 
-def test_numbers_change_no_connector(project: Path, capsys: Capture) -> None:
-    (project / "arm.urdf").write_text(urdfs.robot(urdfs.link("base", 2.0), LINKS[1], SWING))
-    assert "connector-changed" not in said(capsys, "build")
-
-
 def configure(project: Path, lines: str) -> None:
     """Build with other options; the robot stays as it is."""
     (project / "urdfsync.toml").write_text(CONFIG + lines)
-
-
-def test_a_frame_that_is_asked_for_no_more_is_named_and_so_is_the_key_that_keeps_it(
-    project: Path, capsys: Capture
-) -> None:
-    configure(project, 'frames = ["base"]\n')
-    assert "connector-changed" not in said(capsys, "build"), "one more is no news for what is connected"
-    configure(project, "")
-    assert 'link base frame was baseFrame list "base" in `frames` to keep it' in said(capsys, "diff")
-    note = 'note: link base: its frame `baseFrame` is gone; list "base" in `frames` to keep it [connector-changed]'
-    assert note in said(capsys, "build", "--dry-run")
-    assert note in said(capsys, "build")
-    assert "connector-changed" not in said(capsys, "build")
 
 
 def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Path, capsys: Capture) -> None:

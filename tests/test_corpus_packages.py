@@ -88,16 +88,6 @@ def test_a_file_without_package_has_a_fault(corpus: Path) -> None:
 # Grammar
 
 
-def syntax_errors(text: str) -> list[str]:
-    return [d.message for d in rumoca.validate_source(text) if d.rule == "syntax-error"]
-
-
-@pytest.mark.slow
-def test_rumoca_parses_every_text(corpus: Path) -> None:
-    for text, place in texts().items():
-        assert syntax_errors(text) == [], place
-
-
 @functools.cache
 def kinds_of_texts() -> Mapping[str, str]:
     """Texts that differ in nothing but numbers, names and strings are one to a grammar: one of each kind."""
@@ -216,14 +206,6 @@ def test_the_compiler_notices_a_wrong_layout(tmp_path: Path) -> None:
         unknown_names(folder)
 
 
-@pytest.mark.slow
-def test_the_compiler_notices_an_unknown_name(tmp_path: Path) -> None:
-    folder = SMALL.write(tmp_path)
-    arm = folder / "Links" / "Arm.mo"
-    arm.write_text(arm.read_text().replace("UrdfSync.Icons.Link;", "UrdfSync.Icons.Lynk;"))
-    assert "UrdfSync.Icons.Lynk" in unknown_names(folder)
-
-
 # What must not be in them
 
 
@@ -246,26 +228,6 @@ def test_models_contain_no_number_of_the_urdf(files: Sequence[str], corpus: Path
 @pytest.fixture(scope="module")
 def nasty_package(tmp_path_factory: pytest.TempPathFactory) -> Package:
     return generate(nasty.write(tmp_path_factory.mktemp("nasty")), nasty.TARGET)
-
-
-@pytest.mark.slow
-def test_nasty_names_give_right_modelica(nasty_package: Package) -> None:
-    for path, text in nasty_package.models.items():
-        assert syntax_errors(text) == [], path
-        assert_belongs(path, text, nasty.TARGET.package, path)
-        if '\\\\"' not in text:  # pymoca takes the end of a string that ends in a backslash for an escaped quote
-            assert_pymoca_parses(text, path)
-
-
-def test_nasty_names_are_found_where_they_are_used(nasty_package: Package, tmp_path: Path) -> None:
-    """As far as it goes without the standard library."""
-    folder = nasty_package.write(tmp_path)
-    (tmp_path / "Plant" / "package.mo").write_text("within;\npackage Plant\nend Plant;\n")
-    names = unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
-    assert [name for name in names if not name.startswith("Modelica.")] == []
-    model = next(folder.joinpath("Links").glob("*_link.mo"))
-    model.write_text(model.read_text().replace("UrdfSync.Icons.Link;", "UrdfSync.Icons.Lynk;"))
-    assert "UrdfSync.Icons.Lynk" in unknown_names(tmp_path / "Plant", "Plant.Nasty.Nasty")
 
 
 def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) -> None:

@@ -110,34 +110,6 @@ def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, sn
     assert snapshot_of(built) == before
 
 
-def test_edited_files_come_first_and_conflicts_are_named(built: Path, capsys: Capture) -> None:
-    model = built / "modelica/Ladder/Ladder.mo"
-    model.write_text(model.read_text() + "// mine\n")
-    assert said(capsys, "ladder")[0] == 0, "an edit alone is in step"
-    change(built, '"R2"', '"R3"')
-    code, lines = said(capsys, "ladder")
-    assert code == 1
-    begin = lines.index("A build: 1 conflict, 5 changes waiting for that")
-    name = Path("modelica/Ladder/Ladder.mo")
-    assert lines[begin + 1] == f"  conflict   {name}  you edited it, and what it is made from changed too"
-    assert all(line.startswith("  waiting ") for line in lines[begin + 2 : -1])
-    assert "urdfsync resolve" in lines[-1]
-
-
-def test_a_file_that_is_gone_is_out_of_step(built: Path, capsys: Capture) -> None:
-    (built / "modelica/Ladder/Ladder.mo").unlink()
-    code, lines = said(capsys, "ladder")
-    assert (code, lines[0]) == (1, "ladder: nothing changed since the last build, but files are not as they should be")
-    assert lines[2:] == ["A build: 1 to restore", f"  restore    {Path('modelica/Ladder/Ladder.mo')}"]
-
-
-def test_a_robot_that_was_never_built(project: Path, capsys: Capture) -> None:
-    code, lines = said(capsys, "ladder")
-    assert (code, lines[0], lines[2]) == (1, "ladder: never built", "A build: 14 files to write")
-    assert lines[-1] == "  … and 3 more files; --verbose shows them"
-    assert len(said(capsys, "ladder", "--verbose")[1]) == 3 + 14
-
-
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
         file.write(ROBOT.format("other", "Other"))
@@ -148,17 +120,6 @@ def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
         assert heads == ["ladder: 1 parameter change since the last build", "other: never built"]
     assert said(capsys, "ladder.json", "--robot", "other")[1][0] == "other: never built"
     assert said(capsys, "other")[1][0] == "other: never built"
-
-
-def test_one_broken_source_does_not_hide_the_others(built: Path, capsys: Capture) -> None:
-    (built / "broken.json").write_text("{")
-    text = (built / "urdfsync.toml").read_text()
-    broken = '[robots.broken]\nsource = "broken.json"\npackage = "Broken"\ndomain = "rcnetwork"\n'
-    (built / "urdfsync.toml").write_text(broken + text)
-    assert cli.main(["diff"]) == 2
-    streams = capsys.readouterr()
-    assert streams.out == "ladder: nothing changed since the last build\n"
-    assert streams.err.splitlines()[-1] == "broken: 1 error, so nothing can be compared"
 
 
 # another file
@@ -200,33 +161,6 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
     assert lines[1] == "  mesh tip.stl"
     assert lines[2].startswith("    content  ")
     assert any(line.startswith("  update     Resources") for line in lines)
-
-
-def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
-    change(arm, "</robot>", '<transmission name="t"/></robot>', "arm.urdf")
-    change(arm, 'effort="60"', 'effort="54"', "new.urdf")
-    change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
-    code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
-    assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
-    assert lines[-1] == "    not modelled  1 change"
-
-
-def test_edited_files_that_changes_concern(built: Path, capsys: Capture) -> None:
-    shutil.copy(built / "ladder.json", built / "old.json")
-    record = built / "modelica/Ladder/Elements/R2Parameters.mo"
-    record.write_text(record.read_text() + "// mine\n")
-    change(built)
-    code, lines = said(capsys, "ladder", "--against", "old.json")
-    assert (code, lines[0]) == (1, "ladder: 1 parameter change since old.json")
-    assert f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}  you edited it" in lines
-
-
-def test_new_warnings_only(arm: Path, capsys: Capture) -> None:
-    (arm / "tip.stl").unlink()
-    assert said(capsys, "arm.urdf", "--against", "new.urdf")[0] == 1
-    change(arm, "tip.stl", "other.stl", "arm.urdf")
-    cli.main(["diff", "arm.urdf", "--against", "new.urdf"])
-    assert "other.stl" in capsys.readouterr().err
 
 
 # a revision
@@ -307,13 +241,6 @@ def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPat
 )
 def test_mistakes_with_a_configuration(project: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
     assert complaint in refused(capsys, *arguments)
-
-
-def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
-    shutil.copy(project / "ladder.json", project / "copy.json")
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
-    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
 
 
 def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:

@@ -69,7 +69,7 @@ def conflict(project: Path) -> Path:
     return project
 
 
-# Conflicts and what settles them
+# Conflicts, and what resolves them
 
 
 def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_deletes_them(conflict: Path) -> None:
@@ -100,7 +100,7 @@ def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path)
     assert kinds(run())[R1] is Kind.CONFLICT
 
 
-def test_settling_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
+def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
     waited = run()
     assert RECORD in {action.path for action in waited.actions if action.held}, "its parameter has another name"
     first, again = waited.changes, run().changes
@@ -116,15 +116,6 @@ def test_settling_one_conflict_releases_what_waited_which_is_told_till_then(conf
     assert not any(action.held for action in done.actions)
     assert "C = 1e-09" in Path(RECORD).read_text()
     assert run().changes is None
-
-
-def test_a_choice_for_what_does_not_conflict_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    edit(R1, "end R1;", "// mine\nend R1;")
-    run()
-    before = snapshot_of(project)
-    run(choices={R1: Choice.TAKE, RECORD: Choice.KEEP})
-    assert snapshot_of(project) == before
 
 
 @pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE, None])
@@ -161,22 +152,6 @@ def test_an_orphan_is_let_go_or_deleted_with_its_record_and_its_lines(project: P
 # Merges
 
 
-def test_an_edit_elsewhere_in_a_record_merges(project: Path) -> None:
-    merging()
-    run()
-    edit(RECORD, "end R1", MAY)
-    resistor(150)
-    assert kinds(run())[RECORD] is Kind.MERGE
-    text = Path(RECORD).read_text()
-    assert "// measured in May" in text
-    assert "150" in text
-    assert kinds(run()) == {RECORD: Kind.KEEP}
-    resistor(100, before=150)
-    run()
-    assert "// measured in May" in Path(RECORD).read_text()
-    assert "150" not in Path(RECORD).read_text()
-
-
 def test_contradicting_edits_are_never_merged(project: Path) -> None:
     merging()
     run()
@@ -195,10 +170,10 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     whole = f"{LADDER}/Ladder.mo"
     edit(whole, "equation", "  Elements.R1 elementR9;\n\nequation")
     rename("R2", "R9")
-    (standoff,) = run().conflict_texts
-    assert (standoff.path, standoff.merge is not None) == (whole, True)
-    assert standoff.merge is None or standoff.merge.text is None
-    assert "elementR9" in standoff.rejected
+    (found,) = run().conflict_texts
+    assert (found.path, found.merge is not None) == (whole, True)
+    assert found.merge is None or found.merge.text is None
+    assert "elementR9" in found.rejected
 
 
 def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapshot_of: Snapshot) -> None:
@@ -265,21 +240,6 @@ def test_edits_move_with_their_elements_new_name(project: Path) -> None:
     assert kinds(run()) == {SHUNT: Kind.KEEP}
 
 
-@pytest.mark.parametrize("is_folder", [False, True], ids=["file", "folder"])
-def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(project: Path, is_folder: bool) -> None:
-    run()
-    edit(R1, "equation", SENSOR)
-    mine, place = Path(R1).read_bytes(), Path(SHUNT)
-    if is_folder:
-        place = place.with_suffix("") / "package.mo"
-        place.parent.mkdir()
-    place.write_text("mine")
-    rename("R1", "Shunt")
-    found = kinds(run())
-    assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
-    assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
-
-
 def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -> None:
     run()
     edit(R1, "model R1", "model R1 // best of all")
@@ -301,31 +261,6 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     assert result.conflict_texts[0].origin == R1
     rename("Branch", "R1")
     assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
-
-
-@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
-def test_a_choice_lets_the_file_go_to_its_new_place(project: Path, choice: Choice) -> None:
-    run()
-    edit(R1, "R1Parameters parameters", "MyParameters parameters")
-    mine = Path(R1).read_text()
-    rename("R1", "Shunt")
-    run()
-    assert not conflicts(choices={SHUNT: choice})
-    assert not Path(R1).exists()
-    assert (Path(SHUNT).read_text() == mine) is (choice is Choice.KEEP)
-    assert run().in_step
-    assert RECORD not in kinds(run())
-
-
-def test_a_file_that_the_user_renamed_himself_is_merged_in_its_place(project: Path) -> None:
-    merging()
-    run()
-    edit(R1, "equation", SENSOR)
-    Path(R1).rename(SHUNT)
-    rename("R1", "Shunt")
-    assert kinds(run())[SHUNT] is Kind.MERGE
-    assert "model Shunt" in Path(SHUNT).read_text()
-    assert "// a sensor here" in Path(SHUNT).read_text()
 
 
 # Bases that are lost
@@ -365,9 +300,9 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     own.mkdir(parents=True)
     text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
     (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
-    (standoff,) = [s for s in run().conflict_texts if s.path == R1]
-    assert standoff.merge is not None
-    assert standoff.merge.text is not None
+    (found,) = [s for s in run().conflict_texts if s.path == R1]
+    assert found.merge is not None
+    assert found.merge.text is not None
 
 
 def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
@@ -376,9 +311,9 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     resistor(150)
     shutil.rmtree(project / ".urdfsync/base")
     (project / ".urdfsync/robots/ladder.json").unlink()
-    (standoff,) = run().conflict_texts
-    assert standoff.base is None
-    assert standoff.merge is None
+    (found,) = run().conflict_texts
+    assert found.base is None
+    assert found.merge is None
     assert [path.name for path in ASIDE.iterdir()] == ["R1Parameters.generated.mo"]
 
 
@@ -410,25 +345,6 @@ def test_a_choice_holds_until_the_others_are_made(two_conflicts: tuple[str, str]
     assert not conflicts(choices={two: choice})
     assert all(("+ 1" in Path(path).read_text()) is (choice is Choice.KEEP) for path in (one, two))
     assert run().in_step
-
-
-def test_an_edit_after_a_choice_asks_again(two_conflicts: tuple[str, str]) -> None:
-    one, two = two_conflicts
-    run(choices={one: Choice.TAKE})
-    assert conflicts() == [two]
-    edit(one, "end R1", "  // an afterthought\nend R1")
-    assert conflicts() == [one, two]
-
-
-def test_taking_an_orphan_waits_like_everything_else(two_conflicts: tuple[str, str]) -> None:
-    orphan = f"{LADDER}/Elements/C2.mo"
-    edit(orphan, "equation", "// mine\nequation")
-    source('"C2", "between": ["out", "ground"], "farad": 4.7e-6', '"C9", "between": ["out", "in"], "farad": 1')
-    assert kinds(run())[orphan] is Kind.ORPHAN
-    run(choices={orphan: Choice.TAKE})
-    assert Path(orphan).exists()
-    run(choices=dict.fromkeys(two_conflicts, Choice.TAKE))
-    assert not Path(orphan).exists()
 
 
 def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
@@ -482,23 +398,12 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
     rename("C1", "Tank")
     for _ in range(2):  # the second time, the state knows the new name already
-        (standoff,) = run().conflict_texts
-        assert standoff.path == whole
-        assert standoff.merge is not None
-        assert standoff.merge.text is None
-        line = standoff.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
-        assert standoff.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
-
-
-def test_uses_are_named_as_long_as_a_conflict_waits(project: Path) -> None:
-    run()
-    write_user()
-    edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = C1.v*C1.i;\n\nequation")
-    drop("C1")
-    first, second = run(), run()
-    assert first.conflicts
-    assert warnings(first) == warnings(second)
-    assert len(warnings(first)) == 3
+        (found,) = run().conflict_texts
+        assert found.path == whole
+        assert found.merge is not None
+        assert found.merge.text is None
+        line = found.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
+        assert found.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
 
 
 def test_own_classes_in_the_package_that_use_what_is_gone_are_named(project: Path) -> None:

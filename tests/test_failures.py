@@ -107,21 +107,6 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     assert [name for name in changed if not name.startswith((".urdfsync/lock", ".git/index"))] == []
 
 
-def test_so_does_what_fails_while_an_answer_is_saved(
-    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_: object) -> None:
-        raise RuntimeError("no answer")
-
-    cli.main(["build"])
-    monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
-    capsys.readouterr()
-    assert cli.main(["build"]) == 2
-    streams = capsys.readouterr()
-    assert streams.out == "ladder: in step, 14 files\n"
-    assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")
-
-
 def test_verbose_shows_the_traceback(
     project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -176,3 +161,18 @@ def test_what_is_to_be_installed_exists() -> None:
         if name in extras.PACKAGES
     }
     assert needed == {name: tuple(sorted(packages)) for name, packages in extras.PACKAGES.items()}
+
+
+def test_so_does_what_fails_while_an_answer_is_saved(
+    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("no answer")
+
+    cli.main(["build"])
+    monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
+    capsys.readouterr()
+    assert cli.main(["build"]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == "ladder: in step, 14 files\n"
+    assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")

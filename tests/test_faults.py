@@ -87,16 +87,6 @@ def test_what_is_left_of_a_package_keeps_its_edits(edited: Path, capsys: Capture
     assert contents(edited) == before
 
 
-def test_without_state_an_edited_file_is_a_conflict_and_can_be_kept(edited: Path, capsys: Capture) -> None:
-    before = contents(edited / LADDER)
-    shutil.rmtree(edited / ".urdfsync")
-    assert cli.main(["build"]) == Exit.CONFLICT
-    assert contents(edited / LADDER) == before
-    assert cli.main(["resolve", MODEL, "--keep"]) == Exit.IN_STEP
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert contents(edited / LADDER) == before
-
-
 # Something else
 
 
@@ -144,21 +134,6 @@ def test_a_folder_that_is_a_link(
     before = contents(tmp_path)
     assert_error(capsys, ["build"], f"{place}: error: a symbolic link is where ")
     assert contents(tmp_path) == before
-
-
-def test_nothing_outside_of_its_root_is_read(tmp_path: Path) -> None:
-    (tmp_path / "secret").write_text("secret")
-    with pytest.raises(OutputError, match="leaves"):
-        Tree(tmp_path / "root").read(tmp_path / "secret")
-
-
-def test_when_the_obstacle_is_gone_the_build_goes_on(stale: Path, capsys: Capture) -> None:
-    a_folder(stale / RECORD, stale)
-    assert_error(capsys, ["build"], RECORD)
-    shutil.rmtree(stale / RECORD)
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert (stale / MODEL).read_text().endswith(MINE)
-    assert "120" in (stale / RECORD).read_text()
 
 
 # Not allowed
@@ -260,3 +235,9 @@ def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, capsys: Capture)
     assert (edited / RECORD).read_bytes() == before[RECORD]
     assert cli.main(["resolve", RECORD, "--take"]) == Exit.IN_STEP
     assert "120" in (edited / RECORD).read_text()
+
+
+def test_nothing_outside_of_its_root_is_read(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("secret")
+    with pytest.raises(OutputError, match="leaves"):
+        Tree(tmp_path / "root").read(tmp_path / "secret")

@@ -114,22 +114,6 @@ def test_a_staged_source_with_later_changes(make: Callable[..., Site]) -> None:
     assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
 
 
-def test_edits_of_other_files_are_brought_back_beside_what_was_written(make: Callable[..., Site]) -> None:
-    site = make()
-    Path("notes").write_text("one")
-    site.repository.commit("notes")
-    resistor(120)
-    site.repository.git("add", ".")
-    Path("notes").write_text("two")
-    said = site.commit(code=1)
-    assert "1 file written" in said
-    assert Path("notes").read_text() == "two"
-    assert "120" in Path(RECORD).read_text()
-    site.repository.git(*command(said)[1:])
-    site.commit()
-    assert site.status() == [" M notes"]
-
-
 def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., Site]) -> None:
     """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
     fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
@@ -147,21 +131,6 @@ def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Call
     site.commit("--no-verify")
     assert "R3" in site.committed("modelica/Ladder/Ladder.mo")
     assert cli.main(["build", "--check", "--quiet"]) == 0
-
-
-def test_a_merge_without_conflicts(make: Callable[..., Site]) -> None:
-    site = make()
-    site.repository.git("checkout", "-q", "-b", "other")
-    resistor(120)
-    cli.main(["build"])
-    site.repository.git("add", ".")
-    site.commit()
-    site.repository.git("checkout", "-q", "main")
-    Path("README").write_text("main")
-    site.repository.git("add", ".")
-    site.commit()
-    site.repository.git("merge", "-q", "other", "-m", "merge")
-    assert "120" in site.committed(RECORD)
 
 
 def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site]) -> None:
@@ -183,26 +152,6 @@ def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site]) -> N
     site.commit()
     for path, number in ((RECORD, "120"), (RECORD.replace("R1", "R2"), "330.5")):
         assert f"= {number}" in Path(path).read_text()
-
-
-def test_all_files(make: Callable[..., Site]) -> None:
-    """Then pre-commit does not stash anything."""
-    site = make()
-
-    def run(code: int) -> str:
-        done = subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True, text=True)
-        assert done.returncode == code, done.stdout + done.stderr
-        return done.stdout
-
-    run(0)
-    resistor(120)
-    run(0)  # not staged, so not of this commit
-    site.repository.git("add", ".")
-    resistor(130, before=120)
-    assert "ladder.json has changes" in run(1)
-    assert "100" in Path(RECORD).read_text()
-    resistor(120, before=130)
-    assert "ladder: out of step: 1 file" in run(1)
 
 
 def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., Site]) -> None:

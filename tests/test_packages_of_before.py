@@ -139,14 +139,6 @@ def test_what_the_user_takes_fits_and_what_he_keeps_is_said_not_to(
     assert files(project)[ELBOW] == mine
 
 
-def test_edits_of_a_joint_with_another_name_move(project: Path, fresh: Files, capsys: Capture) -> None:
-    old, new = "Cart/Joints/Swing_joint.mo", "Cart/Joints/Swing.mo"
-    edit(project, old, *COMMENT)
-    assert "1 moved with your edits" in said(capsys, "build")
-    assert differing(project, fresh) == {new}
-    assert files(project)[new] == fresh[new].decode().replace(*COMMENT).encode()
-
-
 def test_a_record_that_is_left_out_stays_and_its_users_are_told_with_the_option(
     project: Path, fresh: Files, capsys: Capture
 ) -> None:

@@ -15,15 +15,6 @@ from urdfsync.profiling import OTHER, STAGES
 Capture = pytest.CaptureFixture[str]
 
 
-def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
-    assert cli.main(["build", "--profile"]) == 0
-    said = capsys.readouterr()
-    assert said.out.startswith("ladder: 14 files written\n")
-    for words in ("looking at files", "rendering", "writing", "total", "11 rendered"):
-        assert words in said.err
-    assert "saved answer is printed" not in said.err.partition("total")[2], "there was none that could have answered"
-
-
 def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None:
     cli.main(["build", "--profile", "--json"])
     found = json.loads(capsys.readouterr().out)["profile"]

@@ -71,13 +71,6 @@ def written(result: Result) -> set[str]:
     return {Path(action.path).name for action in result.actions if action.writes}
 
 
-def test_the_record_alone(project: Project) -> None:
-    assert [found.code for found in project.build('["record"]').diagnostics] == ["mimic-of-fixed"]
-    assert project.files() == RECORD
-    assert project.models() == ("TwigParameters", "TwigGeneric")
-    assert (project.package / "package.order").read_text().split() == ["TwigParameters", "TwigGeneric"]
-
-
 def test_both_approaches(project: Project) -> None:
     project.build('["package", "record"]')
     more = {"Twig.mo", "TwigRun.mo", "TwigTest.mo", "Links/Stem.mo", "Joints/BendParameters.mo"}
@@ -129,25 +122,6 @@ def test_changes_rewrite_the_record_and_nothing_else(tmp_path: Path, source: str
     assert result.changes.change_class is (ChangeClass.PARAMETER if new else ChangeClass.STRUCTURAL)
 
 
-def test_an_axis_more_reaches_the_bench_as_well(project: Project) -> None:
-    project.build('["record"]')
-    project.change('<mimic joint="grow" multiplier="8"/>', "")
-    assert written(project.build('["record"]')) == {"TwigParameters.mo", "TwigGeneric.mo"}
-
-
-def test_an_edit_in_the_record_and_a_new_link_merge(project: Project) -> None:
-    project.build('["record"]')
-    record = project.package / "TwigParameters.mo"
-    record.write_text(record.read_text().replace("mass = 1.5,", "mass = 1.75,  // weighed"))
-    joint = '<joint name="sit" type="fixed"><parent link="bud"/><child link="bee"/></joint><link name="bee"/>'
-    project.change("</robot>", f"{joint}</robot>")
-    result = project.build('["record"]', on_conflict='"merge"')
-    assert not result.conflicts
-    text = record.read_text()
-    assert "mass = 1.75,  // weighed" in text
-    assert "bee.inertial.mass" in text
-
-
 def test_where_the_generic_robot_can_not_read_the_record_there_is_no_bench(zoo: Project) -> None:
     result = zoo.build('["record"]')
     assert {"planar-not-generic", "floating-not-generic"} < {found.code for found in result.diagnostics}
@@ -167,10 +141,3 @@ def test_meshes_of_collisions_are_imported_if_the_robot_stands_on_them(zoo: Proj
     zoo.source.write_text(re.sub(r"<visual[ >].*?</visual>", "", text, flags=re.DOTALL))
     zoo.build('["record"]', base=base)
     assert meshes(zoo) == (["wedge"] if base == '"floating"' else [])
-
-
-def test_a_mobile_robot_stands_as_high_in_both_approaches(zoo: Project) -> None:
-    zoo.build('["package", "record"]', base='"floating"')
-    texts = [(zoo.package / name).read_text() for name in ("TwigStance.mo", "TwigParameters.mo")]
-    (one,), (other,) = (re.findall(r"(?:height|standingHeight) = (.+?)[,)]", text) for text in texts)
-    assert one == other

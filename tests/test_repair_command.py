@@ -44,13 +44,6 @@ def test_a_repaired_state_knows_what_each_branch_wrote(
     assert kinds(run())[C1] is Kind.KEEP
 
 
-def test_a_repair_of_what_is_sound_changes_nothing(project: Path, snapshot_of: Snapshot) -> None:
-    run()
-    before = snapshot_of(project)
-    assert run(repair=True).in_step
-    assert snapshot_of(project) == before
-
-
 def test_damage_that_leaves_nothing_counts_as_a_lost_state(project: Path) -> None:
     run()
     edit(C1, "end C1;", "// mine\nend C1;")

@@ -1,75 +1,122 @@
-"""A part of the replays: some histories of the corpus, with and without edits by hand. The scripts do all of it."""
+"""Replays of the corpus's histories: each version built over the one before equals a fresh build, and edits follow.
+
+`URDFSYNC_REPLAYS=1` replays all histories, not only some small ones. `test_replay_edits` edits files in between.
+"""
 
 from __future__ import annotations
 
 import itertools
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
-import replay_edits
-import replay_histories
 from support import replay
-from support.replay import Project
+from support.packages import read
+from support.replay import Files, Fresh, Project, Stamps
 
+from urdfsync.domain import ChangeClass
 from urdfsync.outcome import Result
+from urdfsync.state.store import Store
+from urdfsync.urdf.domain import DOMAIN
 
-HISTORIES = ("turtlebot3_burger", "so101_old_calib", "urdf_spirit_meshes")
-"""Small ones, with steps of every class, renames and a version that is no robot."""
-SEED = 3
+SMALL = ("turtlebot3_burger", "so101_old_calib", "urdf_spirit_meshes")
+"""With steps of every class, renames and a version that is no robot."""
+CHOSEN = {name: all_of for name, all_of in replay.histories().items() if replay.STEPS or name.endswith(SMALL)}
+MINE = "  // mine: has to follow its element"
+REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {"record", "import"}}
+"""Roles of the files that a step of a class may write."""
+BELOW = f"{replay.PACKAGE}/"
 
 pytestmark = pytest.mark.slow
+each_history = pytest.mark.parametrize("name", CHOSEN or ["no-corpus"], ids=lambda name: name[-40:])
 
 
-def chosen() -> dict[str, list[bytes]]:
-    return {name: list(all_of) for name, all_of in replay.histories().items() if name.endswith(HISTORIES)}
-
-
-@pytest.mark.parametrize("number", range(len(HISTORIES)))
-@pytest.mark.parametrize("meshes", [False, True], ids=["no-meshes", "meshes"])
-def test_each_version_over_the_last_is_a_fresh_build(corpus: Path, tmp_path: Path, number: int, meshes: bool) -> None:
-    versions = list(chosen().values())[number]
+@pytest.fixture(autouse=True)
+def _in_haste() -> Iterator[None]:
     with replay.in_haste():
-        tally, faults = replay_histories.replayed(versions, tmp_path, base=replay.base_of(versions), meshes=meshes)
-    assert faults == []
-    assert tally["versions"] == len(versions)
-    assert tally["unwritten"] > 0
+        yield
+
+
+@each_history
+@pytest.mark.parametrize("meshes", [False, True], ids=["no-meshes", "meshes"])
+def test_each_version_over_the_last_is_a_fresh_build(corpus: Path, tmp_path: Path, name: str, meshes: bool) -> None:
+    tally = replayed(CHOSEN[name], tmp_path, base=replay.base_of(CHOSEN[name]), meshes=meshes)
+    assert replay.STEPS or tally["unwritten"] > 0
 
 
 def test_a_long_history_of_different_robots(corpus: Path, tmp_path: Path) -> None:
-    versions = list(itertools.chain.from_iterable(chosen().values()))
-    with replay.in_haste():
-        tally, faults = replay_histories.replayed(versions, tmp_path, base="fixed", meshes=False)
-    assert faults == []
-    assert tally["structural"] > 3
+    versions = list(itertools.chain.from_iterable(CHOSEN.values()))
+    assert replayed(versions, tmp_path, base="fixed", meshes=False)[ChangeClass.STRUCTURAL] > 3
 
 
-def test_edits_follow_elements_with_another_name(corpus: Path, tmp_path: Path) -> None:
-    with replay.in_haste():
-        for name, versions in chosen().items():
-            tally, faults = replay_histories.renames(versions, tmp_path / name, base="fixed")
-            assert faults == []
-            assert tally["renames"] > 0 or name.endswith("spirit_meshes")
+def replayed(versions: Sequence[bytes], work: Path, *, base: str, meshes: bool) -> Counter[str]:
+    """Build the versions one over the other; what was counted."""
+    tally, built = Counter[str](), dict[str, bytes]()
+    project, fresh = Project(work / "project", base, meshes=meshes), Fresh(work / "fresh", base, meshes=meshes)
+    for number, content in enumerate(versions):
+        before = project.stamps()
+        project.save(content)
+        result = project.build()
+        assert list(faults(project, before, result, built, *fresh(content))) == [], f"version {number}"
+        if not result.failed:
+            tally[class_of(result)] += bool(built)
+            built, after = dict(project.files()), project.stamps()
+            tally["unwritten"] += sum(before.get(path) == stamp for path, stamp in after.items() if BELOW in path)
+    return tally
 
 
-def test_no_edited_line_gets_lost(corpus: Path) -> None:
-    for tally, faults in replay_edits.run(60, SEED, length=20):  # noqa: B007 - the last one is looked at
-        assert faults == []
-    assert tally["steps"] == 60
-    assert all(tally[column] for column in ("edits", "conflicts", "merges", "moves", "resolved", "clones"))
+def faults(project: Project, before: Stamps, result: Result, old: Files, package: Files, state: Files) -> Iterator[str]:
+    """What is wrong after a build over the `old` package; a fresh one would give this `package` and `state`."""
+    after = project.stamps()
+    touched = {path for path in before.keys() | after.keys() if before.get(path) != after.get(path)}
+    touched = {path for path in touched if path.startswith((".urdfsync/", BELOW))}
+    if result.failed or not package:
+        yield from ["a version is built here or fresh, and refused there"] if package or not result.failed else []
+        yield from (f"{path} changed in spite of an error" for path in touched - {".urdfsync/.gitignore"})
+        return
+    for wanted, found in ((package, project.files()), (state, project.state())):
+        both = wanted.keys() | found.keys()
+        yield from (f"{path} differs from a fresh build" for path in both if found.get(path) != wanted.get(path))
+    written = {path.removeprefix(BELOW) for path in touched if path.startswith(BELOW)}
+    yield from (f"{path} is written with its own bytes" for path in written if old.get(path) == package.get(path))
+    if old and (allowed := REACH.get(class_of(result))) is not None:
+        roles = {action.path.removeprefix(BELOW): str(action.role) for action in result.actions}
+        yield from (f"a {class_of(result)} step writes {path}" for path in written if roles[path] not in allowed)
+    project.build()
+    yield from ["a second build writes"] if project.stamps() != after else []
 
 
-def test_a_lost_line_would_be_found(corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    build = Project.build
+def class_of(result: Result) -> ChangeClass:
+    return result.changes.change_class if result.changes else ChangeClass.NONE
 
-    def careless(project: Project, **request: object) -> Result:
-        result = build(project, **request)
-        for path in project.package.rglob("*.mo"):
-            path.write_text(
-                "".join(line for line in path.read_text().splitlines(keepends=True) if "// mine" not in line)
-            )
-        return result
 
-    monkeypatch.setattr(Project, "build", careless)
-    _, found = next(replay_edits.run(20, SEED))
-    assert any("lost: mine" in fault for fault in found)
-    assert any("was edited, and is changed" in fault for fault in found)
+@each_history
+def test_edits_follow_elements_with_another_name(corpus: Path, tmp_path: Path, name: str) -> None:
+    """Each element that a step only renames is edited; the edit is in the renamed element's model then."""
+    readable = [(content, found) for content in CHOSEN[name] if (found := read(content).snapshot) is not None]
+    count = 0
+    for (old, before), (new, after) in itertools.pairwise(readable):
+        for (kind, element), renamed in DOMAIN.renames(before, after).items():
+            count += 1
+            project = Project(tmp_path / str(count))
+            project.save(old)
+            project.build()
+            path = model_of(project, f"{kind} {element}")
+            lines = path.read_text().split("\n")
+            lines.insert(len(lines) // 2, MINE)
+            path.write_text("\n".join(lines))
+            project.save(new)
+            result = project.build()
+            target = model_of(project, f"{kind} {renamed}")
+            assert MINE in target.read_text().split("\n"), (kind, element, renamed)
+            assert target == path or not path.exists()
+            assert not result.conflicts
+    assert replay.STEPS or count or name.endswith("spirit_meshes")
+
+
+def model_of(project: Project, owner: str) -> Path:
+    state = Store(project.root).load("bot")
+    assert state is not None
+    (path,) = (p for p, record in state.manifest.files.items() if (record.owner, record.role) == (owner, "model"))
+    return project.root / path

@@ -11,7 +11,6 @@ import platformdirs
 import pytest
 
 from urdfsync import template_cache
-from urdfsync.check.cache import UserCache
 from urdfsync.render import Renderer, _Sandbox
 
 needs_owners = pytest.mark.skipif(not hasattr(os, "getuid"), reason="needs owners and modes of files")
@@ -76,13 +75,6 @@ def test_a_damaged_file_is_made_again(home: Path, templates: Path, compiled: lis
         assert render(templates) == "a 1\n"
         assert file.read_bytes() == whole
     assert len(compiled) == 1 + len(damaged)
-
-
-@pytest.mark.parametrize("place", ["urdfsync", "urdfsync/templates"])
-def test_without_a_folder_templates_are_compiled_all_the_same(home: Path, templates: Path, place: str) -> None:
-    (home / place).parent.mkdir(exist_ok=True)
-    (home / place).write_text("no folder")
-    assert render(templates) == "a 1\n"
 
 
 @needs_owners
@@ -172,9 +164,8 @@ def test_a_relative_folder_is_not_used(tmp_path: Path, templates: Path, monkeypa
     assert not Path("relative").exists()
 
 
-def test_it_is_a_part_of_the_cache_of_checks(home: Path, templates: Path) -> None:
-    render(templates)
-    cache = UserCache.default()
-    assert cached(home)[0].parent == cache.templates
-    assert cache.clear() > 0
-    assert not cache.templates.exists()
+@pytest.mark.parametrize("place", ["urdfsync", "urdfsync/templates"])
+def test_without_a_folder_templates_are_compiled_all_the_same(home: Path, templates: Path, place: str) -> None:
+    (home / place).parent.mkdir(exist_ok=True)
+    (home / place).write_text("no folder")
+    assert render(templates) == "a 1\n"

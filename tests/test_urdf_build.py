@@ -7,12 +7,10 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
-from support.networks import edit
 from support.replay import contents
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import ChangeKind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -118,19 +116,6 @@ def test_missing_meshes_are_one_warning_for_each_package_and_a_note_from_the_sec
     assert told(full=True) == warnings
 
 
-def test_a_package_of_the_name_goes_before_a_guess(arm: Path) -> None:
-    vendor, mesh = arm / "vendor/arm-2.1", "meshes/carousel.obj"
-    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
-    shutil.copytree(arm / "ws/src/arm-main/meshes", vendor / "meshes")
-    (vendor / mesh).write_text((vendor / mesh).read_text().replace("\nv ", "\nv 9", 1))
-    (vendor / "package.xml").write_text("<package><name>six_axis_arm</name></package>")
-    configuration = CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/") + 'package_paths = ["vendor"]\n'
-    (arm / "urdfsync.toml").write_text(configuration)
-    assert not run(arm).diagnostics
-    (copy,) = (arm / "modelica/Arm/Resources").glob("carousel_*.obj")
-    assert copy.read_bytes() == (vendor / mesh).read_bytes()
-
-
 def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(arm: Path) -> None:
     (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
     (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
@@ -140,14 +125,6 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(a
         "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
         "called like the package `six_axis_arm`"
     )
-
-
-def test_another_name_of_a_joint_that_others_follow_is_told_as_such(arm: Path) -> None:
-    run(arm)
-    edit(arm / "ws/src/six_axis_arm/six_axis_arm.urdf", '"gripper_stroke"', '"stroke"')
-    changes = run(arm).changes
-    assert changes is not None
-    assert [(one.kind, one.element) for one in changes.changes] == [(ChangeKind.RENAMED, "joint gripper_stroke")]
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">
@@ -176,17 +153,6 @@ def test_passive_joints_are_noted_by_a_build_that_reads_the_source_and_by_no_oth
     assert not run(cart).diagnostics
     (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + 'driven = ["wheel"]\n')
     assert not run(cart).diagnostics
-
-
-@pytest.mark.parametrize("line", ['frames = "all"', "driven = []", 'inputs = "vector"'])
-def test_a_choice_of_connectors_is_one_of_the_generator(cart: Path, line: str) -> None:
-    """So the package is rendered again, whatever depends on it."""
-    run(cart)
-    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + line)
-    result = run(cart)
-    assert result.changes is not None
-    assert result.changes.generator
-    assert run(cart).changes is None
 
 
 def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None:

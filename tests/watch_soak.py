@@ -11,6 +11,7 @@ CI for three.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import os
@@ -29,7 +30,8 @@ from random import Random
 from support.daemon import REPOSITORY, Watch
 
 ROBOT = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / "six_axis_arm" / "six_axis_arm.urdf"
-ROBOTS = ("arm", "leg")
+ROBOTS = {"arm": "cad", "leg": "export"}
+"""The folders of their sources."""
 CONFIG = '[robots.{0}]\nsource = "{1}/{0}.urdf"\npackage = "{2}"\non_conflict = "merge"\n'
 TAG = re.compile(r"// mine \d+")
 _QUIET = 5.0
@@ -40,6 +42,9 @@ _EXTRA = (
     '<joint name="{0}_joint" type="fixed"><parent link="{2}"/><child link="{0}"/></joint>'
 )
 
+Way = Callable[[Path, str, Random], object]
+"""A way to write the text of a source."""
+
 
 @dataclasses.dataclass
 class Soak:
@@ -47,175 +52,150 @@ class Soak:
 
     counts: Counter[str] = dataclasses.field(default_factory=Counter)
     problems: list[str] = dataclasses.field(default_factory=list)
+    tags: set[str] = dataclasses.field(default_factory=set)
+    """The comments that have to be there at the end."""
 
 
 def run(folder: Path, seconds: float, seed: int) -> Soak:
     """Let all of them work in a new project for so long, then compare."""
-    soak, random = Soak(), Random(seed)
-    project = _project(folder / "project", random)
+    soak, project = Soak(), folder / "project"
+    for robot, place in ROBOTS.items():
+        (project / place).mkdir(parents=True)
+        (project / place / f"{robot}.urdf").write_text(variant(Random(seed)))
+        _write_mesh(project / place / "part.stl", "", Random(seed))
+    tables = (CONFIG.format(robot, place, robot.capitalize()) for robot, place in ROBOTS.items())
+    (project / "urdfsync.toml").write_text("".join(tables))
     with Watch(project, "--rescan", "5") as watch:
         watch.rest(robots=len(ROBOTS))
-        hand = _Hand(project, Random(seed + 1), soak)
-        steps: Sequence[Callable[[], None]] = (
-            _Exporter(project / "cad/arm.urdf", Random(seed + 2), soak).step,
-            _Saver(project / "export/leg.urdf", Random(seed + 3), soak).step,
-            hand.step,
+        steps = (
+            lambda random: _write(project / "cad/arm.urdf", EXPORTS, random, soak),
+            lambda random: _write(project / "export/leg.urdf", SAVES, random, soak),
+            lambda random: _edit(project, random, soak),
         )
-        _all_at_once(steps, seconds, soak)
+        _all_at_once(steps, seconds, seed, soak)
         time.sleep(_QUIET)
         watch.rest()
         if watch.process.poll() is not None or watch.stop() != 0 or watch.errors:
             soak.problems.append(f"the daemon ended badly:\n{watch.said}")
         soak.counts.update(f"event {event['event']}" for event in watch.events)
-        failed = [event for event in watch.events if event["event"] == "failed"]
-        soak.problems += [f"failed: {event['diagnostics']}" for event in failed]
-    soak.problems += _compare(project, folder / "fresh", hand.tags)
+        soak.problems += [f"failed: {event['diagnostics']}" for event in watch.events if event["event"] == "failed"]
+    soak.problems += _compare(project, folder / "fresh", soak.tags)
     return soak
 
 
-def _all_at_once(steps: Sequence[Callable[[], None]], seconds: float, soak: Soak) -> None:
+def _all_at_once(steps: Sequence[Callable[[Random], None]], seconds: float, seed: int, soak: Soak) -> None:
     end = time.monotonic() + seconds
 
-    def repeat(step: Callable[[], None]) -> None:
+    def repeat(step: Callable[[Random], None], random: Random) -> None:
         try:
             while time.monotonic() < end:
-                step()
+                step(random)
         except Exception as error:  # noqa: BLE001 - of a thread, and told in the end
-            soak.problems.append(f"{step.__qualname__}: {error!r}")
+            soak.problems.append(repr(error))
 
-    threads = [threading.Thread(target=repeat, args=[step]) for step in steps]
+    threads = [threading.Thread(target=repeat, args=[step, Random(seed + n)]) for n, step in enumerate(steps, 1)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
 
 
-class _Writer:
-    """Writes random variants of a robot."""
-
-    def __init__(self, source: Path, random: Random, soak: Soak) -> None:
-        self._source, self._random, self._soak = source, random, soak
-
-    def step(self) -> None:
-        """Write a variant in some way, then wait a little."""
-        way = self._random.choice([name for name in dir(self) if name.startswith("by_")])
-        self._soak.counts[way] += 1
-        getattr(self, way)(variant(self._random))
-        time.sleep(self._random.choice([0.05, 0.4, 0.8, 1.5, 2.5]))
+# Writers
 
 
-class _Exporter(_Writer):
-    def by_writing_at_once(self, text: str) -> None:
-        self._source.write_text(text)
-
-    def by_writing_in_pieces(self, text: str) -> None:
-        with self._source.open("w") as file:
-            for begin in range(0, len(text), 4000):
-                file.write(text[begin : begin + 4000])
-                file.flush()
-                time.sleep(self._random.random() * 0.2)
-
-    def by_truncating_and_waiting(self, text: str) -> None:
-        self._source.write_text("")
-        time.sleep(self._random.random() * 2)
-        self._source.write_text(text)
-
-    def by_deleting(self, text: str) -> None:
-        self._source.unlink()
-        time.sleep(self._random.random() * 2)
-        self._source.write_text(text)
+def _write(source: Path, ways: Sequence[Way], random: Random, soak: Soak) -> None:
+    """Write a variant in some way, then wait a little."""
+    way = random.choice(ways)
+    soak.counts[way.__name__.strip("_")] += 1
+    way(source, variant(random), random)
+    time.sleep(random.choice([0.05, 0.4, 0.8, 1.5, 2.5]))
 
 
-class _Saver(_Writer):
-    def by_renaming(self, text: str) -> None:
-        new = self._source.with_suffix(".new")
-        new.write_text(text)
-        new.rename(self._source)
-
-    def by_replacing_the_folder(self, text: str) -> None:
-        folder = self._source.parent
-        new, old = folder.with_name("new"), folder.with_name("old")
-        shutil.copytree(folder, new)
-        (new / self._source.name).write_text(text)
-        folder.rename(old)
-        new.rename(folder)
-        shutil.rmtree(old)
-
-    def by_changing_the_mesh(self, text: str) -> None:
-        _write_mesh(self._source.parent / "part.stl", self._random)
+def _write_at_once(source: Path, text: str, random: Random) -> None:
+    source.write_text(text)
 
 
-class _Hand:
-    """Writes comments into generated files; `tags` are those that have to be there at the end."""
+def _write_in_pieces(source: Path, text: str, random: Random) -> None:
+    with source.open("w") as file:
+        for begin in range(0, len(text), 4000):
+            file.write(text[begin : begin + 4000])
+            file.flush()
+            time.sleep(random.random() * 0.2)
 
-    def __init__(self, project: Path, random: Random, soak: Soak) -> None:
-        self._project, self._random, self._soak = project, random, soak
-        self._count = 0
-        self.tags: set[str] = set()
 
-    def step(self) -> None:
-        """Edit a file, or something else, then wait a little."""
-        files = sorted((self._project / "modelica").rglob("*.mo"))
-        dice = self._random.random()
-        if dice < 0.05:
-            self._soak.counts["build by hand"] += 1
-            _urdfsync(self._project, "build", "-q")
-        elif files and dice < 0.1:
-            self._delete(self._random.choice(files))
-        elif files:
-            self._comment(self._random.choice(files))
-        time.sleep(self._random.choice([0.1, 0.5, 1.0, 3.0]))
+def _truncate_and_write(source: Path, text: str, random: Random) -> None:
+    source.write_text("")
+    time.sleep(random.random() * 2)
+    source.write_text(text)
 
-    def _comment(self, path: Path) -> None:
-        try:
-            lines = path.read_text().splitlines(keepends=True)
-        except FileNotFoundError:
-            return
-        self._count += 1
-        tag = f"// mine {self._count}"
-        lines.insert(self._random.randrange(1, len(lines)), f"  {tag}\n")
-        if not path.parent.is_dir():
-            return
-        path.write_text("".join(lines))
-        self.tags.add(tag)
-        self._soak.counts["comments"] += 1
 
-    def _delete(self, path: Path) -> None:
-        """Delete a file that has no comment."""
-        try:
-            if not TAG.search(path.read_text()):
-                path.unlink()
-                self._soak.counts["deletions"] += 1
-        except FileNotFoundError:
-            return
+def _delete_and_write(source: Path, text: str, random: Random) -> None:
+    source.unlink()
+    time.sleep(random.random() * 2)
+    source.write_text(text)
+
+
+def _rename(source: Path, text: str, random: Random) -> None:
+    source.with_suffix(".new").write_text(text)
+    source.with_suffix(".new").rename(source)
+
+
+def _replace_the_folder(source: Path, text: str, random: Random) -> None:
+    folder = source.parent
+    new, old = folder.with_name("new"), folder.with_name("old")
+    shutil.copytree(folder, new)
+    (new / source.name).write_text(text)
+    folder.rename(old)
+    new.rename(folder)
+    shutil.rmtree(old)
+
+
+def _write_mesh(source: Path, text: str, random: Random) -> None:
+    vertices = f"vertex 0 0 0\nvertex {random.randrange(1, 1000)} 0 0\nvertex 0 1 0\n"
+    mesh = f"solid a\nfacet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\nendsolid\n"
+    source.with_name("part.stl").write_text(mesh)
+
+
+EXPORTS: Sequence[Way] = (_write_at_once, _write_in_pieces, _truncate_and_write, _delete_and_write)
+SAVES: Sequence[Way] = (_rename, _replace_the_folder, _write_mesh)
 
 
 def variant(random: Random) -> str:
     """The six-axis arm with other numbers, and with some links more."""
     text = ROBOT.read_text()
     root = text.split('<link name="', 1)[1].split('"', 1)[0]
-    masses = iter(re.split(r'(?<=<mass value=")[^"]*', text))
-    text = next(masses) + "".join(f"{random.randrange(1, 200) / 8:g}{rest}" for rest in masses)
+    text = re.sub(r'(?<=<mass value=")[^"]*', lambda _: f"{random.randrange(1, 200) / 8:g}", text)
     extra = [_EXTRA.format(f"extra{n}", random.randrange(1, 9), root) for n in range(4) if random.random() < 0.5]
     part = '<link name="part"><visual><geometry><mesh filename="part.stl"/></geometry></visual></link>'
     joint = f'<joint name="part_joint" type="fixed"><parent link="{root}"/><child link="part"/></joint>'
     return text.replace("</robot>", f"{part}{joint}{''.join(extra)}</robot>")
 
 
-def _write_mesh(path: Path, random: Random) -> None:
-    x = random.randrange(1, 1000)
-    vertices = f"vertex 0 0 0\nvertex {x} 0 0\nvertex 0 1 0\n"
-    path.write_text(f"solid a\nfacet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\nendsolid\n")
+# The hand editor
 
 
-def _project(folder: Path, random: Random) -> Path:
-    for place, name in (("cad", "arm"), ("export", "leg")):
-        (folder / place).mkdir(parents=True)
-        (folder / place / f"{name}.urdf").write_text(variant(random))
-        _write_mesh(folder / place / "part.stl", random)
-    text = CONFIG.format("arm", "cad", "Arm") + CONFIG.format("leg", "export", "Leg")
-    (folder / "urdfsync.toml").write_text(text)
-    return folder
+def _edit(project: Path, random: Random, soak: Soak) -> None:
+    """Write a comment into a generated file, delete one that has none, or build; then wait a little."""
+    files, dice = sorted((project / "modelica").rglob("*.mo")), random.random()
+    if dice < 0.05:
+        soak.counts["build by hand"] += 1
+        _urdfsync(project, "build", "-q")
+    elif files:
+        with contextlib.suppress(FileNotFoundError):  # the daemon was quicker
+            path = random.choice(files)
+            lines, tag = path.read_text().splitlines(keepends=True), f"// mine {soak.counts['comments'] + 1}"
+            if dice < 0.1 and not _is_edited(path):
+                path.unlink()
+                soak.counts["deletions"] += 1
+            elif dice >= 0.1:
+                lines.insert(random.randrange(1, len(lines)), f"  {tag}\n")
+                path.write_text("".join(lines))
+                soak.tags.add(tag)
+                soak.counts["comments"] += 1
+    time.sleep(random.choice([0.1, 0.5, 1.0, 3.0]))
+
+
+# The end
 
 
 def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
@@ -224,50 +204,37 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     document = json.loads(done.stdout)
     if done.returncode not in (0, 3):
         yield f"out of step: {[robot['summary'] for robot in document['robots']]} {document['diagnostics']}"
-    held = {robot["name"] for robot in document["robots"] if robot["conflicts"]}
-    for robot in document["robots"]:
-        yield from (
-            f"not settled: {c['path']}: {c['reason']}" for c in robot["conflicts"] if not _is_edited(project, c)
-        )
     everything = "".join(path.read_text() for path in (project / "modelica").rglob("*.mo*"))  # `.mo.saved`, too
-    lost = tags - set(TAG.findall(everything))
-    yield from (f"lost: {tag}" for tag in sorted(lost))
+    yield from (f"lost: {tag}" for tag in sorted(tags - set(TAG.findall(everything))))
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))
     _urdfsync(fresh, "build", "-q")
-    for robot in ROBOTS:
-        if robot not in held:  # a conflict keeps the rest of its robot waiting
-            yield from _differences(
-                project / f"modelica/{robot.capitalize()}", fresh / f"modelica/{robot.capitalize()}"
-            )
+    for robot in document["robots"]:
+        edited = (_is_edited(project / (one["origin"] or one["path"])) for one in robot["conflicts"])
+        yield from (f"not resolved: {one['path']}" for one, is_edited in zip(robot["conflicts"], edited, strict=True)
+                    if not is_edited)  # fmt: skip
+        if not robot["conflicts"]:  # which keep the rest of their robot waiting
+            place = f"modelica/{robot['name'].capitalize()}"
+            yield from _differences(project / place, fresh / place)
 
 
-def _is_edited(project: Path, conflict: dict[str, str]) -> bool:
-    path = project / (conflict["origin"] or conflict["path"])
+def _is_edited(path: Path) -> bool:
     return path.is_file() and TAG.search(path.read_text()) is not None
 
 
-def _is_kept(path: Path) -> bool:
-    """Whether a class is edited, or the record of an edited model."""
-    model = path.with_name(path.name.replace("Parameters.mo", ".mo"))
-    return any(file.is_file() and TAG.search(file.read_text()) is not None for file in (path, model))
-
-
 def _differences(package: Path, fresh: Path) -> Iterator[str]:
-    for path in sorted(fresh.rglob("*")):
+    for path in sorted(path for path in fresh.rglob("*") if path.is_file()):
         mine = package / path.relative_to(fresh)
-        if path.is_dir():
-            continue
         if not mine.is_file():
             yield f"missing: {mine}"
         elif path.suffix == ".mo":
             text = "".join(line for line in mine.read_text().splitlines(keepends=True) if not TAG.search(line))
-            if text != path.read_text():
-                yield f"stale: {mine}"
+            yield from [f"stale: {mine}"] if text != path.read_text() else []
         elif mine.read_bytes() != path.read_bytes() and path.name != "package.order":
             yield f"stale: {mine}"
     for path in sorted(package.rglob("*.mo")):
-        ours = path.name != "package.mo" and not _is_kept(path)
-        if ours and not (fresh / path.relative_to(package)).is_file():
+        model = path.with_name(path.name.replace("Parameters.mo", ".mo"))  # keeps its record
+        is_ours = path.name != "package.mo" and not _is_edited(path) and not _is_edited(model)
+        if is_ours and not (fresh / path.relative_to(package)).is_file():
             yield f"left over: {path}"
 
 

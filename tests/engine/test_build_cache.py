@@ -170,11 +170,6 @@ def _follow(project: Path, random: Random, edits: Iterator[Edit]) -> int:
     return known
 
 
-def test_any_edit_is_seen(project: Path) -> None:
-    edits = _source, _manifest, _deleted, _replaced, _bases, _endings, _an_older_record, _source
-    assert _follow(project, Random(0), iter(edits)) > 5 * len(edits)
-
-
 def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
     memory = Cache()
     assert _built(project, memory)

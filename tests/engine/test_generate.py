@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from support.networks import configure, failure, run
+from support.networks import configure, failure
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Role, Templates
@@ -98,16 +98,3 @@ def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: P
     (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
     (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
     assert failure().startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
-
-
-def test_a_compiler_reads_the_second_domain(project: Path) -> None:
-    """Every file of the RC network's package parses, by a parser that knows nothing of urdfsync."""
-    parser = pytest.importorskip("pymoca.parser", reason="pymoca is not installed")
-    run()
-    files = sorted((project / "modelica").rglob("*.mo"))
-    assert len(files) == 11
-    for file in files:
-        tree = parser.parse(file.read_text())
-        name = file.parent.name if file.name == "package.mo" else file.stem
-        assert tree is not None
-        assert name in str(tree.to_json(tree)), file

@@ -102,8 +102,3 @@ def test_invariants(before: list[str], now: list[str], lines: list[str], seed: o
     ] or not names_in(merged), "lines of the user keep their order"
     assert sorted(name for name in names_in(merged) if name in "ABCDEF") == sorted(now), "ours are there once"
     assert merge_order(merged, now, now) == merged, "a second merge changes nothing"
-
-
-@given(before=ours, now=ours)
-def test_without_lines_of_the_user_a_merge_is_as_good_as_a_new_file(before: list[str], now: list[str]) -> None:
-    assert merge_order(merge_order(None, before), now, before) == merge_order(None, now)

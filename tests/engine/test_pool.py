@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import signal
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -74,26 +73,6 @@ def test_no_process_is_started_for_what_is_in_step(robots: Path, started: list[i
     assert started == []
 
 
-def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run_all(jobs=1)
-    for number in range(COUNT):
-        path = robots / f"n{number}.json"
-        path.write_text(path.read_text().replace("220.5", "330"))
-    record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
-    answer = pool.Pool._result
-
-    def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
-        work = answer(self, robot)
-        if robot.name == "n5":
-            record.write_text(record.read_text().replace("220.5", "221"))
-        return work
-
-    monkeypatch.setattr(pool.Pool, "_result", edited)
-    results = run_all(jobs=2)
-    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
-    assert "221" in record.read_text()
-
-
 def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, started: list[int]) -> None:
     """What workers see does not get into its cache: the next builds look at all files again."""
     cache = Cache()
@@ -124,14 +103,6 @@ def _die(*_: object) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_the_work_is_told_of(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "_PAUSE", 0.001)  # the others may be quick
-    told: list[tuple[str, int, int]] = []
-    tell: Callable[[str, int, int], None] = lambda what, done, total: told.append((what, done, total))  # noqa: E731
-    run_all(jobs=2, progress=tell)
-    assert {total for what, _, total in told if what == "reading"} == {COUNT}
-
-
 @pytest.mark.slow
 def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
     from distributed import LocalCluster
@@ -154,3 +125,23 @@ def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monke
     monkeypatch.setattr(pool, "_PATIENCE", 1)
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
         run_all(executor="tcp://127.0.0.1:9")
+
+
+def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_all(jobs=1)
+    for number in range(COUNT):
+        path = robots / f"n{number}.json"
+        path.write_text(path.read_text().replace("220.5", "330"))
+    record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
+    answer = pool.Pool._result
+
+    def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
+        work = answer(self, robot)
+        if robot.name == "n5":
+            record.write_text(record.read_text().replace("220.5", "221"))
+        return work
+
+    monkeypatch.setattr(pool.Pool, "_result", edited)
+    results = run_all(jobs=2)
+    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
+    assert "221" in record.read_text()

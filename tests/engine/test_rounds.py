@@ -118,9 +118,9 @@ class Project:
         """The actions, and the texts that are merged; see `decide`."""
         found = {path: self._found(path) for path in wanted.keys() | self.recorded.keys()}
         planned = decide(self.recorded, wanted, found, self.moves())
-        standoffs = {a.path: self._standoff(a) for a in planned if a.kind in DISPUTED}
+        conflicts = {a.path: self._conflict(a) for a in planned if a.kind in DISPUTED}
         choices = {**remembered_choices(self.recorded, planned), **choices}
-        resolved, merged = resolve(planned, standoffs, choices, self.merging)
+        resolved, merged = resolve(planned, conflicts, choices, self.merging)
         actions = keep_needed(
             [msgspec.structs.replace(action, result=merged.get(action.path)) for action in resolved],
             lambda path, gone: any(file not in gone and file != path for file in self.files),
@@ -134,7 +134,7 @@ class Project:
             return OnDisk(self.files[path])
         return OnDisk(is_folder=path != PACKAGE and as_folder(path) in self.files)
 
-    def _standoff(self, action: Action) -> Conflict:
+    def _conflict(self, action: Action) -> Conflict:
         place, generated = action.origin or action.path, action.generated or ""
         if place in self.files:
             return find_conflict(action, action.base, self.files[place], generated)
@@ -238,7 +238,7 @@ class Rounds(RuleBasedStateMachine):
 
     @rule(choice=st.sampled_from([Choice.KEEP, Choice.TAKE]))
     def resolve_all(self, choice: Choice) -> None:
-        """Once every conflict is settled, nothing waits, and the package is complete."""
+        """Once every conflict is resolved, nothing waits, and the package is complete."""
         conflicts = waiting(self._build({}))
         actions = self._build(dict.fromkeys(conflicts, choice))
         conflicts = waiting(actions)

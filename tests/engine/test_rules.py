@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Kind
+from urdfsync.engine.actions import WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.engine.rules import DesiredFile, OnDisk, decide, decide_file, hold, records_after
+from urdfsync.engine.rules import DesiredFile, OnDisk, decide, decide_file, records_after
 from urdfsync.state.record import Choice, FileRecord, RecordState
 
 ABSENT = OnDisk()
@@ -52,27 +52,6 @@ def test_decision_table(base: str | None, mine: OnDisk, generated: str | None, k
 
 hashes = st.sampled_from("abc")
 found = st.one_of(st.just(ABSENT), st.just(FOLDER), hashes.map(on_disk))
-
-
-@given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
-def test_nothing_of_the_user_is_ever_written_over(base: str | None, mine: OnDisk, generated: str | None) -> None:
-    kind = decide_file(base, mine, generated)
-    if kind in (Kind.UPDATE, Kind.DELETE):
-        assert mine.hash == base
-    if kind in (Kind.CREATE, Kind.RESTORE):
-        assert mine == ABSENT
-
-
-@given(base=st.none() | hashes, mine=found, generated=st.none() | hashes)
-def test_after_an_action_the_next_build_has_nothing_to_do(
-    base: str | None, mine: OnDisk, generated: str | None
-) -> None:
-    action = Action("a", decide_file(base, mine, generated), Role.MODEL, "", base, generated)
-    record = records_after([action]).get("a")
-    written = {Kind.DELETE: ABSENT}.get(action.kind, OnDisk(generated)) if action.writes else mine
-    second = decide_file(record.base if record else None, written, generated)
-    quiet = {Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET}
-    assert second in (CONFLICTS if action.kind in CONFLICTS else quiet)
 
 
 # Files whose element has another name
@@ -145,52 +124,6 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
             assert action.kind not in WRITES
 
 
-CONFLICT = Action("Arm.mo", Kind.CONFLICT, Role.MODEL, "robot", "old", "new")
-
-
-@pytest.mark.parametrize(
-    ("action", "held"),
-    [
-        (Action("a", Kind.CREATE, Role.MODEL, "", None, "new"), True),
-        (Action("a", Kind.CREATE, Role.RECORD, "", None, "new"), True),
-        (Action("a", Kind.UPDATE, Role.MODEL, "", "old", "new"), True),
-        (Action("a", Kind.UPDATE, Role.PACKAGE, "", "old", "new"), True),
-        (Action("a", Kind.UPDATE, Role.RECORD, "", "old", "new"), True),
-        (Action("a", Kind.DELETE, Role.RECORD, "", "old", None), True),
-        (Action("a", Kind.DELETE, Role.IMPORT, "", "old", None), True),
-        (Action("a", Kind.UPDATE, Role.ORDER), True),
-        (Action("a", Kind.RESTORE, Role.ORDER), True),
-        (Action("a", Kind.RESTORE, Role.MODEL, "", "old", "new"), True),
-        (Action("a", Kind.RESTORE, Role.MODEL, "", "old", "old"), False),
-        (Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new"), False),
-        (Action("numbers", Kind.UPDATE, Role.MODEL, "", "old", "new"), True),
-        (Action("a", Kind.CREATE, Role.IMPORT, "", None, "new"), False),
-        (Action("a", Kind.UPDATE, Role.IMPORT, "", "old", "new"), False),
-        (Action("a", Kind.KEEP, Role.MODEL, "", "old", "old"), False),
-        (Action("a", Kind.ADOPT, Role.MODEL, "", "old", "new"), False),
-        (Action("a", Kind.MOVE, Role.MODEL, "", "old", "new", "b"), True),
-        (Action("numbers", Kind.MOVE, Role.RECORD, "", "old", "new", "b"), True),
-        (Action("b", Kind.LEAVE, Role.MODEL, "", "old"), True),
-        (Action("a", Kind.MERGE, Role.MODEL, "", "old", "new"), True),
-        (Action("a", Kind.MERGE, Role.RECORD, "", "old", "new"), True),
-        (Action("numbers", Kind.MERGE, Role.RECORD, "", "old", "new"), False),
-        (Action("a", Kind.INCLUDED, Role.MODEL, "", "old", "new"), False),
-    ],
-)
-def test_a_conflict_holds_back_what_is_structural(action: Action, held: bool) -> None:
-    assert [entry.held for entry in hold([CONFLICT, action], {"numbers"})] == [False, held]
-    assert [entry.held for entry in hold([action], set())] == [False], "without a conflict nothing waits"
-
-
-@pytest.mark.parametrize("kind", [Kind.MERGE, Kind.MOVE])
-def test_a_merged_file_is_edited_unless_nothing_is_left_of_the_edits(kind: Kind) -> None:
-    merged = Action("a", kind, Role.MODEL, "link a", "old", "new", mine="mine", result="both")
-    assert records_after([merged])["a"] == FileRecord("link a", Role.MODEL, "new", RecordState.EDITED)
-    assert records_after([msgspec.structs.replace(merged, result="new")])["a"] == FileRecord(
-        "link a", Role.MODEL, "new"
-    )
-
-
 def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place; the same while that waits."""
     recorded = {f"{name}.mo": FileRecord(f"part {name}", Role.MODEL, name) for name in "AB"}
@@ -231,13 +164,6 @@ def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come(
     assert {action.path: action.kind for action in again} == {"One.mo": Kind.KEEP, "Pan.mo": Kind.DELETE}
 
 
-def test_what_another_file_waits_for_is_not_renewed() -> None:
-    conflict = Action("edited", Kind.CONFLICT, Role.MODEL)
-    waits = Action("b", Kind.CREATE, Role.RECORD, "", "old", "new", "numbers")
-    renewed = Action("numbers", Kind.UPDATE, Role.RECORD, "", "old", "new")
-    assert [action.held for action in hold([conflict, waits, renewed], {"numbers"})] == [False, True, True]
-
-
 LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)
 
 
@@ -266,14 +192,3 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
     else:
         assert text is None
         assert not result.writes
-
-
-@pytest.mark.parametrize("choice", [None, *Choice])
-@pytest.mark.parametrize("kind", sorted(set(Kind) - {Kind.CONFLICT, Kind.UNOWNED, Kind.MOVE, Kind.ORPHAN}))
-def test_a_choice_is_for_nothing_else(kind: Kind, choice: Choice | None) -> None:
-    action = Action("Arm.mo", kind, Role.MODEL, "link arm", "base", "new", mine="mine")
-    conflict = find_conflict(action, "a", "a\nb", "c\na")
-    assert resolve([action], {"Arm.mo": conflict}, {"Arm.mo": choice} if choice else {}, merging=True) == (
-        (action,),
-        {},
-    )

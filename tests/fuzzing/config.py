@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -148,7 +148,7 @@ def _configuration(random: Random) -> bytes:
         document[random.choice(("robots", "defaults", "check", *KEYS))] = random.choice((*OTHERS, *TEXTS))
     text = tomli_w.dumps(document)
     if random.random() < 0.1:
-        text = random.choice(_TEXT_DAMAGE)(text, random)
+        text = _damage(text, random)
     content = text.encode(errors="surrogatepass")
     if random.random() < 0.05:
         content = damaged(content, random)
@@ -170,42 +170,19 @@ def _table(random: Random, count: int) -> dict[str, Any]:
     return table
 
 
-def _double(text: str, random: Random) -> str:
-    lines = text.splitlines()
-    return "\n".join([*lines, random.choice(lines), random.choice(lines)])
-
-
-def _nest(text: str, random: Random) -> str:
-    deep = random.choice((60, 5000))
-    extra = (
-        "a = " + "[" * deep + "]" * deep,
-        "a = " + "{a = " * deep + "1" + "}" * deep,
-        ".".join(["a"] * deep) + " = 1",
-    )
-    return text + "\n" + random.choice(extra)
-
-
-def _literal(text: str, random: Random) -> str:
-    values = (
-        "1" * 5000,
-        "0x" + "f" * 5000,
-        "1e999",
-        "nan",
-        "1979-05-27T07:32:00Z",
-        "07:32:00",
-        '"""',
-        "'''",
+def _damage(text: str, random: Random) -> str:
+    lines, deep = text.splitlines(), random.choice((60, 5000))
+    nested = ("[" * deep + "]" * deep, "{a = " * deep + "1" + "}" * deep)
+    literals = (
+        *("1" * 5000, "0x" + "f" * 5000, "1e999", "nan", "1979-05-27T07:32:00Z", "07:32:00", '"""', "'''"),
         '"\\u0000"',
     )
-    return text + f"\nx = {random.choice(values)}\n"
-
-
-def _markers(text: str, random: Random) -> str:
-    return f"<<<<<<< mine\n{text}=======\n{text}>>>>>>> theirs\n"
-
-
-def _cut(text: str, random: Random) -> str:
-    return text[: random.randint(0, len(text))]
-
-
-_TEXT_DAMAGE: Sequence[Callable[[str, Random], str]] = (_double, _nest, _literal, _markers, _cut)
+    damages = (
+        "\n".join([*lines, random.choice(lines), random.choice(lines)]),
+        f"{text}\na = {random.choice(nested)}",
+        f"{text}\n{'.'.join(['a'] * deep)} = 1",
+        f"{text}\nx = {random.choice(literals)}\n",
+        f"<<<<<<< mine\n{text}=======\n{text}>>>>>>> theirs\n",
+        text[: random.randint(0, len(text))],
+    )
+    return random.choice(damages)

@@ -14,7 +14,7 @@ import os
 import shutil
 import subprocess
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -162,13 +162,10 @@ def _damage(work: Workplace, random: Random) -> None:
         return
     there = sorted(path for path in state.rglob("*") if "base" not in path.parts or random.random() < 0.2)
     new = [state / name for name in (*_NAMES, f"base/bot/{'0' * 64}")]
-    path = random.choice([*there, *there, *new])
-    if random.random() < 0.02:
-        path = state
-    kind = random.choice(_KINDS)
+    path = state if random.random() < 0.02 else random.choice([*there, *there, *new])
     with contextlib.suppress(OSError, ValueError, RecursionError):  # the damage before has left something else
         path.parent.mkdir(parents=True, exist_ok=True)
-        kind(path, work, random)
+        _damage_place(path, work, random)
         if path.parent.name == "journal" and path.is_file() and not path.is_symlink() and random.random() < 0.5:
             crashes.bind(path)
 
@@ -180,46 +177,74 @@ _NAMES = (
     *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
     *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
 )
+DAMAGES = (
+    *(*["values"] * 8, "noise", "noise", "cut", "swap", "swap", "large", "delete", "folder", "link", "link"),
+    *("hard link", "fifo", "copy"),
+)
 
 
-def _noise(path: Path, work: Workplace, random: Random) -> None:
-    content = path.read_bytes() if path.is_file() and not path.is_symlink() else b"{}"
-    _put(path, damaged(content, random))
-
-
-def _cut(path: Path, work: Workplace, random: Random) -> None:
+def _damage_place(path: Path, work: Workplace, random: Random) -> None:
+    damage = random.choice(DAMAGES)
     content = path.read_bytes() if path.is_file() and not path.is_symlink() else b""
-    _put(path, content[: random.randint(0, len(content))])
+    if damage == "values" and path.suffix in (".toml", ".json"):
+        content = _with_other_values(path, content.decode(), random)
+    elif damage == "copy":  # the same file again: with another inode
+        shutil.copy2(path, path.with_name("copied"))
+        path.with_name("copied").replace(path)
+        return
+    _remove(path)
+    match damage:
+        case "values" if content:
+            path.write_bytes(content)
+        case "values" | "noise":
+            path.write_bytes(damaged(content or b"{}", random))
+        case "cut":
+            path.write_bytes(content[: random.randint(0, len(content))])
+        case "swap":
+            files = [other for other in work.project.rglob("*") if other.is_file() and ".git" not in other.parts]
+            path.write_bytes(random.choice(files).read_bytes())
+        case "large":
+            texts = (b"[" * 100_000, b"a = [" * 50_000, b"{" * 100_000, b'{"a":' * 100_000, bytes(1_000_000))
+            path.write_bytes(random.choice((*texts, b"x." * 100_000)))
+        case "folder":
+            path.mkdir()
+            if random.random() < 0.5:
+                (path / random.choice(("x", "bot.toml", "apply.json"))).write_text("precious")
+        case "link":
+            places = [work.outside / name for name in ("victim.mo", "folder", "", "new")]
+            path.symlink_to(random.choice((*places, path, *map(Path, ("/dev/zero", "/dev/tty", "/")))))
+        case "hard link":
+            path.hardlink_to(work.outside / "victim.mo")
+        case "fifo":
+            os.mkfifo(path)
 
 
-def _values(path: Path, work: Workplace, random: Random) -> None:
-    """Other values in a manifest, model or journal that stays one."""
-    text = path.read_text() if path.is_file() else ""
-    if path.suffix == ".toml":
-        document = tomllib.loads(text)
-        for _ in range(random.choice((1, 1, 3))):
-            _change(document, random)
-        _put(path, tomli_w.dumps(document).encode(errors="replace"))
-    elif path.suffix == ".json":
-        document = json.loads(text or _JOURNAL)
-        for _ in range(random.choice((1, 1, 3))):
-            _change(document, random)
-        _put(path, json.dumps(document).encode())
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
     else:
-        _noise(path, work, random)
+        path.unlink(missing_ok=True)
 
 
 _JOURNAL = '{"robot":"bot","token":"12","steps":[{"path":"x"}],"made":[],"emptied":[],"format":3}'
 
 
+def _with_other_values(path: Path, text: str, random: Random) -> bytes:
+    """A manifest, model or journal that stays one."""
+    document = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text or _JOURNAL)
+    for _ in range(random.choice((1, 1, 3))):
+        _change(document, random)
+    changed = tomli_w.dumps(document) if path.suffix == ".toml" else json.dumps(document)
+    return changed.encode(errors="replace")
+
+
 def _change(document: Any, random: Random) -> None:
     """Change a value, a key or the number of entries somewhere in a document."""
-    places = [place for place in _places(document) if place]
+    places = _places(document)
     if not places:
         return
     holder, key = random.choice(places)
-    value = holder[key]
-    action = random.random()
+    value, action = holder[key], random.random()
     if action < 0.15:
         del holder[key]
     elif action < 0.4 and isinstance(holder, dict):
@@ -234,79 +259,9 @@ def _change(document: Any, random: Random) -> None:
 
 def _places(document: Any) -> list[tuple[Any, Any]]:
     """Holder and key of every value."""
-    items = (
-        document.items() if isinstance(document, dict) else enumerate(document) if isinstance(document, list) else ()
-    )
+    if not isinstance(document, dict | list):
+        return []
     found = []
-    for key, value in list(items):
+    for key, value in list(document.items() if isinstance(document, dict) else enumerate(document)):
         found += [(document, key), *_places(value)]
     return found
-
-
-def _swap(path: Path, work: Workplace, random: Random) -> None:
-    """The content of another file."""
-    files = [other for other in work.project.rglob("*") if other.is_file() and ".git" not in other.parts]
-    _put(path, random.choice(files).read_bytes())
-
-
-def _large(path: Path, work: Workplace, random: Random) -> None:
-    texts = (b"[" * 100_000, b"a = [" * 50_000, b"{" * 100_000, b'{"a":' * 100_000, bytes(1_000_000), b"x." * 100_000)
-    _put(path, random.choice(texts))
-
-
-def _delete(path: Path, work: Workplace, random: Random) -> None:
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path)
-    else:
-        path.unlink()
-
-
-def _folder(path: Path, work: Workplace, random: Random) -> None:
-    _delete_if_there(path)
-    path.mkdir()
-    if random.random() < 0.5:
-        (path / random.choice(("x", "bot.toml", "apply.json"))).write_text("precious")
-
-
-def _link(path: Path, work: Workplace, random: Random) -> None:
-    """A link to a file or folder outside, to nothing, to itself or to a device."""
-    _delete_if_there(path)
-    outside = work.outside
-    path.symlink_to(
-        random.choice(
-            (outside / "victim.mo", outside / "folder", outside, outside / "new", path, "/dev/zero", "/dev/tty", "/")
-        )
-    )
-
-
-def _hard_link(path: Path, work: Workplace, random: Random) -> None:
-    _delete_if_there(path)
-    path.hardlink_to(work.outside / "victim.mo")
-
-
-def _fifo(path: Path, work: Workplace, random: Random) -> None:
-    _delete_if_there(path)
-    os.mkfifo(path)
-
-
-def _copy_inside(path: Path, work: Workplace, random: Random) -> None:
-    """The same file again, as a copy does it: with another inode."""
-    if path.is_file():
-        shutil.copy2(path, path.with_name("copied"))
-        path.with_name("copied").replace(path)
-
-
-_KINDS: Sequence[Callable[[Path, Workplace, Random], None]] = (
-    *([_values] * 8),
-    *(_noise, _noise, _cut, _swap, _swap, _large, _delete, _folder, _link, _link, _hard_link, _fifo, _copy_inside),
-)
-
-
-def _delete_if_there(path: Path) -> None:
-    if path.is_symlink() or path.exists():
-        _delete(path, Workplace(path), Random())
-
-
-def _put(path: Path, content: bytes) -> None:
-    _delete_if_there(path)
-    path.write_bytes(content)

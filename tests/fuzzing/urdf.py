@@ -7,9 +7,10 @@ at last bytes.
 
 from __future__ import annotations
 
+import copy
 import functools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -240,8 +241,9 @@ def mutated(text: str, random: Random) -> bytes:
     if random.random() < 0.4:
         text = _mutate_tree(text, random)
     for _ in range(random.choice((0, 1, 1, 1, 3))):
-        text = random.choice(_TEXT_MUTATIONS)(text, random)
-    content = _encoded(text, random) if random.random() < 0.08 else text.encode(errors="surrogatepass")
+        text = _mutate_text(text, random)
+    encoding = random.choice(ENCODINGS)
+    content = text.encode(encoding, "replace") if random.random() < 0.08 else text.encode(errors="surrogatepass")
     if random.random() < 0.08:
         content = damaged(content, random)
     return content
@@ -254,91 +256,91 @@ def _mutate_tree(text: str, random: Random) -> str:
     for _ in range(random.choice((1, 1, 2, 5))):
         elements = [element for element in root.iter("*") if element is not root]
         if elements:
-            random.choice(_TREE_MUTATIONS)(root, random.choice(elements), random.choice(elements), random)
+            _mutate_element(root, random.choice(elements), random.choice(elements), random)
     return etree.tostring(root, encoding="unicode")
 
 
-def _remove(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    parent = element.getparent()
-    if parent is not None:
-        parent.remove(element)
-
-
-def _repeat(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    copied = etree.tostring(element)
-    for _ in range(random.choice((1, 1, 2, 30))):
-        parent = element.getparent()
-        if parent is not None:
-            parent.append(etree.fromstring(copied, etree.XMLParser(recover=True)))
-
-
-def _move(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    if element not in other.iterancestors() and element is not other:
-        other.insert(random.randint(0, len(other)), element)
-
-
-def _rename_tag(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    element.tag = random.choice([tag for tag in TAGS if ":" not in tag])
-
-
-def _swap_attributes(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    """Values of one element go to another: duplicate names, cycles, two parents."""
-    same = [found for found in root.iter("*") if found.tag == element.tag and found is not element] or [other]
-    source = random.choice(same)
-    for name, value in source.attrib.items():
-        if random.random() < 0.7:
-            element.set(name, value)
-
-
-def _drop_attribute(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    if element.attrib:
-        del element.attrib[random.choice(list(element.attrib))]
-
-
-def _add_attribute(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    names = ("name", "xyz", "rpy", "value", "type", "link", "joint", "rgba", "size", "quat", "mass", "foo")
-    element.set(random.choice(names), random.choice(("", "1", "0 0 0", "x", "base")))
-
-
-def _change_kind(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    for found in root.iter("joint"):
-        if random.random() < 0.5:
-            found.set("type", random.choice(KINDS))
-
-
-def _nest(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    place = element
-    for _ in range(random.choice((3, 50, 250))):
-        place = etree.SubElement(place, random.choice(("link", "gazebo", "origin", "a")))
-
-
-def _set_text(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    element.text = random.choice(("1 2 3", "text", "\n\n", "  <&> ", "é"))
-
-
-def _lengthen(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
-    """A long chain of links."""
-    for number in range(random.choice((5, 40, 120))):
-        name, above = f"chain{number}", f"chain{number - 1}" if number else "base"
-        etree.SubElement(root, "link", name=name)
-        added = etree.SubElement(root, "joint", name=f"c{number}", type=random.choice(KINDS[:6]))
-        etree.SubElement(added, "parent", link=above)
-        etree.SubElement(added, "child", link=name)
-        if random.random() < 0.3:
-            etree.SubElement(added, "mimic", joint=f"c{random.randint(0, number + 1)}")
-
-
-_TREE_MUTATIONS: Sequence[Callable[[etree._Element, etree._Element, etree._Element, Random], None]] = (
-    *(_remove, _repeat, _move, _rename_tag, _swap_attributes, _swap_attributes, _drop_attribute, _add_attribute),
-    *(_change_kind, _nest, _set_text, _lengthen),
+TREE_MUTATIONS = (
+    *("remove", "repeat", "move", "retag", "swap", "swap", "drop attribute", "add attribute", "change kinds", "nest"),
+    *("set text", "lengthen"),
 )
 
 
-def _change_value(text: str, random: Random) -> str:
-    places = list(_ATTRIBUTE.finditer(text))
-    if not places:
-        return text
-    place = random.choice(places)
+def _mutate_element(root: etree._Element, element: etree._Element, other: etree._Element, random: Random) -> None:
+    parent, name = element.getparent(), random.choice(list(element.attrib) or [""])
+    match random.choice(TREE_MUTATIONS):
+        case "remove" if parent is not None:
+            parent.remove(element)
+        case "repeat" if parent is not None:
+            for _ in range(random.choice((1, 1, 2, 30))):
+                parent.append(copy.deepcopy(element))
+        case "move" if element not in other.iterancestors() and element is not other:
+            other.insert(random.randint(0, len(other)), element)
+        case "retag":
+            element.tag = random.choice([tag for tag in TAGS if ":" not in tag])
+        case "swap":  # values of one element go to another: duplicate names, cycles, two parents
+            same = [found for found in root.iter("*") if found.tag == element.tag and found is not element] or [other]
+            taken = [item for item in random.choice(same).attrib.items() if random.random() < 0.7]
+            element.attrib.update(dict(taken))
+        case "drop attribute" if name:
+            del element.attrib[name]
+        case "add attribute":
+            names = ("name", "xyz", "rpy", "value", "type", "link", "joint", "rgba", "size", "quat", "mass", "foo")
+            element.set(random.choice(names), random.choice(("", "1", "0 0 0", "x", "base")))
+        case "change kinds":
+            for found in root.iter("joint"):
+                if random.random() < 0.5:
+                    found.set("type", random.choice(KINDS))
+        case "nest":
+            for _ in range(random.choice((3, 50, 250))):
+                element = etree.SubElement(element, random.choice(("link", "gazebo", "origin", "a")))
+        case "set text":
+            element.text = random.choice(("1 2 3", "text", "\n\n", "  <&> ", "é"))
+        case "lengthen":  # a long chain of links
+            for number in range(random.choice((5, 40, 120))):
+                child, above = f"chain{number}", f"chain{number - 1}" if number else "base"
+                etree.SubElement(root, "link", name=child)
+                added = etree.SubElement(root, "joint", name=f"c{number}", type=random.choice(KINDS[:6]))
+                etree.SubElement(added, "parent", link=above)
+                etree.SubElement(added, "child", link=child)
+                if random.random() < 0.3:
+                    etree.SubElement(added, "mimic", joint=f"c{random.randint(0, number + 1)}")
+
+
+TEXT_MUTATIONS = (*["value"] * 10, *["rename"] * 8, "insert", "entity", "declare", "repeat lines", "cut")
+
+
+def _mutate_text(text: str, random: Random) -> str:
+    names, places = re.findall(r'name="([^"]+)"', text), list(_ATTRIBUTE.finditer(text))
+    plain = re.sub(r"<\?xml.*?\?>", "", text)
+    match random.choice(TEXT_MUTATIONS):
+        case "value" if places:
+            return _change_value(text, random.choice(places), random)
+        case "rename" if names:  # another name, wherever the old one stands
+            new = random.choice(TEXTS).replace('"', "&quot;").replace("<", "&lt;")
+            return text.replace(f'"{random.choice(names)}"', f'"{new}"')
+        case "insert":
+            place = random.choice([match.start() for match in re.finditer("<", text)] or [0])
+            parts = (*ENTITIES, *"< > & &x; &#x1b; &#1114112; \x00 \x1b \ufeff <a:b/> <robot> </robot>".split(" "))
+            return text[:place] + random.choice(parts) + text[place:]
+        case "entity":
+            entity = random.choice("abx")
+            used = plain.replace('name="', f'name="&{entity};', 1)
+            return f"{random.choice(ENTITIES)}\n{used}"
+        case "declare":
+            version = random.choice(("1.0", "1.1", "0.0", "", "2"))
+            head = f'<?xml version="{version}" encoding="{random.choice(DECLARED)}"?>'
+            return random.choice(("", "\n", " ")) + head + plain
+        case "repeat lines":
+            lines = text.splitlines()
+            lines[random.randrange(len(lines)) : 0] = [random.choice(lines)] * random.choice((1, 2, 20))
+            return "\n".join(lines)
+        case "cut":
+            return text[: random.randint(0, len(text))]
+    return text
+
+
+def _change_value(text: str, place: re.Match[str], random: Random) -> str:
     values = NUMBERS if place[2][:1] in "-.0123456789" and random.random() < 0.8 else TEXTS
     value = random.choice(values).replace('"', "&quot;")
     if random.random() < 0.3 and " " in place[2]:  # one number of a vector
@@ -346,54 +348,6 @@ def _change_value(text: str, random: Random) -> str:
         parts[random.randrange(len(parts))] = value
         value = " ".join(parts)
     return text[: place.start(2)] + value + text[place.end(2) :]
-
-
-def _rename(text: str, random: Random) -> str:
-    """Another name, wherever the old one stands."""
-    names = re.findall(r'name="([^"]+)"', text)
-    if not names:
-        return text
-    new = random.choice(TEXTS).replace('"', "&quot;").replace("<", "&lt;")
-    return text.replace(f'"{random.choice(names)}"', f'"{new}"')
-
-
-def _insert(text: str, random: Random) -> str:
-    place = random.choice([match.start() for match in re.finditer("<", text)] or [0])
-    parts = (*ENTITIES, *"< > & &x; &#x1b; &#1114112; \x00 \x1b \ufeff <a:b/> <robot> </robot>".split(" "))
-    return text[:place] + random.choice(parts) + text[place:]
-
-
-def _use_entity(text: str, random: Random) -> str:
-    head = random.choice(ENTITIES)
-    return head + "\n" + re.sub(r"<\?xml.*?\?>", "", text).replace('name="', f'name="&{random.choice("abx")};', 1)
-
-
-def _declare(text: str, random: Random) -> str:
-    version = random.choice(("1.0", "1.1", "0.0", "", "2"))
-    head = f'<?xml version="{version}" encoding="{random.choice(DECLARED)}"?>'
-    return random.choice(("", "\n", " ")) + head + re.sub(r"<\?xml.*?\?>", "", text)
-
-
-def _repeat_lines(text: str, random: Random) -> str:
-    lines = text.splitlines()
-    line = random.choice(lines)
-    lines[random.randrange(len(lines)) : 0] = [line] * random.choice((1, 2, 20))
-    return "\n".join(lines)
-
-
-def _cut(text: str, random: Random) -> str:
-    return text[: random.randint(0, len(text))]
-
-
-_TEXT_MUTATIONS: Sequence[Callable[[str, Random], str]] = (
-    *([_change_value] * 10),
-    *([_rename] * 8),
-    *(_insert, _use_entity, _declare, _repeat_lines, _cut),
-)
-
-
-def _encoded(text: str, random: Random) -> bytes:
-    return text.encode(random.choice(ENCODINGS), errors="replace")
 
 
 def damaged(content: bytes, random: Random) -> bytes:

@@ -23,7 +23,7 @@ from urdfsync.domain import (
     Conversion,
     Dependency,
     Difference,
-    Effect,
+    Domain,
     ElementKey,
     Import,
     Lookup,
@@ -67,14 +67,11 @@ class Network(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     drives: str = "in"
 
 
-class RcNetwork:
+class RcNetwork(Domain):
     """The domain object."""
 
     name = "rcnetwork"
-    templates: Path | None = Path(__file__).parent / "templates"
-    revision = 1
-    fits_since = 1
-    converter = 1
+    templates = Path(__file__).parent / "templates"
     options = Options
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
@@ -167,17 +164,6 @@ class RcNetwork:
             meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
         return meanings
 
-    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
-        return ()
-
-    def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
-    ) -> Sequence[Effect]:
-        return ()
-
-    def option_for(self, path: str, target: Target, options: Options) -> str:
-        return ""
-
     def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
         has = GROUND in nodes
@@ -188,15 +174,6 @@ class RcNetwork:
     ) -> str | None:
         texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
-
-    def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
-        return (target.name,)
-
-    def record(self, reading: Reading, file: str, target: Target, options: Options) -> None:
-        return None  # a network is no list of numbers
-
-    def experiment(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
-        return None  # there is no second opinion on networks
 
 
 def _only_ones(elements: Iterable[Mapping[str, Any]]) -> Mapping[tuple[Any, ...], str]:

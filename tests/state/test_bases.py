@@ -46,15 +46,6 @@ def test_what_is_kept_comes_back_until_it_is_wanted_no_more(first: list[str], mo
         assert not Path(name, ".urdfsync/base/arm").exists()
 
 
-def test_what_was_never_kept_is_none(tmp_path: Path) -> None:
-    store = BaseStore(tmp_path / ".urdfsync/base/arm")
-    assert HASH not in store
-    assert store.get(HASH) is None
-    store.prune(())
-    store.add({})
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize("damage", [b"", b"another text", b"\xff", None])
 def test_a_text_counts_only_with_its_own_hash(folder: Path, damage: bytes | None) -> None:
     (folder / HASH).unlink()

@@ -98,14 +98,6 @@ def test_an_exchange_that_was_cut_short_is_completed(tmp_path: Path, old: Path, 
     assert contents(tmp_path) == (swapped if done else {"old": b"old", "target": b"target"})
 
 
-def test_folders_go_only_if_they_are_empty(old: Path, tmp_path: Path) -> None:
-    (tmp_path / "empty").mkdir()
-    for name in ("", "empty", "none"):
-        file_operations.remove_folder(tmp_path / name)
-    assert contents(tmp_path) == {"old": b"old"}
-    file_operations.remove(old / "below a file")
-
-
 def test_what_is_no_regular_file_is_not_read(old: Path, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(old)
     for path in (tmp_path, tmp_path / "link"):

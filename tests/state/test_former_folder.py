@@ -11,12 +11,10 @@ from typing import Any
 import pytest
 import tomli
 import tomli_w
-from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, edit
 from support.replay import contents
 
 from urdfsync import cli
-from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
@@ -61,27 +59,6 @@ def hostile(project: Path) -> Path:
     return project
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["build"],
-        ["build", "--full"],
-        ["build", "--repair"],
-        ["build", "--dry-run"],
-        ["build", "--check"],
-        ["status"],
-        ["diff"],
-        ["resolve", "--all", "--take"],
-    ],
-    ids=" ".join,
-)
-def test_a_strangers_manifest_deletes_nothing_of_the_users(hostile: Path, command: Sequence[str]) -> None:
-    run(*command)
-    assert contents(hostile / "modelica/Mine") == OWN
-    run("build")
-    assert contents(hostile / "modelica/Mine") == OWN
-
-
 def test_a_strangers_manifest_moves_no_edits(hostile: Path) -> None:
     mine = hostile / "modelica/Mine/Ladder.mo"
     mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
@@ -114,18 +91,6 @@ def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project
     assert contents(clone / "modelica/Ladder") == built
     assert not (project / "modelica/Ladder").exists()
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
-
-
-@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
-def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
-    assert run("build") == 0
-    clone = tmp_path / "clone"
-    shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
-    config = str(clone / "urdfsync.toml")
-    assert run("build", "--config", config) == 0
-    move(clone)
-    assert run("build", "--config", config) == 0
-    assert not (clone / "modelica/Ladder").exists()
 
 
 def _rename_robot(project: Path) -> None:
@@ -175,14 +140,6 @@ def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(project: Path
     assert Store(project).names() == ["filter"]
 
 
-@NEEDS_GIT
-@pytest.mark.parametrize("mode", ["build", "check"])
-def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    Repository(hostile, monkeypatch).git("add", "-A")
-    run("hook", mode)
-    assert contents(hostile / "modelica/Mine") == OWN
-
-
 @pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])
 def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: str) -> None:
     Store(tmp_path).note_folders("arm", ["m/Arm"])
@@ -202,18 +159,3 @@ def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: s
         else:
             file.mkdir()
     assert Store(tmp_path).written_folders("arm") == frozenset()
-
-
-def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
-    outside, root = tmp_path / "outside", tmp_path / "root"
-    (root / ".urdfsync").mkdir(parents=True)
-    outside.mkdir()
-    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
-        (root / ".urdfsync" / name).symlink_to(outside / "victim")
-    Store(root).note_folders("arm", ["m/Arm"])
-    assert Store(root).written_folders("arm") == {"m/Arm"}
-    shutil.rmtree(root / ".urdfsync")
-    (root / ".urdfsync").symlink_to(outside)
-    with pytest.raises(OutputError, match="symbolic link"):
-        Store(root).note_folders("arm", ["m/Arm"])
-    assert list(outside.iterdir()) == []

@@ -206,12 +206,3 @@ def test_a_path_that_no_build_writes_is_refused_with_its_line(spot: str, place: 
     assert message.startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong to the package")
     assert "`Plant.Arm`; restore the state from version control, or delete it" in message
     assert message.isprintable()
-
-
-@pytest.mark.parametrize(
-    ("role", "place"),
-    [("model", "notes.txt"), ("record", "Resources/a.stl"), ("package", ".git/x"), ("import", "Links/A.mo")],
-)
-def test_a_file_of_another_kind_than_its_role_is_refused(role: str, place: str) -> None:
-    text = dumps(MANIFEST) + f'\n[files."{place}"]\nowner = "x"\nrole = "{role}"\nbase = "ab"\n'
-    assert f"the recorded path {place!r} does not belong" in failure(text)

@@ -147,16 +147,6 @@ def test_whatever_git_makes_of_two_states_a_file_of_either_is_untouched(tmp_path
             assert {path: record.base for path, record in state.files.items() if path in disk} == disk
 
 
-def test_a_table_that_a_merge_put_in_twice_is_read() -> None:
-    text = dumps(OURS)
-    table = '[files."Links/Gripper.mo"]\nowner = "Gripper"\nrole = "model"\nbase = "other"'
-    found = recover(f"{text}\n{table}", None, "arm.toml", "arm.json")
-    for base in ("g-ours", "other"):
-        state = rebuilt(found, {GRIPPER: base, BASE: "b1"}, {})
-        assert state is not None
-        assert (state.files[GRIPPER].base, state.files[BASE].base) == (base, "b1")
-
-
 @pytest.mark.parametrize(
     "broken",
     [
@@ -222,30 +212,6 @@ def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, g
 # --- the state that follows ---------------------------------------------------------------------------------------
 
 
-def test_a_manifest_is_rebuilt() -> None:
-    mine = {BASE: "b1", GRIPPER: "edited", "Arm/Links/Finger.mo": None, MESH: "m2"}
-    found = rebuilt(merged(), mine, {BASE: "b2", GRIPPER: "g-ours", MESH: "m2"})
-    assert found is not None
-    assert {path: record.base for path, record in found.files.items()} == {
-        BASE: "b1",
-        GRIPPER: "g-theirs",
-        "Arm/Links/Finger.mo": "f1",
-        MESH: "m2",
-    }
-    assert found.orders == {"Arm/Links/package.order": ("Base", "Gripper", "Finger")}
-    assert found.source == OURS.source
-    assert found.dependencies["base.stl"].target_hash == "m2", "what is known of the copy that is there"
-
-
-def test_the_newest_generator_heads_the_state() -> None:
-    newer = msgspec.structs.replace(THEIRS, generator=Generator("urdf", 4, "9d"))
-    foreign = msgspec.structs.replace(THEIRS, generator=Generator("rcnetwork", 9, "9d"))
-    for theirs, revision in ((newer, 4), (foreign, 3)):
-        found = rebuilt(merged(theirs=theirs), {}, {})
-        assert found is not None
-        assert (found.generator.domain, found.generator.revision) == ("urdf", revision)
-
-
 @pytest.mark.parametrize(("mesh", "volume"), [("m1", "m1"), ("m2", "m2"), ("edited", "m1"), (None, "m1")])
 def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str) -> None:
     recovered = merged(json=conflict(model("ours"), model("theirs", "m2")))
@@ -255,13 +221,6 @@ def test_facts_are_those_of_the_copy_that_is_there(mesh: str | None, volume: str
     united = recovered.model(found)
     assert united is not None
     assert united.imports == expected
-
-
-def test_facts_of_other_bytes_are_left_out() -> None:
-    recovered = merged(OURS, OURS, model("theirs", "m9"))
-    united = recovered.model(OURS)
-    assert united is not None
-    assert united.imports == {}
 
 
 def test_the_snapshot_is_that_of_the_manifest() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync.diagnostics import OutputError, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.files import digest
 from urdfsync.state import file_operations
 from urdfsync.state.transaction import Change, Transactions, UnfinishedError
@@ -50,14 +50,6 @@ OVERTAKEN = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots": b""}
 """After a save in between, nothing is recorded."""
 
 
-def test_all_is_done(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    (tmp_path / "renewed.mo").chmod(0o640)
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
-    assert (tmp_path / "renewed.mo").stat().st_mode & 0o777 == 0o640
-    assert not transactions.pending()
-
-
 @pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
 def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
     for folder in (tmp_path, tmp_path / "a"):
@@ -80,14 +72,6 @@ def test_a_file_that_is_not_as_planned_stays(
     assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
 
 
-def test_a_file_to_delete_that_is_gone_is_no_hindrance(
-    tmp_path: Path, transactions: Transactions, changes: list[Change]
-) -> None:
-    changes[1].path.unlink()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
-
-
 @pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
 def test_a_moved_text_that_finds_its_place_taken_is_kept(
     tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
@@ -100,34 +84,6 @@ def test_a_moved_text_that_finds_its_place_taken_is_kept(
     assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
     assert said.code == "kept-save"
     assert f"{place.name}.saved" in said.message
-
-
-def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    (tmp_path / "renewed.mo").unlink()
-    (tmp_path / "renewed.mo").mkdir()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
-        tmp_path / "renewed.mo",
-        tmp_path / "state/robots/arm.json",
-    )
-    assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}
-
-
-def test_a_new_file_that_somebody_has_made_just_so_is_no_hindrance(
-    tmp_path: Path, transactions: Transactions, changes: list[Change]
-) -> None:
-    (tmp_path / "b/c").mkdir(parents=True)
-    (tmp_path / "b/c/made.mo").write_bytes(b"made")
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == ()
-    assert contents(tmp_path) == DONE
-
-
-def test_an_error_names_what_is_in_the_way(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
-    before = contents(tmp_path)
-    (tmp_path / "b").write_bytes(b"in the way")
-    with pytest.raises(OutputError) as caught:
-        transactions.apply("arm", changes)
-    assert str(caught.value) == ("b: error: a file is where a folder is needed; move it away [output-in-the-way]")
-    assert contents(tmp_path) == {**before, "b": b"in the way"}
 
 
 @pytest.mark.parametrize(
@@ -163,3 +119,13 @@ def test_what_cant_be_finished_is_finished_later(
     assert note.message == "the last build of robot `arm` was interrupted; it is finished"
     assert contents(tmp_path) == DONE
     assert transactions.recover() == ()
+
+
+def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+    (tmp_path / "renewed.mo").unlink()
+    (tmp_path / "renewed.mo").mkdir()
+    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
+        tmp_path / "renewed.mo",
+        tmp_path / "state/robots/arm.json",
+    )
+    assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}

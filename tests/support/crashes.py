@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import gc
+import itertools
 import json
 import os
 import shutil
@@ -12,8 +13,11 @@ import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from random import Random
 from typing import Any
 
+from support import edits
+from support.urdfs import joint, limit, link, robot
 from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -26,6 +30,7 @@ NAMES = (
     *("remove", "sync"),
 )
 WRITES = ("write", "write_bound")
+CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that asks for all, if it is set to anything."""
 
@@ -112,6 +117,16 @@ def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambd
                 operation.paths[0].write_bytes(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
 
+    _, status = os.waitpid(forked(project, hook), 0)
+    if os.WIFSIGNALED(status):
+        assert os.WTERMSIG(status) == signal.SIGKILL
+        return True
+    assert status == 0
+    return False
+
+
+def forked(project: Path, hook: Hook) -> int:
+    """Build in another process, whose number comes back; its exit code is 1 if the build fails."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # the test runner's threads do not matter to the child
         child = os.fork()
@@ -123,12 +138,31 @@ def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambd
                 code = int(run(project).failed)
         finally:
             os._exit(code)
-    _, status = os.waitpid(child, 0)
-    if os.WIFSIGNALED(status):
-        assert os.WTERMSIG(status) == signal.SIGKILL
-        return True
-    assert status == 0
-    return False
+    return child
+
+
+def edited_at_random(project: Path, random: Random) -> None:
+    """Make a project with a robot that was built and edited by hand, and whose source has changed then."""
+    project.mkdir(parents=True)
+    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    _export(project, 0, [])
+    hand = edits.Hand(random)
+    for count in (random.randint(1, 5), random.randint(0, 3)):
+        run(project)
+        for _ in range(count):
+            hand.edit(project / "modelica/Bot")
+    _export(project, random.random(), random.sample(["b1", "b2", "b3", "b4", "b5"], random.randint(1, 3)))
+
+
+def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
+    """A chain of links, some of which have another name and a sibling more."""
+    names = ["base", *(f"{name}x" if name in renamed else name for name in ("b1", "b2", "b3", "b4", "b5"))]
+    elements = [link(name, 1.0 + mass * number) for number, name in enumerate(names)]
+    ends = itertools.pairwise(names)
+    elements += [joint(f"j{n}", "revolute", *pair, axis="0 0 1", inside=[limit()]) for n, pair in enumerate(ends)]
+    for name in renamed[1:]:
+        elements += [link(f"{name}new", mass), joint(f"{name}j", "fixed", "base", f"{name}new")]
+    (project / "bot.urdf").write_text(robot(*elements))
 
 
 def copy(project: Path, to: Path) -> Path:

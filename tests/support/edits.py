@@ -5,15 +5,20 @@ A tag is a word such as `mine000017`, or a number such as `7171.000017`, which s
 
 from __future__ import annotations
 
+import collections
 import dataclasses
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from random import Random
 
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _NUMBER = re.compile(r"(?<![\w.\"])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.\"])")
 _ORDER = "package.order"
+
+Edit = Callable[[Path, Random, str], object]
+"""Does something to a file, or beside it; the text is a number that is used once."""
+LineEdit = Callable[[list[str], Random, str], object]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,11 +34,10 @@ def tagged(files: Mapping[str, bytes]) -> dict[str, Line]:
     """The lines of all tags in these files."""
     found = {}
     for path, content in files.items():
-        if not path.endswith((".mo", _ORDER)):
-            continue
-        for line in content.decode().splitlines():
-            for tag in _TAG.findall(line):
-                found[tag] = Line(path, line, own=not tag[0].isdigit() and "// shared" not in line)
+        if path.endswith((".mo", _ORDER)):
+            for line in content.decode().splitlines():
+                for tag in _TAG.findall(line):
+                    found[tag] = Line(path, line, own=not tag[0].isdigit() and "// shared" not in line)
     return found
 
 
@@ -43,173 +47,119 @@ def without_own(order: bytes) -> bytes:
 
 
 class Hand:
-    """Somebody who edits a package; `made` counts what was done, by kind."""
+    """Somebody who edits a package; `made` counts what was tried, by kind."""
 
     def __init__(self, random: Random) -> None:
         self._random = random
-        self._count = 0
-        self.made: dict[str, int] = {}
+        self.made = collections.Counter[str]()
 
     def edit(self, package: Path) -> None:
         """Do something to a file of the package."""
-        files = sorted(path for path in package.rglob("*.mo") if path.is_file())
-        if not files:
+        if not (files := sorted(path for path in package.rglob("*.mo") if path.is_file())):
             return
-        names = [name for name, weight in WEIGHTS.items() for _ in range(weight)]
-        name = self._random.choice(names)
         records = [path for path in files if path.stem.endswith("Parameters")]
         path = self._random.choice(records if records and self._random.random() < 0.4 else files)
-        if getattr(self, f"_{name}")(path):
-            self.made[name] = self.made.get(name, 0) + 1
-
-    def _tag(self) -> str:
-        self._count += 1
-        return f"mine{self._count:06d}"
-
-    # Lines
-
-    def _comment(self, path: Path) -> bool:
-        return self._insert(path, lambda lines: range(1, len(lines)), f"  // {self._tag()}")
-
-    def _declaration(self, path: Path) -> bool:
-        def places(lines: Sequence[str]) -> Sequence[int]:
-            return [
-                i for i, line in enumerate(lines) if re.match(r"equation|  annotation|  parameter |  Modelica", line)
-            ]
-
-        tag = self._tag()
-        blank = "\n" if self._random.random() < 0.5 else ""
-        return self._insert(path, places, f'  Real {tag} = {self._random.randint(0, 9)} "Mine";{blank}')
-
-    def _equation(self, path: Path) -> bool:
-        def places(lines: Sequence[str]) -> Sequence[int]:
-            return [i + 1 for i, line in enumerate(lines) if line == "equation"]
-
-        tag = self._tag()
-        return self._insert(path, places, f"  {tag} = der({tag}) + time;")
-
-    def _remark(self, path: Path) -> bool:
-        """A comment at the end of a line that may change."""
-        return self._change_line(
-            path, lambda line: f"{line}  // shared {self._tag()}" if line.endswith((",", ";")) else line
-        )
-
-    def _number(self, path: Path) -> bool:
-        def change(line: str) -> str:
-            found = list(_NUMBER.finditer(line))
-            if not found or _TAG.search(line):
-                return line
-            self._count += 1
-            match = self._random.choice(found)
-            return f"{line[: match.start()]}7171.{self._count:06d}{line[match.end() :]}"
-
-        return self._change_line(path, change)
-
-    def _delete_line(self, path: Path) -> bool:
-        lines = _lines(path)
-        places = [i for i, line in enumerate(lines[1:-1], 1) if line.strip()]
-        if not places:
-            return False
-        del lines[self._random.choice(places)]
-        return _write(path, lines)
-
-    def _move_block(self, path: Path) -> bool:
-        """A paragraph goes somewhere else in the file."""
-        blocks = _read(path).split("\n\n")
-        if len(blocks) < 4:
-            return False
-        block = blocks.pop(self._random.randrange(1, len(blocks) - 1))
-        blocks.insert(self._random.randrange(1, len(blocks)), block)
-        return _write(path, "\n\n".join(blocks).split("\n"))
-
-    # Files
-
-    def _order_line(self, path: Path) -> bool:
-        order = path.with_name(_ORDER)
-        if not order.exists():
-            return False
-        return self._insert(order, lambda lines: range(len(lines)), self._tag())
-
-    def _own_file(self, path: Path) -> bool:
-        tag = self._tag()
-        path.with_name(f"{tag}.mo").write_text(f"within Bot;\nmodel {tag}\n  Real x = 1;\nend {tag};\n")
-        return True
-
-    def _delete_file(self, path: Path) -> bool:
-        path.unlink()
-        return True
-
-    def _rename_file(self, path: Path) -> bool:
-        path.rename(path.with_name(f"{self._tag()}.mo"))
-        return True
-
-    def _windows(self, path: Path) -> bool:
-        path.write_bytes(_read(path).replace("\n", "\r\n").encode())
-        return True
-
-    def _folder(self, path: Path) -> bool:
-        """The class gets a folder of its own."""
-        if path.name == "package.mo":
-            return False
-        folder = path.with_suffix("")
-        folder.mkdir(exist_ok=True)
-        path.rename(folder / "package.mo")
-        return True
-
-    def _swap_newlines(self, path: Path) -> bool:
-        """No line end at the end of the file."""
-        path.write_bytes(path.read_bytes().rstrip())
-        return True
-
-    # Means
-
-    def _insert(self, path: Path, places: Callable[[Sequence[str]], Sequence[int]], text: str) -> bool:
-        lines = _lines(path)
-        chosen = places(lines)
-        if not chosen:
-            return False
-        lines.insert(self._random.choice(chosen), text)
-        return _write(path, lines)
-
-    def _change_line(self, path: Path, change: Callable[[str], str]) -> bool:
-        lines = _lines(path)
-        place = self._random.randrange(len(lines))
-        changed = change(lines[place])
-        if changed == lines[place]:
-            return False
-        lines[place] = changed
-        return _write(path, lines)
+        (name,) = self._random.choices(list(EDITS), [weight for weight, _ in EDITS.values()])
+        EDITS[name][1](path, self._random, f"{sum(self.made.values()):06d}")
+        self.made[name] += 1
 
 
-WEIGHTS = {
-    "comment": 6,
-    "declaration": 4,
-    "equation": 3,
-    "remark": 4,
-    "number": 12,
-    "delete_line": 3,
-    "move_block": 1,
-    "order_line": 1,
-    "own_file": 1,
-    "delete_file": 1,
-    "rename_file": 1,
-    "windows": 2,
-    "folder": 1,
-    "swap_newlines": 1,
+# Lines
+
+
+def _in_lines(change: LineEdit) -> Edit:
+    """An edit of a file's lines, which keeps its line ends."""
+
+    def edit(path: Path, random: Random, number: str) -> None:
+        text = path.read_bytes().decode()
+        lines = text.replace("\r\n", "\n").split("\n")
+        change(lines, random, number)
+        path.write_bytes("\n".join(lines).replace("\n", "\r\n" if "\r\n" in text else "\n").encode())
+
+    return edit
+
+
+def _insert(*texts: str, before: str = "", after: str = "") -> Edit:
+    """A line of the user's beside one of those that match."""
+
+    def change(lines: list[str], random: Random, number: str) -> None:
+        neighbours = range(1, len(lines))
+        if places := [n for n in neighbours if re.match(before, lines[n]) and re.match(after, lines[n - 1])]:
+            lines.insert(random.choice(places), random.choice(texts).format(tag=f"mine{number}"))
+
+    return _in_lines(change)
+
+
+def _remark(lines: list[str], random: Random, number: str) -> None:
+    """A comment at the end of a line that may change."""
+    place = random.randrange(len(lines))
+    if lines[place].endswith((",", ";")):
+        lines[place] += f"  // shared mine{number}"
+
+
+def _number(lines: list[str], random: Random, number: str) -> None:
+    place = random.randrange(len(lines))
+    line = lines[place]
+    if (found := list(_NUMBER.finditer(line))) and not _TAG.search(line):
+        match = random.choice(found)
+        lines[place] = f"{line[: match.start()]}7171.{number}{line[match.end() :]}"
+
+
+def _delete_line(lines: list[str], random: Random, number: str) -> None:
+    if places := [place for place, line in enumerate(lines[1:-1], 1) if line.strip()]:
+        del lines[random.choice(places)]
+
+
+def _move_block(lines: list[str], random: Random, number: str) -> None:
+    """A paragraph goes somewhere else in the file."""
+    blocks = "\n".join(lines).split("\n\n")
+    if len(blocks) > 3:
+        block = blocks.pop(random.randrange(1, len(blocks) - 1))
+        blocks.insert(random.randrange(1, len(blocks)), block)
+        lines[:] = "\n\n".join(blocks).split("\n")
+
+
+# Files
+
+
+def _order_line(path: Path, random: Random, number: str) -> None:
+    if (order := path.with_name(_ORDER)).exists():
+        _in_lines(lambda lines, *_: lines.insert(random.randrange(len(lines)), f"mine{number}"))(order, random, number)
+
+
+def _own_file(path: Path, random: Random, number: str) -> None:
+    name = f"mine{number}"
+    path.with_name(f"{name}.mo").write_text(f"within Bot;\nmodel {name}\n  Real x = 1;\nend {name};\n")
+
+
+def _windows(path: Path, random: Random, number: str) -> None:
+    path.write_bytes(path.read_bytes().replace(b"\r\n", b"\n").replace(b"\n", b"\r\n"))
+
+
+def _folder(path: Path, random: Random, number: str) -> None:
+    """The class gets a folder of its own."""
+    if path.name != "package.mo":
+        path.with_suffix("").mkdir(exist_ok=True)
+        path.rename(path.with_suffix("") / "package.mo")
+
+
+EDITS: Mapping[str, tuple[int, Edit]] = {
+    "comment": (6, _insert("  // {tag}")),
+    "declaration": (
+        4,
+        _insert('  Real {tag} = 7 "Mine";', '  Real {tag} = 3 "Mine";\n', before="equation|  [apM]"),
+    ),
+    "equation": (3, _insert("  {tag} = der({tag}) + time;", after="equation$")),
+    "remark": (4, _in_lines(_remark)),
+    "number": (12, _in_lines(_number)),
+    "delete line": (3, _in_lines(_delete_line)),
+    "move block": (1, _in_lines(_move_block)),
+    "order line": (1, _order_line),
+    "own file": (1, _own_file),
+    "delete file": (1, lambda path, *_: path.unlink()),
+    "rename file": (1, lambda path, _, number: path.rename(path.with_name(f"mine{number}.mo"))),
+    "windows": (2, _windows),
+    "folder": (1, _folder),
+    "no line end": (1, lambda path, *_: path.write_bytes(path.read_bytes().rstrip())),
 }
-"""How often each kind of edit is tried."""
-
-
-def _read(path: Path) -> str:
-    return path.read_bytes().decode().replace("\r\n", "\n")
-
-
-def _lines(path: Path) -> list[str]:
-    return _read(path).split("\n")
-
-
-def _write(path: Path, lines: Sequence[str]) -> bool:
-    """Write lines with the line ends that the file has."""
-    ending = "\r\n" if b"\r\n" in path.read_bytes() else "\n"
-    path.write_bytes("\n".join(lines).replace("\n", ending).encode())
-    return True
+"""By kind: how often it is tried, and what is done."""

@@ -5,7 +5,6 @@ Code that runs leaves a file in the folder `outside`, whose files are those that
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 import json
 import os
@@ -14,6 +13,7 @@ import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from support.meshes import write_hostile
 from support.urdfs import joint, limit, link, robot
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
@@ -26,22 +26,18 @@ MINE = "modelica/Other/Mine.mo"
 """A file of the user's own beside the package."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Attack:
-    """One attack: what it does to a project, and whether git can carry it to somebody else."""
-
-    make: Callable[[Path, Path], object]
-    is_committed: bool = True
+Attack = Callable[[Path, Path], object]
+"""What an attack does to a project; the second folder is the one outside."""
 
 
-def urdf(mass: float = 1.0, *more: str) -> str:
-    """A small robot, with more elements."""
+def urdf() -> str:
+    """A small robot."""
     turning = joint("turn", "revolute", "base", "tip", axis="0 0 1", inside=[limit()])
-    return robot(link("base"), link("tip", mass), turning, *more)
+    return robot(link("base"), link("tip", 1.0), turning)
 
 
 def write_project(project: Path) -> None:
-    """A project before it is built; a second robot's file is what the first one's becomes."""
+    """A project before it is built."""
     (project / "modelica/Other").mkdir(parents=True)
     (project / "urdfsync.toml").write_text(CONFIGURATION)
     (project / "arm.urdf").write_text(urdf())
@@ -74,12 +70,12 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _text(place: str, text: str) -> Callable[[Path, Path], object]:
+def _text(place: str, text: str) -> Attack:
     """A text in the place of a file."""
     return lambda project, outside: (project / place).write_text(text)
 
 
-def _edited(place: str, old: str, new: str) -> Callable[[Path, Path], None]:
+def _edited(place: str, old: str, new: str) -> Attack:
     """A file with other words in one place."""
     return lambda project, outside: _edit(project / place, old, new)
 
@@ -142,7 +138,7 @@ def _template_fifo(project: Path, outside: Path) -> None:
 # 3. The journal
 
 
-def _journal(path: str) -> Callable[[Path, Path], None]:
+def _journal(path: str) -> Attack:
     """A journal half way through the change of a file, with the file's new content beside it."""
 
     def make(project: Path, outside: Path) -> None:
@@ -163,7 +159,7 @@ def _journal(path: str) -> Callable[[Path, Path], None]:
 # 4. The manifest
 
 
-def _manifest_file(path: str) -> Callable[[Path, Path], None]:
+def _manifest_file(path: str) -> Attack:
     """A manifest that has a file as one of urdfsync's, with the right hash, which is no longer generated."""
 
     def make(project: Path, outside: Path) -> None:
@@ -177,7 +173,7 @@ def _manifest_file(path: str) -> Callable[[Path, Path], None]:
     return make
 
 
-def _manifest_folder(folder: str) -> Callable[[Path, Path], None]:
+def _manifest_folder(folder: str) -> Attack:
     """A manifest whose package was elsewhere before."""
 
     def make(project: Path, outside: Path) -> None:
@@ -199,7 +195,7 @@ def _former_folder(project: Path, outside: Path) -> None:
 # 5. Links, and outputs elsewhere
 
 
-def _link(place: str, target: str) -> Callable[[Path, Path], None]:
+def _link(place: str, target: str) -> Attack:
     """A link in the place of a file or folder, to one outside; what was there is at its end."""
 
     def make(project: Path, outside: Path) -> None:
@@ -222,7 +218,7 @@ def _journal_link(project: Path, outside: Path) -> None:
     _link(".urdfsync/journal", "folder")(project, outside)
 
 
-def _fifo(place: str) -> Callable[[Path, Path], None]:
+def _fifo(place: str) -> Attack:
     def make(project: Path, outside: Path) -> None:
         (project / place).parent.mkdir(parents=True, exist_ok=True)
         (project / place).unlink(missing_ok=True)
@@ -233,6 +229,40 @@ def _fifo(place: str) -> Callable[[Path, Path], None]:
 
 def _output_outside(project: Path, outside: Path) -> None:
     _configure(project, f"output = {json.dumps(os.path.relpath(outside, project))}")
+
+
+# 6. Meshes and large files
+
+
+def _show(project: Path, *names: str) -> None:
+    """Let the robot show meshes."""
+    shapes = "".join(f'<visual><geometry><mesh filename="{name}"/></geometry></visual>' for name in names)
+    text = (project / "arm.urdf").read_text()
+    (project / "arm.urdf").write_text(text.replace('<link name="base"/>', f'<link name="base">{shapes}</link>'))
+
+
+def _meshes(project: Path, outside: Path) -> None:
+    """Meshes whose readers would not end, or would take all memory."""
+    names = ("expression.off", "list.ply", "accessor.gltf", "corners.obj", "deep.dae")
+    for name in names:
+        write_hostile(project, name)
+    _show(project, *names)
+
+
+def _special_meshes(project: Path, outside: Path) -> None:
+    os.mkfifo(project / "pipe.obj")
+    _large("sparse.stl")(project, outside)
+    _show(project, "pipe.obj", "sparse.stl")
+
+
+def _large(place: str) -> Attack:
+    """A file without content that is too large to be read."""
+
+    def make(project: Path, outside: Path) -> None:
+        with (project / place).open("wb") as file:
+            file.truncate(200_000_000)  # git reads it, too
+
+    return make
 
 
 # 8. Texts
@@ -299,80 +329,83 @@ def _git_files(project: Path, outside: Path) -> None:
     (project / ".gitmodules").write_text(f'[submodule "x"]\npath = x\nurl = "ext::sh -c \'touch {outside}/git\'"\n')
 
 
-ATTACKS: Mapping[str, Attack] = {
-    "modules": Attack(_modules),
-    "a domain of the repository": Attack(_domain),
-    "a template that leaves the sandbox": Attack(_template_escape),
-    "a template without end": Attack(_template_without_end),
-    "a template that is a link": Attack(_template_link),
-    "a template that is a FIFO": Attack(_template_fifo, is_committed=False),
-    "a journal about git's hooks": Attack(_journal(".git/hooks/pre-commit")),
-    "a journal about a file outside": Attack(_journal(f"{OUTSIDE}/victim.mo")),
-    "a journal about the user's file": Attack(_journal(MINE)),
-    "a manifest with a file outside": Attack(_manifest_file(f"{OUTSIDE}/victim.mo")),
-    "a manifest with the user's file": Attack(_manifest_file(MINE)),
-    "a manifest with the configuration": Attack(_manifest_file("urdfsync.toml")),
-    "a manifest of a package outside": Attack(_manifest_folder(OUTSIDE)),
-    "a manifest of the user's package": Attack(_manifest_folder("modelica/Other")),
-    "a list of former folders": Attack(_former_folder),
-    "a deep list of former folders": Attack(_text(".urdfsync/folders.json", '{"x":' + "[" * 200_000)),
-    "state that is a link": Attack(_link(".urdfsync", "state")),
-    "manifests that are a link": Attack(_link(".urdfsync/robots", "state")),
-    "a manifest that is a link": Attack(_link(MANIFEST, "victim.mo")),
-    "a journal that is a link": Attack(_link(".urdfsync/journal", "folder")),
-    "journals that are the user's files": Attack(_journal_link),
-    "a temporary journal that is a link": Attack(_link(".urdfsync/journal/new.urdfsync-tmp", "victim.mo")),
-    "bases that are a link": Attack(_link(".urdfsync/base/arm", "folder")),
-    "an answer that is a link": Attack(_link(".urdfsync/stamp", "victim.mo")),
-    "a lock that is a link": Attack(_link(".urdfsync/lock", "victim.mo")),
-    "conflicts that are a link": Attack(_link(".urdfsync/conflicts", "folder")),
-    "a drawing that is a link": Attack(_link(".urdfsync/svg", "folder")),
-    "a package that is a link": Attack(_link("modelica/Arm", "folder")),
-    "an output folder that is a link": Attack(_link("modelica", "folder")),
-    "an output that is a link": Attack(_link(RECORD, "victim.mo")),
-    "an output folder outside": Attack(_output_outside),
-    "a source that is a FIFO": Attack(_fifo("arm.urdf"), is_committed=False),
-    "a configuration that is a FIFO": Attack(_fifo("urdfsync.toml"), is_committed=False),
-    "a manifest that is a FIFO": Attack(_fifo(MANIFEST), is_committed=False),
-    "an answer that is a FIFO": Attack(_fifo(".urdfsync/stamp"), is_committed=False),
-    "a lock that is a FIFO": Attack(_fifo(".urdfsync/lock"), is_committed=False),
-    "an output that is a FIFO": Attack(_fifo(RECORD), is_committed=False),
-    "a base that is no text": Attack(_base_not_text),
-    "a deep model": Attack(_text(MODEL, '{"snapshot":' + "[" * 200_000)),
-    "a deep manifest": Attack(_text(MANIFEST, "a = " + "[" * 200_000)),
-    "entities": Attack(_entities),
-    "a deep source": Attack(_text("arm.urdf", "<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>")),
-    "a long chain": Attack(_deep_chain),
-    "huge numbers": Attack(_edited("arm.urdf", 'mass value="1.5"', f'mass value="{"9" * 100_000}"')),
-    "names for the terminal": Attack(_terminal_names),
-    "files for the terminal": Attack(_terminal_files),
-    "a manifest for the terminal": Attack(_edited(MANIFEST, 'tip = "tip"', '"\\u001b[31mtip" = "\\u009b2J"')),
-    "a repository in the repository": Attack(_bare_repository),
-    "attributes of git": Attack(_git_files),
+COMMITTED: Mapping[str, Attack] = {
+    "modules": _modules,
+    "a domain of the repository": _domain,
+    "a template that leaves the sandbox": _template_escape,
+    "a template without end": _template_without_end,
+    "a template that is a link": _template_link,
+    "a journal about git's hooks": _journal(".git/hooks/pre-commit"),
+    "a journal about a file outside": _journal(f"{OUTSIDE}/victim.mo"),
+    "a journal about the user's file": _journal(MINE),
+    "a manifest with a file outside": _manifest_file(f"{OUTSIDE}/victim.mo"),
+    "a manifest with the user's file": _manifest_file(MINE),
+    "a manifest with the configuration": _manifest_file("urdfsync.toml"),
+    "a manifest of a package outside": _manifest_folder(OUTSIDE),
+    "a manifest of the user's package": _manifest_folder("modelica/Other"),
+    "a list of former folders": _former_folder,
+    "a deep list of former folders": _text(".urdfsync/folders.json", '{"x":' + "[" * 200_000),
+    "state that is a link": _link(".urdfsync", "state"),
+    "manifests that are a link": _link(".urdfsync/robots", "state"),
+    "a manifest that is a link": _link(MANIFEST, "victim.mo"),
+    "a journal that is a link": _link(".urdfsync/journal", "folder"),
+    "journals that are the user's files": _journal_link,
+    "a temporary journal that is a link": _link(".urdfsync/journal/new.urdfsync-tmp", "victim.mo"),
+    "bases that are a link": _link(".urdfsync/base/arm", "folder"),
+    "an answer that is a link": _link(".urdfsync/stamp", "victim.mo"),
+    "a lock that is a link": _link(".urdfsync/lock", "victim.mo"),
+    "conflicts that are a link": _link(".urdfsync/conflicts", "folder"),
+    "a drawing that is a link": _link(".urdfsync/svg", "folder"),
+    "a package that is a link": _link("modelica/Arm", "folder"),
+    "an output folder that is a link": _link("modelica", "folder"),
+    "an output that is a link": _link(RECORD, "victim.mo"),
+    "an output folder outside": _output_outside,
+    "a base that is no text": _base_not_text,
+    "a deep model": _text(MODEL, '{"snapshot":' + "[" * 200_000),
+    "a deep manifest": _text(MANIFEST, "a = " + "[" * 200_000),
+    "entities": _entities,
+    "a deep source": _text("arm.urdf", "<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>"),
+    "a long chain": _deep_chain,
+    "huge numbers": _edited("arm.urdf", 'mass value="1.5"', f'mass value="{"9" * 100_000}"'),
+    "names for the terminal": _terminal_names,
+    "files for the terminal": _terminal_files,
+    "a manifest for the terminal": _edited(MANIFEST, 'tip = "tip"', '"\\u001b[31mtip" = "\\u009b2J"'),
+    "a repository in the repository": _bare_repository,
+    "attributes of git": _git_files,
+    "meshes without end": _meshes,
 }
+"""Those that git can carry to somebody else."""
+LOCAL: Mapping[str, Attack] = {
+    "a template that is a FIFO": _template_fifo,
+    "a source that is a FIFO": _fifo("arm.urdf"),
+    "a configuration that is a FIFO": _fifo("urdfsync.toml"),
+    "a manifest that is a FIFO": _fifo(MANIFEST),
+    "an answer that is a FIFO": _fifo(".urdfsync/stamp"),
+    "a lock that is a FIFO": _fifo(".urdfsync/lock"),
+    "an output that is a FIFO": _fifo(RECORD),
+    "a source of 200 MB": _large("arm.urdf"),
+    "a configuration of 200 MB": _large("urdfsync.toml"),
+    "meshes that are a FIFO and 200 MB": _special_meshes,
+}
+ATTACKS = {**COMMITTED, **LOCAL}
 
-TOGETHER = tuple(
-    name
-    for name, attack in ATTACKS.items()
-    if attack.is_committed
-    and name
-    not in {
-        "a domain of the repository",  # the configuration would be refused, and nothing else looked at
-        "state that is a link",
-        "manifests that are a link",
-        "a manifest that is a link",
-        "a manifest of the user's package",  # there can be one former package
-        "a list of former folders",
-        "a journal that is a link",
-        "journals that are the user's files",
-        "a package that is a link",
-        "an output folder that is a link",
-        "a deep manifest",
-        "entities",
-        "a deep source",
-        "a long chain",
-        "files for the terminal",
-        "a repository in the repository",
-    }
-)
-"""The attacks that one project can have at once, without one of them hiding most others."""
+APART = {
+    "a domain of the repository",
+    "state that is a link",
+    "manifests that are a link",
+    "a manifest that is a link",
+    "a manifest of the user's package",
+    "a list of former folders",
+    "a journal that is a link",
+    "journals that are the user's files",
+    "a package that is a link",
+    "an output folder that is a link",
+    "a deep manifest",
+    "entities",
+    "a deep source",
+    "a long chain",
+    "files for the terminal",
+    "a repository in the repository",
+    "meshes without end",
+}
+"""Attacks that would hide most others of a project, or that it has no place for."""

@@ -11,42 +11,35 @@ from urdfsync.domain import Import, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.robot import Mesh
 
-TYPES = ("fixed", "continuous", "revolute", "prismatic", "planar", "floating")
 SCALAR = ("continuous", "revolute", "prismatic")
-BLOCKS = ("limit", "dynamics", "mimic", "calibration", "safety_controller")
+TYPES = ("fixed", *SCALAR, "planar", "floating")
 NAMES = ("arm", "Arm", "ARM", "arm_link", "arm_joint", "wheel", "leg-1", "leg_1", "leg 1", "Links", "m", "x9", "x10")
 FILES = ("a.stl", "b.stl", "c.dae")
+GROUPS = ("visuals", "collisions")
+_INERTIA = {"ixx": 1.0, "iyy": 1.0, "izz": 1.0, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0}
+_SAFETY = {"k_velocity": 1.0, "k_position": 1.0, "soft_lower_limit": 0.0, "soft_upper_limit": 0.0}
+_SHAPES = (
+    {"kind": "box", "size": [1.0, 2.0, 3.0]},
+    {"kind": "sphere", "radius": 1.0},
+    {"kind": "cylinder", "radius": 1.0, "length": 2.0},
+    *({"kind": "mesh", "filename": name, "scale": [1.0, 1.0, 1.0]} for name in FILES),
+)
 
 Data = dict[str, Any]
 
 
 def version(random: Random) -> Version:
     """A robot of up to seven links, with everything that a URDF can say."""
-    names = random.sample(NAMES, random.randint(1, 7))
     snapshot: Data = {"name": "robot", "links": {}, "joints": {}, "extensions": {}}
-    for name in names:
-        snapshot["links"][name] = _link(random)
-        if len(snapshot["links"]) > 1:
-            _attach(snapshot, name, random)
-    return Version(snapshot, imports(random))
-
-
-def imports(random: Random) -> Mapping[str, Import]:
-    """Some meshes found, some not, some without a hull."""
-    found = {}
-    for file in FILES:
-        key = lookup.key(Mesh(file))
-        size = random.choice((None, 1.0, 2.0))
-        if size is not None:
-            facts = {"bounds": [[0.0, 0.0, 0.0], [size] * 3], "hull": random.choice(([], [[size, 0.0, 0.0]]))}
-            found[key] = Import(f"Resources/{file}", str(facts), str(facts), 1, facts)
-    return found
+    for name in random.sample(NAMES, random.randint(1, 7)):
+        _add_leaf(snapshot, random, name)
+    return Version(snapshot, _imports(random))
 
 
 def mutated(old: Version, random: Random, count: int) -> Version:
     """The version after `count` random changes, some of which may change nothing."""
     snapshot: Data = copy.deepcopy(dict(old.snapshot))
-    found = imports(random) if random.random() < 0.2 else old.imports
+    found = _imports(random) if random.random() < 0.2 else old.imports
     for _ in range(count):
         random.choice(MUTATIONS)(snapshot, random)
     return Version(snapshot, found)
@@ -68,95 +61,6 @@ def driven_and_passive(random: Random) -> tuple[Version, Version]:
     return old, Version(snapshot, old.imports)
 
 
-def _change_number(snapshot: Data, random: Random) -> None:
-    part = random.choice(("links", "joints"))
-    if not snapshot[part]:
-        return
-    element = random.choice(list(snapshot[part].values()))
-    places = list(_numbers(element))
-    if places:
-        holder, key = random.choice(places)
-        holder[key] += random.choice((0.5, 1e-9))
-
-
-def _toggle_inertial(snapshot: Data, random: Random) -> None:
-    link = random.choice(list(snapshot["links"].values()))
-    if link.pop("inertial", None) is None:
-        link["inertial"] = _inertial(random)
-
-
-def _toggle_block(snapshot: Data, random: Random) -> None:
-    if snapshot["joints"]:
-        name, joint = random.choice(list(snapshot["joints"].items()))
-        block = random.choice(BLOCKS)
-        if joint.pop(block, None) is None:
-            _add_block(snapshot, name, block, random)
-
-
-def _toggle_drive(snapshot: Data, random: Random) -> None:
-    if snapshot["joints"]:
-        joint = random.choice(list(snapshot["joints"].values()))
-        if not joint.pop("actuated", False):
-            joint["actuated"] = True
-
-
-def _change_type(snapshot: Data, random: Random) -> None:
-    if snapshot["joints"]:
-        random.choice(list(snapshot["joints"].values()))["type"] = random.choice(TYPES)
-
-
-def _change_leader(snapshot: Data, random: Random) -> None:
-    followers = [(name, joint) for name, joint in snapshot["joints"].items() if "mimic" in joint]
-    if followers:
-        name, joint = random.choice(followers)
-        joint["mimic"]["joint"] = random.choice(_leaders(snapshot, name) or [joint["mimic"]["joint"]])
-
-
-def _change_shapes(snapshot: Data, random: Random) -> None:
-    link = random.choice(list(snapshot["links"].values()))
-    shapes = link[random.choice(("visuals", "collisions"))]
-    action = random.choice(("append", "drop", "shuffle", "insert"))
-    if action == "append":
-        shapes.append(_shape(random))
-    elif action == "insert":
-        shapes.insert(0, _shape(random))
-    elif shapes and action == "drop":
-        shapes.pop(random.randrange(len(shapes)))
-    else:
-        random.shuffle(shapes)
-
-
-def _change_shape(snapshot: Data, random: Random) -> None:
-    shapes = [(group, shape) for link in snapshot["links"].values() for group in GROUPS for shape in link[group]]
-    if not shapes:
-        return
-    group, shape = random.choice(shapes)
-    what = random.choice(("geometry", "name", "material"))
-    if what == "material":
-        _change_material(group, shape, random)
-    else:
-        shape[what] = _shape(random)[what]
-
-
-def _change_material(group: str, shape: Data, random: Random) -> None:
-    if group == "collisions":
-        return
-    material = _material(random)
-    if material is None:
-        shape.pop("material", None)
-    else:
-        shape["material"] = material
-
-
-def _rename(snapshot: Data, random: Random) -> None:
-    part = random.choice(("links", "joints"))
-    new = random.choice(NAMES)
-    if not snapshot[part] or new in snapshot[part]:
-        return
-    old = random.choice(list(snapshot[part]))
-    rename(snapshot, part, old, new)
-
-
 def rename(snapshot: Data, part: str, old: str, new: str) -> None:
     """Give a link or joint a new name, wherever it is mentioned."""
     snapshot[part][new] = snapshot[part].pop(old)
@@ -167,12 +71,146 @@ def rename(snapshot: Data, part: str, old: str, new: str) -> None:
                 holder[key] = new
 
 
-def _add_leaf(snapshot: Data, random: Random) -> None:
-    free = [name for name in NAMES if name not in snapshot["links"]]
+# Parts of a robot
+
+
+def _imports(random: Random) -> Mapping[str, Import]:
+    """Some meshes found, some not, some without a hull."""
+    found = {}
+    for file in FILES:
+        if size := random.choice((None, 1.0, 2.0)):
+            facts = {"bounds": [[0.0, 0.0, 0.0], [size] * 3], "hull": random.choice(([], [[size, 0.0, 0.0]]))}
+            found[lookup.key(Mesh(file))] = Import(f"Resources/{file}", str(facts), str(facts), 1, facts)
+    return found
+
+
+def _link(random: Random) -> Data:
+    link: Data = {group: [_shape(group, random) for _ in range(random.choice((0, 0, 1, 2)))] for group in GROUPS}
+    inertial = {"mass": 1.0, "origin": _origin(random), "inertia": dict(_INERTIA)}
+    return link | random.choice(({}, {"inertial": inertial}))
+
+
+def _shape(group: str, random: Random) -> Data:
+    geometry = copy.deepcopy(random.choice((*_SHAPES, *_SHAPES[3:])))
+    shape = {"geometry": geometry, "origin": _origin(random), "name": random.choice(("", "", "cover"))}
+    color = {"rgba": list(random.choice(([1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0])))}
+    look = random.choice((None, {}, color, {"texture": "t.png"}))
+    return shape if group == "collisions" or look is None else {**shape, "material": {"name": "red"} | look}
+
+
+def _joint(random: Random) -> Data:
+    """All of a joint but its place in the tree."""
+    blocks = {
+        "limit": {"lower": -1.0, "upper": 1.0, **random.choice(({}, {"effort": 2.0}))},
+        "dynamics": {"damping": 0.0, "friction": 0.0},
+        "calibration": random.choice(({}, {"rising": 0.5})),
+        "safety_controller": dict(_SAFETY),
+    }
+    joint = {"type": random.choice(TYPES), "origin": _origin(random), "axis": [0.0, 0.0, 1.0]}
+    return joint | {name: block for name, block in blocks.items() if random.random() < 0.4}
+
+
+def _origin(random: Random) -> Data:
+    return {"xyz": [float(random.randint(0, 2)), 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
+
+
+def _leaders(snapshot: Data, follower: str) -> list[str]:
+    """Joints that a joint can follow without a cycle."""
+    joints = snapshot["joints"]
+
+    def chain(name: str) -> list[str]:
+        return [name, *(chain(joints[name]["mimic"]["joint"]) if "mimic" in joints[name] else [])]
+
+    return [
+        name for name in joints if name != follower and joints[name]["type"] in SCALAR and follower not in chain(name)
+    ]
+
+
+def _leaves(snapshot: Data) -> list[str]:
+    parents = {joint["parent"] for joint in snapshot["joints"].values()}
+    return [name for name, joint in snapshot["joints"].items() if joint["child"] not in parents]
+
+
+# Changes
+
+
+def _change_number(snapshot: Data, random: Random) -> None:
+    elements = list(snapshot[random.choice(("links", "joints"))].values())
+    if places := _numbers(random.choice(elements)) if elements else []:
+        holder, key = random.choice(places)
+        holder[key] += random.choice((0.5, 1e-9))
+
+
+def _numbers(value: Any) -> list[tuple[Any, Any]]:
+    """Holder and key of every number."""
+    found = []
+    for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+        if isinstance(item, float):
+            found.append((value, key))
+        elif isinstance(item, dict | list):
+            found += _numbers(item)
+    return found
+
+
+def _take_over(snapshot: Data, random: Random) -> None:
+    """An element gets, or loses, something that another one has or lacks: a type, limits, inertia, shapes."""
+    part, other = random.choice((("links", _link(random)), ("joints", _joint(random))))
+    if snapshot[part]:
+        element = random.choice(list(snapshot[part].values()))
+        key = random.choice(sorted((element.keys() | other.keys()) - {"parent", "child", "mimic", "actuated"}))
+        element.pop(key, None)
+        element |= {key: other[key]} if key in other else {}
+
+
+def _toggle_mimic(snapshot: Data, random: Random) -> None:
+    if snapshot["joints"]:
+        name, joint = random.choice(list(snapshot["joints"].items()))
+        if random.random() < 0.5:
+            joint.pop("mimic", None)
+        elif leaders := _leaders(snapshot, name):
+            joint["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
+
+
+def _toggle_drive(snapshot: Data, random: Random) -> None:
+    if snapshot["joints"]:
+        joint = random.choice(list(snapshot["joints"].values()))
+        if not joint.pop("actuated", False):
+            joint["actuated"] = True
+
+
+def _change_shapes(snapshot: Data, random: Random) -> None:
+    group = random.choice(GROUPS)
+    shapes, new = random.choice(list(snapshot["links"].values()))[group], _shape(group, random)
+    place = random.randrange(len(shapes) + 1)
+    match random.choice(("insert", "drop", "shuffle", "geometry", "name", "material", "material")):
+        case "insert":
+            shapes.insert(place, new)
+        case "drop":
+            del shapes[place : place + 1]
+        case "shuffle":
+            random.shuffle(shapes)
+        case what:
+            for shape in shapes[place : place + 1]:
+                shape.pop(what, None)
+                shape |= {what: new[what]} if what in new else {}
+
+
+def _rename(snapshot: Data, random: Random) -> None:
+    part, new = random.choice(("links", "joints")), random.choice(NAMES)
+    if snapshot[part] and new not in snapshot[part]:
+        rename(snapshot, part, random.choice(list(snapshot[part])), new)
+
+
+def _add_leaf(snapshot: Data, random: Random, name: str = "") -> None:
+    free = [name] if name else [name for name in NAMES if name not in snapshot["links"]]
     if free:
-        name = random.choice(free)
-        snapshot["links"][name] = _link(random)
-        _attach(snapshot, name, random)
+        child, others = random.choice(free), list(snapshot["links"])
+        snapshot["links"][child] = _link(random)
+        if others:
+            joint = random.choice([name for name in NAMES if name not in snapshot["joints"]])
+            snapshot["joints"][joint] = _joint(random) | {"parent": random.choice(others), "child": child}
+            if random.random() < 0.4 and (leaders := _leaders(snapshot, joint)):
+                snapshot["joints"][joint]["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
 
 
 def _remove_leaf(snapshot: Data, random: Random) -> None:
@@ -190,120 +228,14 @@ def _move_leaf(snapshot: Data, random: Random) -> None:
         joint["parent"] = random.choice([name for name in snapshot["links"] if name != joint["child"]])
 
 
-def _change_robot_name(snapshot: Data, random: Random) -> None:
+def _change_rest(snapshot: Data, random: Random) -> None:
     snapshot["name"] = random.choice(("robot", "machine"))
-
-
-def _change_extensions(snapshot: Data, random: Random) -> None:
     owner = random.choice(("", f"link {next(iter(snapshot['links']))}"))
     texts = random.choice((["<gazebo/>"], ['<gazebo reference="arm"><a/></gazebo>', "<gazebo><b/></gazebo>"]))
-    snapshot["extensions"][owner] = {"gazebo": texts}
+    snapshot["extensions"] |= random.choice(({}, {owner: {"gazebo": texts}}))
 
 
 MUTATIONS: tuple[Callable[[Data, Random], None], ...] = (
-    _change_number,
-    _toggle_inertial,
-    _toggle_block,
-    _toggle_drive,
-    _change_type,
-    _change_leader,
-    _change_shapes,
-    _change_shape,
-    _rename,
-    _add_leaf,
-    _remove_leaf,
-    _move_leaf,
-    _change_robot_name,
-    _change_extensions,
+    *(_change_number, _take_over, _take_over, _take_over, _toggle_mimic, _toggle_drive, _change_shapes, _change_shapes),
+    *(_rename, _add_leaf, _remove_leaf, _move_leaf, _change_rest),
 )
-GROUPS = ("visuals", "collisions")
-
-
-def _leaves(snapshot: Data) -> list[str]:
-    parents = {joint["parent"] for joint in snapshot["joints"].values()}
-    return [name for name, joint in snapshot["joints"].items() if joint["child"] not in parents]
-
-
-def _leaders(snapshot: Data, follower: str) -> list[str]:
-    """Joints that a joint can follow without a cycle."""
-    joints = snapshot["joints"]
-
-    def chain(name: str) -> list[str]:
-        return [name, *(chain(joints[name]["mimic"]["joint"]) if "mimic" in joints[name] else [])]
-
-    return [
-        name for name in joints if name != follower and joints[name]["type"] in SCALAR and follower not in chain(name)
-    ]
-
-
-def _numbers(value: Any) -> list[tuple[Any, Any]]:
-    """Holder and key of every number."""
-    items = value.items() if isinstance(value, dict) else enumerate(value)
-    found = []
-    for key, item in items:
-        if isinstance(item, float):
-            found.append((value, key))
-        elif isinstance(item, dict | list):
-            found += _numbers(item)
-    return found
-
-
-def _attach(snapshot: Data, child: str, random: Random) -> None:
-    name = random.choice([name for name in NAMES if name not in snapshot["joints"]])
-    parent = random.choice([link for link in snapshot["links"] if link != child])
-    kind = random.choice(TYPES)
-    joint = {"type": kind, "parent": parent, "child": child, "origin": _origin(random), "axis": [0.0, 0.0, 1.0]}
-    snapshot["joints"][name] = joint
-    for block in BLOCKS:
-        if random.random() < 0.4:
-            _add_block(snapshot, name, block, random)
-
-
-def _add_block(snapshot: Data, name: str, block: str, random: Random) -> None:
-    joint = snapshot["joints"][name]
-    if block == "limit":
-        joint[block] = {"lower": -1.0, "upper": 1.0, **({"effort": 2.0} if random.random() < 0.5 else {})}
-    elif block == "dynamics":
-        joint[block] = {"damping": 0.0, "friction": 0.0}
-    elif block == "calibration":
-        joint[block] = {"rising": 0.5} if random.random() < 0.5 else {}
-    elif block == "safety_controller":
-        joint[block] = {"k_velocity": 1.0, "k_position": 1.0, "soft_lower_limit": 0.0, "soft_upper_limit": 0.0}
-    elif leaders := _leaders(snapshot, name):
-        joint[block] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
-
-
-def _link(random: Random) -> Data:
-    link: Data = {group: [_shape(random) for _ in range(random.choice((0, 0, 1, 2)))] for group in GROUPS}
-    for shape in link["visuals"]:
-        _change_material("visuals", shape, random)
-    if random.random() < 0.5:
-        link["inertial"] = _inertial(random)
-    return link
-
-
-def _inertial(random: Random) -> Data:
-    return {"mass": 1.0, "origin": _origin(random), "inertia": dict.fromkeys(("ixx", "iyy", "izz"), 1.0)
-            | dict.fromkeys(("ixy", "ixz", "iyz"), 0.0)}  # fmt: skip
-
-
-def _shape(random: Random) -> Data:
-    geometry = random.choice(
-        (
-            {"kind": "box", "size": [1.0, 2.0, 3.0]},
-            {"kind": "sphere", "radius": 1.0},
-            {"kind": "cylinder", "radius": 1.0, "length": 2.0},
-            {"kind": "mesh", "filename": random.choice(FILES), "scale": [1.0, 1.0, 1.0]},
-            {"kind": "mesh", "filename": random.choice(FILES), "scale": [1.0, 1.0, 1.0]},
-        )
-    )
-    return {"geometry": copy.deepcopy(geometry), "origin": _origin(random), "name": random.choice(("", "", "cover"))}
-
-
-def _material(random: Random) -> Data | None:
-    name, rgba = random.choice(("", "red")), random.choice(([1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0]))
-    return random.choice((None, {"name": name}, {"name": name, "rgba": list(rgba)}, {"name": name, "texture": "t.png"}))
-
-
-def _origin(random: Random) -> Data:
-    return {"xyz": [float(random.randint(0, 2)), 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}

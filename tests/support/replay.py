@@ -1,14 +1,11 @@
-"""Robots that change from version to version, built again and again in a project: what the replays share.
-
-A replay runs thousands of builds, so templates are compiled once and nothing waits for the disk.
-"""
+"""Robots that change from version to version, built again and again in a project: what the replays share."""
 
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import functools
 import hashlib
+import os
 import re
 import shutil
 import struct
@@ -23,8 +20,10 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
 from urdfsync.state import file_operations
-from urdfsync.state.store import State, Store
 
+ALL = "URDFSYNC_REPLAYS"
+"""Environment variable: so many steps of random edits, and all histories of the corpus."""
+STEPS = int(os.environ.get(ALL, "0"))
 PACKAGE = "modelica/Bot"
 """The package's folder; paths of files count from it."""
 
@@ -68,16 +67,10 @@ class Project:
     """A folder with one robot, its configuration and all that a build makes of them."""
 
     def __init__(self, root: Path, base: str = "fixed", *, meshes: bool = False) -> None:
-        self.root = root
-        self._meshes = meshes
+        self.root, self.package, self._meshes = root, root / PACKAGE, meshes
         self._configuration = _CONFIGURATION.format(base=base) + _MESHES[meshes]
         (root / "ros").mkdir(parents=True)
         self.configure()
-
-    @property
-    def package(self) -> Path:
-        """The folder of the generated package."""
-        return self.root / PACKAGE
 
     def configure(self, more: str = "") -> None:
         """Write the configuration, with `more` keys of the robot."""
@@ -87,7 +80,7 @@ class Project:
         """Export the robot, with the meshes that it refers to."""
         (self.root / "bot.urdf").write_bytes(content)
         if self._meshes:
-            put_meshes(self.root, content)
+            _put_meshes(self.root, content)
 
     def build(self, **request: object) -> Result:
         """Build once."""
@@ -103,55 +96,37 @@ class Project:
         """What is recorded of the robot."""
         return contents(self.root / ".urdfsync/robots")
 
-    def recorded(self) -> State:
-        """What is recorded of the robot, read."""
-        state = Store(self.root).load("bot")
-        assert state is not None
-        return state
-
-    def stamps(self, below: str = "") -> Stamps:
+    def stamps(self) -> Stamps:
         """Inode and time of change of each file, but for the lock."""
-        return stamps(self.root / below)
+        found = ((path.relative_to(self.root).as_posix(), path.stat()) for path in _files(self.root))
+        return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found if not name.endswith(".urdfsync/lock")}
 
     def clone(self, root: Path) -> Project:
         """The project as version control has it: without what `.urdfsync/.gitignore` keeps out."""
+        cloned = object.__new__(Project)
+        cloned.__dict__ |= self.__dict__ | {"root": root, "package": root / PACKAGE}
         shutil.copytree(self.root, root)
         for path in (root / ".urdfsync").glob("*"):
             if path.name not in (".gitignore", "robots"):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
-        copied = object.__new__(Project)
-        copied.__dict__ |= self.__dict__ | {"root": root}
-        return copied
-
-
-@dataclasses.dataclass(frozen=True)
-class Built:
-    """What one version gives where nothing was built before; both are empty for one that can't be read."""
-
-    files: Files
-    state: Files
+        return cloned
 
 
 class Fresh:
-    """Builds of versions from nothing, each made once."""
+    """The package and the state of versions where nothing was built before; both are empty for a version refused."""
 
     def __init__(self, work: Path, base: str = "fixed", *, meshes: bool = False) -> None:
         self._work, self._base, self._meshes = work, base, meshes
-        self._built: dict[bytes, Built] = {}
+        self._built: dict[bytes, tuple[Files, Files]] = {}
 
-    def __call__(self, content: bytes) -> Built:
-        """The package of a version."""
-        key = hashlib.sha256(content).digest()
-        if key not in self._built:
-            self._built[key] = self._build(content)
-        return self._built[key]
-
-    def _build(self, content: bytes) -> Built:
-        shutil.rmtree(self._work, ignore_errors=True)
-        project = Project(self._work, self._base, meshes=self._meshes)
-        project.save(content)
-        failed = project.build().failed
-        return Built({}, {}) if failed else Built(project.files(), project.state())
+    def __call__(self, content: bytes) -> tuple[Files, Files]:
+        if content not in self._built:
+            shutil.rmtree(self._work, ignore_errors=True)
+            project = Project(self._work, self._base, meshes=self._meshes)
+            project.save(content)
+            failed = project.build().failed
+            self._built[content] = ({}, {}) if failed else (project.files(), project.state())
+        return self._built[content]
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -159,34 +134,16 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
 
 
-def stamps(folder: Path) -> dict[str, tuple[int, int]]:
-    """Inode and time of change of each file below a folder, but for a lock."""
-    found = ((path.relative_to(folder).as_posix(), path.stat()) for path in _files(folder))
-    return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found if not name.endswith(".urdfsync/lock")}
-
-
-def models(state: State) -> Mapping[str, str]:
-    """Path of the model of each element that has one, by its owner; relative to the package."""
-    files = state.manifest.files.items()
-    return {record.owner: path.removeprefix(f"{PACKAGE}/") for path, record in files if record.role == "model"}
-
-
-def snapshot_of(content: bytes) -> Mapping[str, object] | None:
-    """The model of a version as it is recorded; None if it can't be read."""
-    return read(content).snapshot
-
-
-def put_meshes(root: Path, content: bytes) -> None:
+def _put_meshes(root: Path, content: bytes) -> None:
     """A tetrahedron of its own for each mesh that a robot names, where it looks for it."""
     for scheme, name in set(_MESH.findall(content)):
         path = root / ("ros" if scheme == b"package://" else "") / name.decode()
-        if path.exists():
-            continue
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(_tetrahedron(name))
-        if scheme == b"package://":
-            package = name.decode().partition("/")[0]
-            (root / "ros" / package / "package.xml").write_text(f"<package><name>{package}</name></package>")
+        if not path.exists():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(_tetrahedron(name))
+            if scheme == b"package://":
+                package = name.decode().partition("/")[0]
+                (root / "ros" / package / "package.xml").write_text(f"<package><name>{package}</name></package>")
 
 
 def _tetrahedron(name: bytes) -> bytes:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple
 
+from urdfsync.modelica.lexer import is_name, lex
 from urdfsync.modelica.names import KEYWORDS
 
 Kind = Literal["string", "number", "name", "keyword", "mark"]
@@ -18,28 +19,19 @@ class Word(NamedTuple):
     text: str
 
 
-_WORD = re.compile(
-    r"""\s+ | //[^\n]* | /\*.*?\*/
-    | (?P<string>"(?:\\.|[^"\\])*")
-    | (?P<number>\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)
-    | (?P<name>[A-Za-z_]\w*|'(?:\\.|[^'\\])*')
-    | (?P<mark>[<>=]=|<>|:=|\.[+\-*/^]|.)""",
-    re.VERBOSE | re.DOTALL | re.ASCII,
-)
 _VALUE = re.compile(r""""(?:\\.|[^"\\])*"|(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][+-]?\d+)?""", re.ASCII)
 _OPEN, _CLOSE = "({[", ")}]"
 
 
 def words(text: str) -> list[Word]:
-    """The tokens of a text, in the lexical units of the Modelica specification, chapter 2."""
-    result = []
-    for match in _WORD.finditer(text):
-        kind = match.lastgroup
-        if kind == "name" and match.group() in KEYWORDS:
-            kind = "keyword"
-        if kind is not None:
-            result.append(Word(kind, match.group()))  # type: ignore[arg-type]
-    return result
+    """The tokens of a text."""
+    return [Word(_kind(token.text), token.text) for token in lex(text)[0][:-1]]
+
+
+def _kind(text: str) -> Kind:
+    if text in KEYWORDS:
+        return "keyword"
+    return "name" if is_name(text) else "string" if text[0] == '"' else "number" if text[0].isdigit() else "mark"
 
 
 def grammar_kinds(text: str) -> str:
@@ -55,13 +47,15 @@ def without_values(text: str) -> str:
 def without_annotations(sequence: Sequence[Word]) -> list[Word]:
     """The words that stand in no annotation."""
     result: list[Word] = []
-    position = 0
-    while position < len(sequence):
-        if sequence[position] == Word("keyword", "annotation"):
-            position = _closing(sequence, position + 1) + 1
-        else:
-            result.append(sequence[position])
-            position += 1
+    depth = -1
+    for word in sequence:
+        if depth < 0 and word == Word("keyword", "annotation"):
+            depth = 0
+        elif depth < 0:
+            result.append(word)
+        elif word.kind == "mark":
+            depth += (word.text in _OPEN) - (word.text in _CLOSE)
+            depth = depth or -1
     return result
 
 
@@ -80,25 +74,5 @@ def unbalanced(sequence: Sequence[Word]) -> str:
 
 def qualified_names(sequence: Sequence[Word]) -> Iterator[str]:
     """Names with all their dots: `a.b.c` once, as it stands."""
-    parts: list[str] = []
-    for word in (*sequence, Word("mark", ";")):
-        if word.kind == "name" and (not parts or parts[-1] == "."):
-            parts.append(word.text)
-        elif word.text == "." and parts and parts[-1] != ".":
-            parts.append(".")
-        else:
-            if parts:
-                yield "".join(parts)
-            parts = [word.text] if word.kind == "name" else []
-
-
-def _closing(sequence: Sequence[Word], start: int) -> int:
-    """Position of the bracket that closes the one at `start`."""
-    depth = 0
-    for position in range(start, len(sequence)):
-        if sequence[position].kind == "mark":
-            depth += sequence[position].text in _OPEN
-            depth -= sequence[position].text in _CLOSE
-        if depth == 0:
-            return position
-    raise ValueError("a bracket is never closed")
+    text = " ".join(word.text for word in sequence if word.kind != "string")
+    return (name.replace(" ", "") for name in re.findall(r"[^\W\d]\w*(?: \. [^\W\d]\w*)*", text))

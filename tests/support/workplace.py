@@ -16,6 +16,7 @@ from pathlib import Path
 from types import FrameType
 from unittest import mock
 
+from support import audit
 from urdfsync import __main__, hook
 from urdfsync.outcome import Exit
 
@@ -25,7 +26,7 @@ WATCHING = 0.4
 TIME_LIMIT = 300.0
 """Seconds after which a command hangs, however busy the machine is."""
 WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
-_SHOWN = 300
+_LARGE = 100_000_000
 _REPORTS = "urdfsync-*.traceback.txt"
 _CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")
 """What must not be in the text of a record either, which otherwise has names as they are."""
@@ -43,14 +44,14 @@ class Workplace:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.project, self.outside = folder / "project", folder / "outside"
-        self._temporary, self._home = folder / "temporary", folder / "home"
+        self.home, self._temporary = folder / "home", folder / "temporary"
 
     def fill(self, template: Path) -> None:
         """Make the project a copy of another one, and all else as new."""
         for place in (self.project, self.outside):
             shutil.rmtree(place, ignore_errors=True)
         shutil.copytree(template, self.project, symlinks=True)
-        self._home.mkdir(parents=True, exist_ok=True)
+        self.home.mkdir(parents=True, exist_ok=True)
         self._temporary.mkdir(exist_ok=True)  # it stays, since multiprocessing keeps a folder in it
         for report in self._temporary.glob(_REPORTS):
             report.unlink()
@@ -61,34 +62,41 @@ class Workplace:
     def run(self, command: Sequence[str]) -> tuple[int, str]:
         """Run a command in the project as its program would; returns exit code and output.
 
-        Raises Fault for a traceback, for an exit code that stands for nothing, for characters that a terminal obeys,
-        and for a change outside of the project.
+        Raises Fault for what `check_output` finds, for an event of this process that must not be, and for a change
+        outside of the project.
         """
-        before = self._others()
-        with self._surroundings(), _output() as output:
+        before, events = self.others(), list[tuple[str, str]]()
+        with self._surroundings(), _output() as output, _listening(lambda kind, what: events.append((kind, what))):
             code = _call(command)
         said = output.getvalue().decode(errors="replace")
         reports = [path.read_text() for path in self._temporary.glob(_REPORTS)]
-        if reports or "Traceback (most" in said:
-            raise Fault(f"{' '.join(command)}: {(reports or [said])[0][-2000:]}")
-        if code not in CODES:
-            raise Fault(f"{' '.join(command)}: exit code {code}: {said[-_SHOWN:]}")
-        shown = _CONTROLS.findall(said) if command[0] == "record" else (c for c in said if not c.isprintable())
-        if odd := set(shown) - {"\n"}:
-            raise Fault(f"{' '.join(command)}: the output has {sorted(odd)!r}: {said[-_SHOWN:]!r}")
-        if changed := changes(before, self._others()):
+        check_output(command, code, "\n".join([*reports, said]))
+        if odd := [event for event in dict.fromkeys(events) if not self.is_allowed(*event)]:
+            raise Fault(f"{' '.join(command)}: {odd[:5]}")
+        if changed := changes(before, self.others()):
             raise Fault(f"{' '.join(command)}: changes outside of the project: {changed[:5]}")
         return code, said
 
-    def _others(self) -> Contents:
+    def others(self) -> Contents:
         """All around the project that must stay: the home folder but for urdfsync's own cache in it."""
-        home = contents(self._home).items()
+        home = contents(self.home).items()
         mine = {name: content for name, content in home if not f"{name}/".startswith(".cache/urdfsync/")}
         return contents(self.outside) | {name: content for name, content in mine.items() if name != ".cache"}
 
+    def is_allowed(self, kind: str, what: str) -> bool:
+        """Whether an event of the audit may be: git and Python start, code is ours, writes are in their places."""
+        if kind == "start":
+            return Path(what).name == "git" or Path(what).resolve() == Path(sys.executable).resolve()
+        path = Path(what)
+        if kind == "code":  # the sandbox runs templates, whose code has the template's name
+            return not path.is_relative_to(self.project) or path.suffix == ".jinja"
+        in_cache = ".cache/urdfsync" in what or path.name == ".cache"  # of the first home that this process knew
+        places = (self.project, self._temporary, Path("/dev"))
+        return kind == "write" and (in_cache or any(path.is_relative_to(place) for place in places))
+
     @contextlib.contextmanager
     def _surroundings(self) -> Iterator[None]:
-        home = {"HOME": str(self._home), "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
+        home = {"HOME": str(self.home), "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
         with (
             mock.patch.dict(os.environ, home),
             mock.patch.object(tempfile, "tempdir", str(self._temporary)),
@@ -103,6 +111,23 @@ def _call(command: Sequence[str]) -> int:
     limit = _terminated_soon() if command[0] == "watch" else _limited_time()
     with mock.patch.object(sys, "argv", ["urdfsync", *arguments]), limit:
         return program()
+
+
+def check_output(command: Sequence[str], code: int, said: str) -> None:
+    """Raise Fault for a traceback, for an exit code that stands for nothing, and for what a terminal obeys."""
+    shown = _CONTROLS.findall(said) if command[0] == "record" else (c for c in said if not c.isprintable())
+    odd = set(shown) - {"\n"}
+    if "Traceback (most" in said or ".traceback.txt" in said or odd or code not in CODES:
+        raise Fault(f"{' '.join(command)}: exit code {code}, {sorted(odd)!r}: {said[-2000:]!r}")
+
+
+@contextlib.contextmanager
+def _listening(listener: audit.Listener) -> Iterator[None]:
+    audit.listeners.append(listener)
+    try:
+        yield
+    finally:
+        audit.listeners.remove(listener)
 
 
 @contextlib.contextmanager
@@ -162,7 +187,8 @@ def contents(folder: Path) -> dict[str, bytes | str]:
             if path.is_symlink():
                 found[name] = f"link to {path.readlink()}"
             elif path.is_file():
-                found[name] = path.read_bytes()
+                size = path.stat().st_size
+                found[name] = path.read_bytes() if size < _LARGE else f"{size} bytes"
             else:
                 found[name] = "folder" if path.is_dir() else "special"
     return found

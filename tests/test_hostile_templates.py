@@ -1,0 +1,159 @@
+"""Templates of a stranger's: the sandbox holds in all their parts, and time, memory and size have limits."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from support import hostile
+
+from urdfsync import cli, render
+from urdfsync.engine import source
+
+Capture = pytest.CaptureFixture[str]
+
+TEMPLATE = "joint/revolute.mo.jinja"
+SHELL = "cycler.__init__.__globals__.os.popen({command!r}).read()"
+
+
+@pytest.fixture
+def marker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A project, which is the working folder, with templates of its own; the file that a command in one would make."""
+    hostile.write_project(tmp_path / "project")
+    monkeypatch.chdir(tmp_path / "project")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('templates = "templates"\n')
+    _template("")
+    return tmp_path / "marker"
+
+
+def _template(text: str, name: str = TEMPLATE) -> None:
+    file = Path("templates", name)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+
+
+def _status(capsys: Capture) -> str:
+    """The error of `urdfsync status`, which is the only one, and is no traceback."""
+    assert cli.main(["status"]) == 2
+    said = "".join(capsys.readouterr())
+    assert "Traceback" not in said
+    (error,) = [line for line in said.splitlines() if ": error:" in line]
+    assert "[template]" in error
+    return error
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "<< {shell} >>",
+        "<% set x = {shell} %>",
+        "<% macro m() %><< {shell} >><% endmacro %><< m() >>",
+        "<% import 'part.jinja' as part %><< part.m(1) >>",
+        "<% import 'part.jinja' as part %><< [1] | once(part.m) >>",
+        "<% include 'part2.jinja' %>",
+        "<< [''] | map(attribute='__class__') | first >>",
+        "<< ('' | attr('__class__')).mro() >>",
+        "<< ''['__class__'].mro() >>",
+        "<< '{{0.__class__.__mro__}}'.format('') >>",
+        "<< ['x'] | once('{{0.__class__}}'.format) >>",
+        "<< ['x'] | once(cycler) >>",
+        "<% set parts = [] %><< parts.append(1) >>",
+        "<< self.__init__ >>",
+        "<< once.__globals__ >>",
+    ],
+)
+def test_the_sandbox_holds_in_all_parts_of_a_template(marker: Path, capsys: Capture, attack: str) -> None:
+    shell = SHELL.format(command=f"touch {marker}")
+    _template(attack.format(shell=shell))
+    _template(f"<% macro m(x) %><< {shell} >><% endmacro %>", "part.jinja")
+    _template(f"<< {shell} >>", "part2.jinja")
+    assert "templates/" in _status(capsys)
+    assert not marker.exists()
+
+
+@pytest.mark.parametrize(
+    ("attack", "words"),
+    [
+        ("<< range(1000000) >>", "Range too big"),
+        ("<% for n in range(1000) %><< 'a' * 1000000 >><% endfor %>", "characters"),
+        ("<< 10 ** (10 ** 10) >>", "too large"),
+        ("<% set n = namespace(x=3) %><% for i in range(60) %><% set n.x = n.x * n.x %><% endfor %>", "too large"),
+        ("<< ('f' * 4000000) | int(0, 16) // ('f' * 2000000) | int(0, 16) >>", "too large"),
+        ("<< (1).from_bytes(('f' * 4000000).encode()) % 7 >>", "too large"),
+        ("<< 1 | round(10000000000, 'ceil') >>", "larger than"),
+        ("<< [1] | slice(1000000000000) | max >>", "larger than"),
+        ("<< lipsum(1000000000) >>", "lipsum"),
+        ("<% macro m() %><< m() >><% endmacro %><< m() >>", "without end"),
+        ("<% include 'joint/revolute.mo.jinja' %>", "without end"),
+        ("<# " + "x" * source.MAX_TEMPLATE + " #>", "too large for a template"),
+    ],
+)
+def test_a_template_has_limits(marker: Path, capsys: Capture, attack: str, words: str) -> None:
+    _template(attack)
+    assert words in _status(capsys)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere memory has no limit")
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "<< ('a' * 10000000000) | length >>",
+        "<< '%10000000000d' | format(1) | length >>",
+        "<< '{:10000000000}'.format(1) | length >>",
+        "<% set n = namespace(x='aa') %><% for i in range(60) %><% set n.x = n.x ~ n.x %><% endfor %>",
+    ],
+)
+def test_a_template_takes_no_more_memory_than_it_may(marker: Path, capsys: Capture, attack: str) -> None:
+    import resource
+
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    _template(attack)
+    assert "more memory than it may take" in _status(capsys)
+    assert resource.getrlimit(resource.RLIMIT_AS) == before
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "<% for a in range(99999) %><% for b in range(99999) %><% endfor %><% endfor %>",
+        "<% macro m(n) %><< m(n - 1) ~ m(n - 1) if n else '' >><% endmacro %><< m(60) >>",
+    ],
+)
+def test_a_template_takes_no_more_time_than_it_may(
+    marker: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, attack: str
+) -> None:
+    monkeypatch.setattr(render, "MAX_SECONDS", 0.5)
+    _template(attack)
+    started = time.monotonic()
+    error = _status(capsys)
+    assert "it takes more than 0.5 s" in error
+    assert f"templates/{TEMPLATE}:1" in error
+    assert time.monotonic() - started < 20
+
+
+def test_a_link_out_of_the_template_folder_is_refused(marker: Path, tmp_path: Path, capsys: Capture) -> None:
+    secret = tmp_path / "secret" / "revolute.mo.jinja"
+    secret.parent.mkdir()
+    secret.write_text("secret")
+    file = Path("templates", TEMPLATE)
+    file.unlink()
+    file.symlink_to(secret)
+    assert "link leads out of the template folder" in _status(capsys)
+    shutil.rmtree("templates/joint")
+    Path("templates/joint").symlink_to(secret.parent)
+    assert "link leads out of the template folder" in _status(capsys)
+    Path("templates/joint").unlink()
+    for path in ("../../secret/revolute.mo.jinja", str(secret)):
+        _template(f"<% include {path!r} %>")
+        assert "there is no template" in _status(capsys)
+
+
+def test_a_link_inside_of_the_template_folder_is_followed(marker: Path, capsys: Capture) -> None:
+    _template("<< 1 >", "other.jinja")
+    Path("templates", TEMPLATE).unlink()
+    Path("templates", TEMPLATE).symlink_to("../other.jinja")
+    assert "link" not in _status(capsys)
