@@ -58,14 +58,12 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield warning("moves-no-mass", message, "give the links an <inertial>", "robot")
         return
-    found = find_massless_joints(tree)
+    found = set(find_massless_joints(tree))
     behind = set[str]()  # links behind a joint that was named: what moves them is not named, too
     for joint in tree.joints:
         if joint.name in found and joint.parent not in behind:
-            message = (
-                f"joint '{joint.name}' moves nothing that has an inertia about its axis and is not behind another "
-            )
-            message += "joint on this axis, so the generic robot can move it by position only"
+            message = f"joint '{joint.name}' moves nothing that has an inertia about its axis and is not behind "
+            message += "another joint on this axis, so the generic robot can move it by position only"
             hint = "give the link right behind it an <inertial>, or make it a fixed joint"
             yield warning("moves-no-mass", message, hint, f"joint {joint.name}")
         if joint.name in found or joint.parent in behind:
