@@ -48,7 +48,7 @@ _ERRORS = {
     "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
     "lfs-pointer": "run `git lfs pull`",
     "merge-conflict": "resolve the merge, then build again",
-    "xml-syntax": f"correct the XML, or {_WAIT}",
+    "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
     "not-urdf": "export URDF, and name that file",
     "xacro-source": "run `xacro FILE.xacro > FILE.urdf`, and name the result",
