@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
+from support.library import library_artifacts
 
 from urdfsync.domain import Artifact, Order
 from urdfsync.render import Renderer
-from urdfsync.urdf.library import library_artifacts
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 LIBRARY = REPOSITORY / "modelica" / "UrdfSync"

@@ -75,7 +75,10 @@ RODS = urdfs.robot(
     urdfs.joint("fasten", "fixed", "pivot", "other"),
 )
 """All the mass is on an axis, as exporters write it; it turns about another one."""
-POSITION = "so the generic robot can move it by position only"
+NOTHING = (
+    "moves nothing that has an inertia about its axis and is not behind another joint on this axis, so the generic "
+    "robot can move it by position only; give the link right behind it an <inertial>, or make it a fixed joint"
+)
 WARNINGS = [
     (PLANAR, RECORD, "6: warning: the generic robot has no planar joints, so there are no tables for it: joint "
      "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
@@ -84,12 +87,9 @@ WARNINGS = [
      "'drift'; write it as three prismatic joints and three continuous ones"),
     (FREE_ROOT, RECORD, "5: warning: the generic robot has no floating joints, so there are no tables for it: joint "
      "'fly'; leave it out with its parent link and let the base float (`base = \"floating\"` in a project)"),
-    (LIGHT, RECORD, f"11: warning: joint 'twist' moves no mass, {POSITION}; "
-     "give a link behind it an <inertial>, or make it a fixed joint [moves-no-mass]"),
-    (RODS, RECORD, f"6: warning: joint 'spin' turns nothing that has an inertia about its axis, {POSITION}; "
-     "give a link behind it such an inertia, or make it a fixed joint [moves-no-mass]"),
-    (TWINS, RECORD, "6: warning: joint 'first' moves no mass where it starts if joints behind it undo its motion, as "
-     f"one about the same axis can, {POSITION}; give the link right behind it an <inertial>, or make it a fixed joint"),
+    (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
+    (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
+    (TWINS, RECORD, f"6: warning: joint 'first' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
      "only; give the links an <inertial> [moves-no-mass]"),
 ]  # fmt: skip

@@ -8,7 +8,7 @@ one may have been meant to be another.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
@@ -29,20 +29,20 @@ def check_options(
     """
     if "package" not in options.approach:
         return
-    by_name = {joint.name: joint for joint in joints}
-    for option, given in (("frames", options.frames), ("driven", options.driven)):
-        if not isinstance(given, tuple):
-            continue
-        for name, count in Counter(given).items():
+    drivable = [joint.name for joint in joints if can_be_driven(joint)]
+    for option, given, known, kind, code in (
+        ("frames", options.frames, links, "link", "frame-of-no-link"),
+        ("driven", options.driven, drivable, "joint with one axis that follows no other", "drive-of-no-joint"),
+    ):
+        for name, count in Counter(given if isinstance(given, tuple) else ()).items():
             if count > 1:
-                times = "twice" if count == 2 else f"{count} times"
-                message, hint = f"`{option}` names `{name}` {times}", "take one out, or correct its name"
+                message, hint = f"`{option}` names `{name}` more than once", "take one out, or correct its name"
                 yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
-        for name in dict.fromkeys(given):
-            if option == "frames" and name not in links:
-                yield option, _no_link(name, links, by_name)
-            elif option == "driven" and (name not in by_name or not can_be_driven(by_name[name])):
-                yield option, _no_drive(name, links, by_name)
+            if name not in known:
+                near = nearest(name, known)
+                hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
+                message = f"`{option}` names `{name}`, but the robot has no such {kind}"
+                yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
     passive = sorted(passive_joints(joints), key=natural_key) if options.driven is None else []
     if passive:
         shown = ", ".join(f"`{name}`" for name in passive[:_SHOWN])
@@ -51,34 +51,3 @@ def check_options(
         message += "others have a transmission or ros2_control, these not even a limit"
         hint = "if that is wrong, list all joints to drive in `driven`"
         yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)
-
-
-def _no_link(name: str, links: Collection[str], joints: Mapping[str, Joint]) -> Diagnostic:
-    if name in joints:
-        message = f"`frames` names `{name}`, which is a joint and no link"
-        hint = f"name the link behind it, `{joints[name].child}`, or its parent"
-    else:
-        message, hint = f"`frames` names `{name}`, but the robot has no such link", _meant(name, links)
-    return Diagnostic(Severity.ERROR, "frame-of-no-link", message, hint=hint)
-
-
-def _no_drive(name: str, links: Collection[str], joints: Mapping[str, Joint]) -> Diagnostic:
-    can = [other.name for other in joints.values() if can_be_driven(other)]
-    if joint := joints.get(name):
-        leader = joint.mimic.joint if joint.mimic else ""
-        what = f"which follows joint `{leader}`" if leader else f"which is {joint.type} and has no single axis"
-        hint = f"name `{leader}`, or take it out" if leader in can else "take it out"
-        if joint.type == "fixed":
-            what, hint = "which is fixed", "take it out"
-    elif name in links:
-        above = next((joint.name for joint in joints.values() if joint.child == name), "")
-        what = "which is a link and no joint"
-        hint = f"name the joint that moves it, `{above}`" if above in can else "name a joint"
-    else:
-        what, hint = "but the robot has no such joint", _meant(name, can)
-    return Diagnostic(Severity.ERROR, "drive-of-no-joint", f"`driven` names `{name}`, {what}", hint=hint)
-
-
-def _meant(name: str, known: Collection[str]) -> str:
-    near = nearest(name, known)
-    return f"did you mean `{near}`?" if near else "correct its name, or take it out"

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.drives import can_be_driven, driven_joints
-from urdfsync.urdf.kinematics.massless import Massless, find_massless_joints, has_mass
+from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Robot
 
 _BY_PACKAGE = "or use the package approach"
 _PLANAR = f"write it as two prismatic joints and a continuous one, {_BY_PACKAGE}"
@@ -18,18 +18,6 @@ _FLOATING_BASE = (
     f'leave it out with its parent link and let the base float (`base = "floating"` in a project), {_BY_PACKAGE}'
 )
 _FLOATING = f"write it as three prismatic joints and three continuous ones, {_BY_PACKAGE}"
-# What is wrong with a joint that moves no mass, and what to do about it.
-_MASSLESS = {
-    Massless.NOTHING_BEHIND: ("moves no mass", "give a link behind it an <inertial>, or make it a fixed joint"),
-    Massless.ON_AXIS: (
-        "turns nothing that has an inertia about its axis",
-        "give a link behind it such an inertia, or make it a fixed joint",
-    ),
-    Massless.UNDONE: (
-        "moves no mass where it starts if joints behind it undo its motion, as one about the same axis can",
-        "give the link right behind it an <inertial>, or make it a fixed joint",
-    ),
-}
 
 
 def massless_passive_joints(
@@ -66,20 +54,27 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
     if unfit:
         return
     tree = KinematicTree.of(robot)
-    found = find_massless_joints(tree)
-    if found and not any(map(has_mass, tree.links)):
+    if not any(map(_has_mass, tree.links)) and any(joint.type in MOTION_KINDS for joint in tree.joints):
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield warning("moves-no-mass", message, "give the links an <inertial>", "robot")
         return
-    empty = set[str]()  # links with nothing behind them, in front of which a joint was named
+    found = set(find_massless_joints(tree))
+    behind = set[str]()  # links behind a joint that was named: what moves them is not named, too
     for joint in tree.joints:
-        why = found.get(joint.name)
-        if why and (joint.parent not in empty or why is Massless.UNDONE):
-            problem, hint = _MASSLESS[why]
-            message = f"joint '{joint.name}' {problem}, so the generic robot can move it by position only"
+        if joint.name in found and joint.parent not in behind:
+            message = f"joint '{joint.name}' moves nothing that has an inertia about its axis and is not behind "
+            message += "another joint on this axis, so the generic robot can move it by position only"
+            hint = "give the link right behind it an <inertial>, or make it a fixed joint"
             yield warning("moves-no-mass", message, hint, f"joint {joint.name}")
-        if joint.parent in empty or why is Massless.NOTHING_BEHIND:
-            empty.add(joint.child)
+        if joint.name in found or joint.parent in behind:
+            behind.add(joint.child)
+
+
+def _has_mass(link: Link) -> bool:
+    inertial = link.inertial
+    return inertial is not None and any(
+        (inertial.mass, inertial.inertia.ixx, inertial.inertia.iyy, inertial.inertia.izz)
+    )
 
 
 def _hint(joint: Joint, robot: Robot) -> str:

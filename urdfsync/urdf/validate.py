@@ -35,7 +35,6 @@ _ROUNDING = 1e-6
 _INERTIA_TOLERANCE = 1e-6
 # Radius of gyration, in m, below which a body is a point: its inertia is rounding then.
 _POINT = 1e-6
-_SWEEPS = 12
 _COMPARED = 500
 
 _Element = TypeVar("_Element", Link, Joint)
@@ -49,9 +48,9 @@ _ERRORS = {
     "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
     "lfs-pointer": "run `git lfs pull`",
     "merge-conflict": "resolve the merge, then build again",
-    "xml-syntax": f"correct the XML, or {_WAIT}",
+    "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
-    "not-urdf": "name the URDF file instead",
+    "not-urdf": "export URDF, and name that file",
     "xacro-source": "run `xacro FILE.xacro > FILE.urdf`, and name the result",
     # elements and attributes
     "missing-element": "add it",
@@ -288,31 +287,21 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
 def principal_moments(inertia: Inertia) -> Vector:
     """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
 
-    Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, section 8.5), accurate to rounding. Loading numpy
-    for it would take longer than a whole build of a small robot.
+    By the trigonometric solution of the characteristic equation, to eight digits or more. Loading numpy for it would
+    take longer than a whole build of a small robot.
     """
-    a = [
-        [inertia.ixx, inertia.ixy, inertia.ixz],
-        [inertia.ixy, inertia.iyy, inertia.iyz],
-        [inertia.ixz, inertia.iyz, inertia.izz],
-    ]
-    for _ in range(_SWEEPS):
-        if not (a[0][1] or a[0][2] or a[1][2]):
-            break
-        for p, q in ((0, 1), (0, 2), (1, 2)):
-            if a[p][q] == 0:
-                continue
-            ratio = (a[q][q] - a[p][p]) / 2 / a[p][q]
-            tangent = math.copysign(1 / (abs(ratio) + math.hypot(1, ratio)), ratio)
-            cosine = 1 / math.hypot(1, tangent)
-            sine = tangent * cosine
-            a[p][p], a[q][q] = a[p][p] - tangent * a[p][q], a[q][q] + tangent * a[p][q]
-            a[p][q] = a[q][p] = 0.0
-            r = 3 - p - q
-            a[r][p], a[r][q] = cosine * a[r][p] - sine * a[r][q], sine * a[r][p] + cosine * a[r][q]
-            a[p][r], a[q][r] = a[r][p], a[r][q]
-    low, middle, high = sorted(a[i][i] for i in range(3))
-    return low, middle, high
+    values = msgspec.structs.astuple(inertia)
+    scale = max(map(abs, values)) or 1.0  # else squares of large numbers overflow
+    xx, xy, xz, yy, yz, zz = (value / scale for value in values)
+    mean = (xx + yy + zz) / 3
+    xx, yy, zz = xx - mean, yy - mean, zz - mean
+    spread = math.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
+    if spread < _EXACT:
+        return mean * scale, mean * scale, mean * scale
+    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    angle = math.acos(min(max(determinant / 2 / spread**3, -1.0), 1.0)) / 3
+    low, middle, high = sorted(mean + 2 * spread * math.cos(angle + turn * math.tau / 3) for turn in range(3))
+    return low * scale, middle * scale, high * scale
 
 
 def _is_empty(geometry: Geometry) -> bool:

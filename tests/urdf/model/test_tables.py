@@ -160,30 +160,3 @@ def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: R
         component, field, *_ = reference.split(".")
         assert field in fields[component], reference
     assert not re.search(r"\d\.\d|\de-?\d", REFERENCE.sub("", text))
-
-
-@few
-@given(TREES)
-def test_rows_are_as_many_as_there_are_elements(robot: Robot) -> None:
-    of = KinematicTree.of(robot)
-    found = texts_of(of)
-
-    def rows(name: str) -> int:
-        if name not in found:
-            return 0
-        depths = itertools.accumulate((char == "{") - (char == "}") for char in found[name])
-        return 1 + sum(char == "," and depth == 1 for char, depth in zip(found[name], depths, strict=True))
-
-    for name in ("linkBodies", "linkMasses", "linkCenters", "inertialAngles", "linkInertias"):
-        assert rows(name) == len(of.links)
-    assert rows("jointPositions") == rows("jointAngles") == len(of.joints)
-    for name in ("jointTree", "nextJoints", "jointNames.name", "jointAxes"):
-        assert rows(name) == int(found.get("movingJoints", "0")) == len(moving(of))
-    assert rows("firstJoints") == len(moving(of)) + 1
-    for kind, motion in (("turning", "rotational"), ("sliding", "translational")):
-        count = sum(MOTION_KINDS[joint.type] == motion for joint in moving(of))
-        assert int(found.get(f"{kind}Joints", "0")) == rows(kind) == count
-        for field in ("Limits.lower", "Limits.upper", "Limits.velocity", "Limits.effort"):
-            assert rows(f"{kind}{field}") == count
-        for field in ("Losses.damping", "Losses.friction", "Losses.steepness"):
-            assert rows(f"{kind}{field}") == count

@@ -100,7 +100,7 @@ class Reader:
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
-        for name in element.keys():  # noqa: SIM118 - an element is no mapping
+        for name in element.attrib:
             if name in attributes or ":" in name:
                 continue
             if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
@@ -111,10 +111,11 @@ class Reader:
         """Return a struct from attributes and children, but for the fields that are `given`."""
         attributes, children, required = _schema(struct)
         self.expect(element, path, attributes)
-        values = given
-        for name, (count, default) in attributes.items():
-            values[name] = self._value(element, path, name, count, default)
-        found = self.children(element, path, children, owner) if children else {}
+        own = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
+        if not children:
+            return struct(*own)
+        values = given | dict(zip(attributes, own, strict=True))
+        found = self.children(element, path, children, owner)
         for name, child in found.items():
             if name in values:
                 continue
@@ -162,6 +163,7 @@ class _Schema(NamedTuple):
     """Children that must be there."""
 
 
+# 45,000 elements of a robot of 1,000 links have one of 15 kinds.
 @functools.cache
 def _schema(struct: type[msgspec.Struct]) -> _Schema:
     schema = _Schema({}, {}, [])

@@ -22,16 +22,6 @@ from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
-_OTHER_ROOTS = {
-    "sdf": "an SDF file; export URDF instead",
-    "gazebo": "a Gazebo file; export URDF instead",
-    "mujoco": "a MuJoCo model; export URDF instead",
-    "mujocoinclude": "a part of a MuJoCo model; export URDF instead",
-    "COLLADA": "a COLLADA mesh; name the URDF that uses it instead",
-    "launch": "a ROS launch file; name the URDF that it loads instead",
-    "package": "a ROS package manifest",
-    "html": "a web page; download the file itself",
-}
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
@@ -79,8 +69,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
     root = document.root
     if root.tag != "robot":
-        kind, _, hint = _OTHER_ROOTS.get(root.tag, "no URDF").partition("; ")
-        reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is {kind}", hint)
+        reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is no URDF")
         return False
     if "$" not in document.text and "xacro:" not in document.text:
         return True
