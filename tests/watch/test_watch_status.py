@@ -117,7 +117,7 @@ def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_ord
 
 
 def drawn(found: StatusTable, room: int) -> list[str]:
-    return [line.plain for line in found.lines(room, marks=False)]
+    return [str(line) for line in found.lines(room, marks=False)]
 
 
 ACTIVITIES: dict[Activity, Callable[[str], events.Event]] = {
