@@ -16,8 +16,9 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, edit, resistor
 
 from urdfsync import cli, hook
-from urdfsync.hooks import check
+from urdfsync.hooks.index import Index
 from urdfsync.state.lock import build_lock
+from urdfsync.watch import precommit
 
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 
@@ -432,7 +433,8 @@ def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
     repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot
 ) -> None:
     def stash(*paths: str) -> None:
-        monkeypatch.setattr(check, "_find_stashed", lambda index: frozenset(["notes.txt", *paths]))
+        monkeypatch.setattr(precommit, "find_stash", lambda _: (Path("patch"), 1))
+        monkeypatch.setattr(Index, "patched", lambda *_: {"notes.txt", *paths})
 
     resistor(120)
     repo.git("add", ".")

@@ -47,7 +47,7 @@ def result(*texts: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False) -> R
 def seen(found: Result, width: int | None = None, **options: Any) -> list[str]:
     """The lines as they appear on a terminal of this width, or in a pipe."""
     screen = Console(file=io.StringIO(), width=width, force_terminal=width is not None, color_system=None)
-    return [line.plain.rstrip() for line in conflict_lines(found, CommandConsole(**options), screen)]
+    return [str(line).rstrip() for line in conflict_lines(found, CommandConsole(**options), screen)]
 
 
 # What happened, and what to do

@@ -230,6 +230,17 @@ def test_the_configuration_changes(start: Start) -> None:
     assert "net" in Path("modelica/Ladder/Ladder.mo").read_text()
 
 
+def test_another_source_in_the_configuration_ends_the_wait_for_a_valid_one(start: Start) -> None:
+    daemon, file = start(times=PATIENT), Path("urdfsync.toml")
+    Path("ladder.json").write_text("{")
+    daemon.wait(events.Waiting)
+    since = daemon.mark
+    put("other.json", 330)
+    file.write_text(file.read_text().replace("ladder.json", "other.json"))
+    daemon.wait(events.Built, since, lambda event: bool(event.files))
+    assert holds(330)
+
+
 def test_an_imported_file_changes_vanishes_and_comes_back(start: Start) -> None:
     daemon = start()
     since, signal_file, imported = daemon.mark, Path("step.csv"), Path("modelica/Ladder/Resources/step.txt")
@@ -600,6 +611,18 @@ def test_a_command_after_builds_that_changed_something(start: Start, capfd: pyte
     assert "ended with exit code 3" in daemon.wait(events.Noted, since).diagnostics[0].message
     assert Path("log").read_text().splitlines()[-1] == "ladder Ladder R2Parameters.mo"
     assert capfd.readouterr() == ("", "noise\nnoise\n")
+
+
+def test_a_command_that_can_not_be_started_is_told(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: Any, **__: Any) -> None:
+        raise OSError(errno.ENOMEM, "no memory")
+
+    monkeypatch.setattr(subprocess, "Popen", fail)
+    daemon = start(command="true")
+    assert (
+        daemon.wait(events.Noted).diagnostics[0].message.endswith("the command of --exec can't be started: no memory")
+    )
+    assert daemon.kinds()[-3:] == ["Running", "Ran", "Noted"]
 
 
 def test_a_command_that_takes_long_holds_nothing_up(start: Start) -> None:

@@ -53,7 +53,7 @@ def told(*found: events.Event, **options: Any) -> list[str]:
     """The lines of these events; those for the error stream begin with `!`."""
     log = EventLog(Console(**options), Screen(file=io.StringIO(), width=100))
     lines = [line for event in found for line in log.lines(event, "14:03:12")]
-    return [f"{'! ' if line.error else ''}{line.text.plain.rstrip()}" for line in lines]
+    return [f"{'! ' if line.error else ''}{str(line.text).rstrip()}" for line in lines]
 
 
 def test_a_build_is_one_line_with_robots_in_a_column() -> None:

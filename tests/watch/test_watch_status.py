@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,65 +36,59 @@ def board(*found: events.Event, robots: tuple[str, ...] = ("arm",)) -> StatusTab
     return result
 
 
-def words(*found: events.Event) -> str:
-    (status,) = board(*found).rows.values()
-    return status.text
-
-
 BUILT = events.Built(result("arm", Kind.UPDATE))
 UNCHANGED = events.Built(result("arm", Kind.UNCHANGED))
 CONFLICT = events.Built(result("arm", Kind.CONFLICT, Kind.UPDATE))
 FAILED = events.Failed(result("arm", failed=True, diagnostics=(ODD, BROKEN)))
 
 
-def test_a_robot_on_its_way() -> None:
-    assert words() == "not looked at yet"
-    assert words(events.Settling("arm")) == "settling"
-    assert words(events.Waiting("arm", "waiting for the exporter")) == "waiting for the exporter"
-    waiting = events.Waiting("arm", "waiting for the exporter", (BROKEN,))
-    assert words(waiting) == "waiting for the exporter: arm.urdf:12: this is no XML"
-    assert words(events.Building("arm")) == "building"
-    assert words(BUILT) == "in step, built at 12:00:01"
-    assert words(UNCHANGED) == "in step"
-    assert words(FAILED) == "error: arm.urdf:12: this is no XML"
-
-
-def test_a_conflict_names_its_file_or_says_how_many() -> None:
-    assert words(CONFLICT) == "conflict in F0.mo"
-    assert words(events.Built(result("arm", Kind.CONFLICT, Kind.UNOWNED))) == "conflict in 2 files"
-
-
-def test_a_build_that_did_nothing_keeps_the_time_of_the_last_one() -> None:
-    assert words(BUILT, events.Building("arm"), UNCHANGED) == "in step, built at 12:00:01"
-    assert words(CONFLICT, UNCHANGED) == "in step"
-
-
-def test_a_robot_that_calms_down_stands_as_before() -> None:
-    for before in (BUILT, CONFLICT, FAILED):
-        assert words(before, events.Settling("arm")) == "settling"
-        assert words(before, events.Settling("arm"), events.Unchanged("arm")) == words(before)
-
-
+SETTLING, BUILDING = events.Settling("arm"), events.Building("arm")
+CHECKING = events.Checking("arm")
 RIGHT = events.CheckDone("arm", Checked.RIGHT, 2.5)
 WRONG = events.CheckDone("arm", Checked.WRONG, 2.5, (ODD, BROKEN))
-CHECKING = events.Checking("arm")
+IS_BUILT, IS_BROKEN = "in step, built at 12:00:01", "error: arm.urdf:12: this is no XML"
+IS_WRONG = "checked with errors: arm.urdf:12: this is no XML"
 
 
-def test_a_check_goes_on_beside_the_rest_and_counts_when_it_finds_something() -> None:
-    built, wrong = words(BUILT), "checked with errors: arm.urdf:12: this is no XML"
-    assert words(BUILT, CHECKING) == "checking"
-    assert words(BUILT, CHECKING, RIGHT) == built
-    assert words(BUILT, CHECKING, WRONG) == wrong
-    assert words(BUILT, CHECKING, events.Settling("arm")) == "settling"
-    assert words(BUILT, CHECKING, events.Settling("arm"), events.Unchanged("arm")) == "checking"
-    assert words(BUILT, WRONG, events.Building("arm"), UNCHANGED) == wrong
-    assert words(BUILT, WRONG, CHECKING, RIGHT) == built
-
-
-def test_what_a_check_found_yields_to_what_is_worse() -> None:
-    assert words(CONFLICT, CHECKING) == "conflict in F0.mo"
-    assert words(CONFLICT, WRONG).startswith("checked with errors")
-    assert words(WRONG, FAILED) == "error: arm.urdf:12: this is no XML"
+@pytest.mark.parametrize(
+    ("found", "text"),
+    [
+        ([], "not looked at yet"),
+        ([SETTLING], "settling"),
+        ([events.Waiting("arm", "waiting for the exporter")], "waiting for the exporter"),
+        (
+            [events.Waiting("arm", "waiting for the exporter", (BROKEN,))],
+            "waiting for the exporter: arm.urdf:12: this is no XML",
+        ),
+        ([BUILDING], "building"),
+        ([BUILT], IS_BUILT),
+        ([UNCHANGED], "in step"),
+        ([FAILED], IS_BROKEN),
+        ([CONFLICT], "conflict in F0.mo"),
+        ([events.Built(result("arm", Kind.CONFLICT, Kind.UNOWNED))], "conflict in 2 files"),
+        # a build that did nothing keeps the time of the last one
+        ([BUILT, BUILDING, UNCHANGED], IS_BUILT),
+        ([CONFLICT, UNCHANGED], "in step"),
+        # one that calms down is as before
+        ([BUILT, SETTLING, events.Unchanged("arm")], IS_BUILT),
+        ([CONFLICT, SETTLING, events.Unchanged("arm")], "conflict in F0.mo"),
+        ([FAILED, SETTLING, events.Unchanged("arm")], IS_BROKEN),
+        # a check goes on beside the rest, and counts when it finds something that is not worse
+        ([BUILT, CHECKING], "checking"),
+        ([BUILT, CHECKING, RIGHT], IS_BUILT),
+        ([BUILT, CHECKING, WRONG], IS_WRONG),
+        ([BUILT, CHECKING, SETTLING], "settling"),
+        ([BUILT, CHECKING, SETTLING, events.Unchanged("arm")], "checking"),
+        ([BUILT, WRONG, BUILDING, UNCHANGED], IS_WRONG),
+        ([BUILT, WRONG, CHECKING, RIGHT], IS_BUILT),
+        ([CONFLICT, CHECKING], "conflict in F0.mo"),
+        ([CONFLICT, WRONG], IS_WRONG),
+        ([WRONG, FAILED], IS_BROKEN),
+    ],
+)
+def test_the_status_of_a_robot(found: list[events.Event], text: str) -> None:
+    (status,) = board(*found).rows.values()
+    assert status.text == text
 
 
 def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
@@ -122,7 +117,7 @@ def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_ord
 
 
 def drawn(found: StatusTable, room: int) -> list[str]:
-    return [line.plain for line in found.lines(room, marks=False)]
+    return [str(line) for line in found.lines(room, marks=False)]
 
 
 ACTIVITIES: dict[Activity, Callable[[str], events.Event]] = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -74,15 +75,11 @@ def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:
     new = [result for result in results if result.is_first and not result.dry and not result.failed]
     if not new:
         return
-    files = " or ".join(dict.fromkeys(shown(_top_package(result)) for result in new[:3]))
+    # a Modelica tool opens the outermost package around the robot's
+    tops = (Path(result.folder, *[".."] * result.package.count("."), "package.mo") for result in new[:3])
+    files = " or ".join(dict.fromkeys(shown(Path(os.path.normpath(top))) for top in tops))
     yield line(("", ""))
     yield line(("What to do next:", "bold"))
     yield line(("  open ", ""), (files, "bold"), (" in OMEdit or Dymola", ""))
     for command, what in _NEXT_COMMANDS.items():
         yield line((f"  urdfsync {command:<9}", "bold"), (what, ""))
-
-
-def _top_package(result: Result) -> Path:
-    """The file that a Modelica tool opens: of the outermost package around the robot's."""
-    depth = result.package.count(".")
-    return (result.folder.parents[depth - 1] if depth else result.folder) / "package.mo"

@@ -100,9 +100,7 @@ def _clear_cache(args: argparse.Namespace, console: Console) -> Exit:
     if args.robots or any(getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS)):
         message = "--clear-cache goes without robots and without options of a check"
         raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
-    console.waiting("emptying the cache")
     freed = UserCache.default().clear()
-    console.stop_progress()
     if console.json:
         console.write_json("check", Exit.IN_STEP, {"freed": freed})
     elif not console.quiet:

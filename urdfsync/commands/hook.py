@@ -63,7 +63,11 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         index = Index(folder)  # a build may have written
         advice = _Advice(index, _typing_folder(index.top, folder))
         if console.json:
-            diagnostics += [_finding(fault, advice) for fault in faults]
+            for fault in faults:
+                hint = "; ".join(f"`{command}`" for command in advice.steps([fault]).values())
+                kind, place = "out-of-step" if fault.result else "not-staged", advice.shown(fault.files.config.file)
+                message = f"robot `{fault.files.robot.name}`: {advice.message(fault)}"
+                diagnostics.append(Diagnostic(Severity.ERROR, kind, message, place, hint=hint))
         else:
             console.print(line((text, "")) for text in _lines(faults, advice))
     console.end("hook", code, diagnostics)
@@ -87,14 +91,6 @@ def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
             yield f"{fault.files.robot.name}{place}: {advice.message(fault)}"
     for step, command in advice.steps(faults).items():
         yield from (step, f"  {command}")
-
-
-def _finding(fault: CommitFault, advice: _Advice) -> Diagnostic:
-    """Return the same of one robot, for programs."""
-    message = f"robot `{fault.files.robot.name}`: {advice.message(fault)}"
-    hint = "; ".join(f"`{command}`" for command in advice.steps([fault]).values())
-    code = "out-of-step" if fault.result else "not-staged"
-    return Diagnostic(Severity.ERROR, code, message, advice.shown(fault.files.config.file), hint=hint)
 
 
 class _Advice:

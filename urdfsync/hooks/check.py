@@ -14,7 +14,7 @@ import msgspec
 from urdfsync import config as configuration
 from urdfsync import uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
-from urdfsync.dependencies import Dependencies, record_dependencies
+from urdfsync.dependencies import record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
@@ -57,7 +57,8 @@ def check_index(
     Returns the faults of robots, and findings about whole configurations. Raises UrdfsyncError if git fails.
     """
     files, diagnostics = _find_configurations(index, named)
-    stashed = _find_stashed(index)
+    stash = precommit.find_stash(index.top)
+    stashed = index.patched(stash[0]) if stash else set()  # changes that pre-commit brings back after the hooks
     faults: list[CommitFault] = []
     for file in files:
         started = uptodate.read_clocks()
@@ -68,17 +69,12 @@ def check_index(
             diagnostics += error.diagnostics
             continue
         faults += found
-        if not found and not index.changed:
-            _save_answer(index, file, dependencies, started)
+        if not found and not index.changed:  # a commit passes while what was read, and is tracked, stays as it is
+            here, top = Path.cwd(), f"{index.top.as_posix()}/"
+            read = {(here / path).as_posix().removeprefix(top) for _, path in dependencies.entries}
+            key = answer_key(str(index.top), str(file))
+            uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies, started)
     return faults, diagnostics
-
-
-def _save_answer(index: Index, file: Path, dependencies: Dependencies, started: tuple[int, int]) -> None:
-    """Save that a commit passes while all files that were read, and are tracked, stay as they are, and tracked."""
-    here, top = Path.cwd(), f"{index.top.as_posix()}/"
-    read = {(here / path).as_posix().removeprefix(top) for _, path in dependencies.entries}
-    key = answer_key(str(index.top), str(file))
-    uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies, started)
 
 
 def _check_configuration(
@@ -185,28 +181,21 @@ def _find_blocking(
 
 def _find_configurations(index: Index, named: Sequence[Path]) -> tuple[list[Path], list[Diagnostic]]:
     """Return the configurations to check, and what is wrong with the choice."""
+    diagnostics = []
     if not named:
         found, lost_states = find_configurations(index.below(""))
-        return [index.top / path for path in found], [_lost_state(path) for path in lost_states[:1]]
-    files, diagnostics = [], []
-    for file in named:
-        path = index.path(file.absolute())
-        if path is not None and index.tracks(path):
-            files.append(index.top / path)
+        for path in lost_states[:1]:
+            file = f"{path.rpartition(STATES)[0]}{FILE_NAME}"
+            message = f"its configuration {file} is not part of the commit"
+            hint = f"add it with `git add {file}`; if it has another name, give that to the hook as an argument"
+            diagnostics.append(Diagnostic(Severity.ERROR, "untracked-config", message, path, hint=hint))
+        return [index.top / path for path in found], diagnostics
+    files = []
+    for named_file in named:
+        tracked = index.path(named_file.absolute())
+        if tracked is not None and index.tracks(tracked):
+            files.append(index.top / tracked)
         else:
-            message, hint = "git does not track this configuration", f"add it with `git add {file}`"
-            diagnostics.append(Diagnostic(Severity.ERROR, "untracked-config", message, shown(file), hint=hint))
+            message, hint = "git does not track this configuration", f"add it with `git add {named_file}`"
+            diagnostics.append(Diagnostic(Severity.ERROR, "untracked-config", message, shown(named_file), hint=hint))
     return files, diagnostics
-
-
-def _lost_state(path: str) -> Diagnostic:
-    file = f"{path.rpartition(STATES)[0]}{FILE_NAME}"
-    message = f"its configuration {file} is not part of the commit"
-    hint = f"add it with `git add {file}`; if it has another name, give that to the hook as an argument"
-    return Diagnostic(Severity.ERROR, "untracked-config", message, path, hint=hint)
-
-
-def _find_stashed(index: Index) -> frozenset[str]:
-    """Return the files of which pre-commit has stashed changes, to bring them back after the hooks."""
-    stash = precommit.find_stash(index.top)
-    return frozenset(index.patched(stash[0])) if stash else frozenset()

@@ -15,13 +15,12 @@ from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.outcome import Result
-from urdfsync.output.console import Console, text
+from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted, reason
 from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
     import rich.console
-    from rich.text import Text
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
@@ -103,7 +102,7 @@ def shown_path(result: Result, path: str) -> str:
     return shown(Path(os.path.normpath(result.root / path)))
 
 
-def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[Text]:
+def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
     """All conflicts of one robot: the first ones in full, the others on a line each, and the command for all.
 
     What differs is laid out for the width of `screen`.
@@ -111,12 +110,12 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     found = find_conflicts([result])
     full = len(found) if console.verbose else 0 if console.quiet else FULL
     for target in found[:full]:
-        yield text(("", ""))
+        yield line(("", ""))
         yield from _full_lines(target, console, screen)
     if full and found[full:]:
-        yield text(("", ""))
+        yield line(("", ""))
     for target in found[full:]:
-        yield text(("  conflict   ", "bold red"), (target.shown, ""), (f"  {describe(target)}", "dim"))
+        yield line(("  conflict   ", "bold red"), (target.shown, ""), (f"  {describe(target)}", "dim"))
     if len(found) == 1 and full:
         return
     mergeable = sum(target.merges for target in found)
@@ -125,13 +124,13 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
         what = "keeps all your files as they are, --take replaces them by the generated ones"
     choice = Choice.MERGE if mergeable else Choice.KEEP
     command = _command(["--all", "--robot", result.robot, f"--{choice}"], console)
-    yield from (text(("", "")), text((f"  {command}", "bold"), (f"  {what}", "dim")))
+    yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
 
 
-def _full_lines(target: Target, console: Console, screen: rich.console.Console) -> Iterator[Text]:
+def _full_lines(target: Target, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
     """One conflict: what happened, the versions, where they are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
-    yield text(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
+    yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
     if action.origin:
         story += f" Its element has another name now: it is to become {shown_path(result, action.path)}."
@@ -141,13 +140,13 @@ def _full_lines(target: Target, console: Console, screen: rich.console.Console) 
 
         saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
         lines, left_out = difference_lines(target.texts, screen, console.verbose)
-        yield from (text(("", "")), *lines)
+        yield from (line(("", "")), *lines)
         if left_out:
             see = "--verbose shows them" if result.dry else f"see {saved.get('merge', saved['generated'])}"
-            yield text((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
-        yield text(("", ""))
+            yield line((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
+        yield line(("", ""))
         if not result.dry:
-            yield text((f"    saved: {', '.join(saved.values())}", "dim"))
+            yield line((f"    saved: {', '.join(saved.values())}", "dim"))
     keep = "--keep moves your file as it is" if action.origin else "--keep leaves your file as it is"
     if target.texts and not target.merges:
         keep += f": first put into it what you want of both{', and its new name' if action.origin else ''}"
@@ -157,7 +156,7 @@ def _full_lines(target: Target, console: Console, screen: rich.console.Console) 
     if target.replaceable:
         choices.append("--take replaces it by the generated one")
     typed = f"./{name}" if name.startswith("-") else name
-    yield text((f"    {_command([typed, choices[0].partition(' ')[0]], console)}", "bold"))
+    yield line((f"    {_command([typed, choices[0].partition(' ')[0]], console)}", "bold"))
     yield from _paragraph("; ".join(choices), "dim", screen)
 
 
@@ -169,11 +168,11 @@ def _command(arguments: Sequence[str], console: Console) -> str:
     return shlex.join(command)
 
 
-def _paragraph(words: str, style: str, screen: rich.console.Console) -> Iterator[Text]:
+def _paragraph(words: str, style: str, screen: rich.console.Console) -> Iterator[StyledLine]:
     """Indented text; a terminal's lines are broken so that they keep the indent."""
     width = max(screen.width - 4, 20) if screen.is_terminal else len(words)
     for part in textwrap.wrap(words, width, break_on_hyphens=False):
-        yield text((f"    {part}", style))
+        yield line((f"    {part}", style))
 
 
 def _sentence(clause: str) -> str:

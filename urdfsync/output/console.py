@@ -195,28 +195,9 @@ class Console:
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
-        if self._wants_bar and time.monotonic() - self._begin >= _BAR_AFTER:
-            bar, task = self._start_bar(what)
-            bar.update(task, description=what, completed=done, total=total)
-
-    def waiting(self, what: str) -> None:
-        """Show at once that there is work whose steps are unknown."""
-        if self._wants_bar:
-            self._start_bar(what)
-
-    def stop_progress(self) -> None:
-        """Take the progress bar away."""
-        if self._bar is not None:
-            self._bar[0].stop()
-            self._bar = None
-        self._begin = time.monotonic()
-
-    @property
-    def _wants_bar(self) -> bool:
-        return not self.json and not self.quiet and sys.stderr.isatty()
-
-    def _start_bar(self, what: str) -> tuple[Progress, TaskID]:
-        """The bar, which moves to and fro until there is a number of steps."""
+        is_wanted = not self.json and not self.quiet and sys.stderr.isatty()
+        if not is_wanted or time.monotonic() - self._begin < _BAR_AFTER:
+            return
         if self._bar is None:
             from rich.progress import Progress
 
@@ -225,6 +206,14 @@ class Console:
                 stream = stream.without_transcript()  # the bar is gone at the end: no saved answer has it
             screen = rich_console(stream)
             bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
-            self._bar = bar, bar.add_task(what, total=None)
+            self._bar = bar, bar.add_task(what, total=total)
             bar.start()
-        return self._bar
+        bar, task = self._bar
+        bar.update(task, description=what, completed=done, total=total)
+
+    def stop_progress(self) -> None:
+        """Take the progress bar away."""
+        if self._bar is not None:
+            self._bar[0].stop()
+            self._bar = None
+        self._begin = time.monotonic()

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.merge import Merge, split_lines
 from urdfsync.merge.sequence import compare
-from urdfsync.output.console import has_marks, text, visible
+from urdfsync.output.console import StyledLine, has_marks, line, visible
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.text import Text
 
 CONTEXT = 2
 """So many unchanged lines are shown around changed ones."""
@@ -119,7 +118,7 @@ def _block_lines(texts: Texts, block: Block, has_base: bool) -> Iterator[Line]:
 # --- lines for people ---------------------------------------------------------------------------------------------
 
 
-def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tuple[list[Text], int]:
+def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tuple[list[StyledLine], int]:
     """The versions of a file where they differ, and the number of lines that were left out for want of room.
 
     Contradictions come first if there is no room for all.
@@ -139,7 +138,7 @@ def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tup
     return lines, sum(map(len, painted)) - len(lines)
 
 
-def _title(hunk: Hunk, conflict: Conflict, console: Console) -> Text:
+def _title(hunk: Hunk, conflict: Conflict, console: Console) -> StyledLine:
     numbers = [line.number for line in hunk.lines if line.number and line.version in ("", "mine", "both")]
     first, last = min(numbers, default=0), max(numbers, default=0)
     where = f"lines {first} to {last}" if last > first else f"line {first}" if first else "empty"
@@ -148,22 +147,22 @@ def _title(hunk: Hunk, conflict: Conflict, console: Console) -> Text:
     if hunk.clash or conflict.base is None:
         what = "the sides contradict each other" if hunk.clash else "not the same"
     rule = "──" if has_marks(console.file) else "--"
-    return text((f"    {rule} {where}: ", "dim"), (what, "bold red" if hunk.clash else ""))
+    return line((f"    {rule} {where}: ", "dim"), (what, "bold red" if hunk.clash else ""))
 
 
-def _rows(line: Line, console: Console, digits: int) -> Iterator[Text]:
+def _rows(one: Line, console: Console, digits: int) -> Iterator[StyledLine]:
     """Yield a line in rows of the terminal; a longer one is cut around its change."""
-    gutter = f"    {line.version:<9}  {line.number or '':>{digits}}  "
+    gutter = f"    {one.version:<9}  {one.number or '':>{digits}}  "
     room = max(_NARROW, console.width - len(gutter)) if console.is_terminal else _PIPE
-    most = room * _ROWS if line.version and console.is_terminal else room
-    end = "" if line.text.endswith("\n") else "  (no end of line)"
-    same, words = len(_shown(line.text[: line.same])), _shown(line.text.removesuffix("\n")) + end
+    most = room * _ROWS if one.version and console.is_terminal else room
+    end = "" if one.text.endswith("\n") else "  (no end of line)"
+    same, words = len(_shown(one.text[: one.same])), _shown(one.text.removesuffix("\n")) + end
     if len(words) > most:
         start = max(0, min(same - _LEAD, len(words) - most + 1))
         words = f"{'…' if start else ''}{words[start:]}"
         words = words if len(words) <= most else f"{words[: most - 1]}…"
     for begin in range(0, max(len(words), 1), room):
-        yield text((f"{gutter}{words[begin : begin + room]}".rstrip(), _COLOURS[line.version]))
+        yield line((f"{gutter}{words[begin : begin + room]}".rstrip(), _COLOURS[one.version]))
         gutter = " " * len(gutter)
 
 

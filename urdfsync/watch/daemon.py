@@ -257,7 +257,8 @@ class Daemon:
         if self._is_paused:
             self._update_pause()
         due = [watched for watched in robots if watched.debouncer.is_due(now)]
-        settled = [watched for watched in due if watched.debouncer.add_sample(watched.read_files(), now)]
+        samples = [watched.read_files(inputs_only=True) for watched in due]
+        settled = [one for one, sample in zip(due, samples, strict=True) if one.debouncer.add_sample(sample, now)]
         if settled and self._reload_config():
             return
         ready = [watched for watched in settled if self._is_ready(watched, now)]
@@ -272,7 +273,7 @@ class Daemon:
 
     def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
         """Return whether a robot is to be built, of which the files have settled."""
-        if watched.failure is None and watched.hashes() == watched.built:
+        if watched.failure is None and watched.hashes() == watched.built == watched.read_files():
             if watched.is_announced:
                 self._listener.show(events.Unchanged(watched.name))
             watched.invalid_since = None

@@ -16,14 +16,13 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.outcome import Checked, Result
 from urdfsync.output.conflicts import conflict_lines
-from urdfsync.output.console import Console, findings, text
+from urdfsync.output.console import Console, StyledLine, findings, line
 from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary
 from urdfsync.output.results import result_lines
 from urdfsync.watch import events
 
 if TYPE_CHECKING:
     import rich.console
-    from rich.text import Text
 
 NAME_WIDTH = 24
 """Columns of the robots' names at most."""
@@ -53,7 +52,7 @@ _MAX_LENGTH = 100
 class Line(NamedTuple):
     """One line, and whether it belongs on the error stream."""
 
-    text: Text
+    text: StyledLine
     error: bool = False
 
 
@@ -119,7 +118,7 @@ class EventLog:
             hidden = frozenset() if verbose else CONFLICTS | (frozenset() if kept else _KEPT)
             actions = Actions(one for one in result.actions if one.kind not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
-            yield from (Line(line.__rich__()) for line in result_lines(seen, verbose=verbose))
+            yield from map(Line, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
             yield from map(Line, conflict_lines(result, self._console, self._screen))
 
@@ -143,11 +142,11 @@ class EventLog:
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[Line]:
         """Yield findings as all commands show them; with a time of day if there is no line of a build above them."""
         for found in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
-            yield Line(text((f"{clock}  " if clock else "", "dim")).append_text(found.__rich__()), error=True)
+            yield Line(StyledLine(((f"{clock}  " if clock else "", "dim"), *found.parts)), error=True)
 
     def _line(self, clock: str, robot: str, said: str, style: str = "", *, error: bool = False) -> Line:
         name = f"{robot:<{self._column}}  " if robot else ""
-        return Line(text((f"{clock}  ", "dim"), (name, "bold"), (said, style)), error)
+        return Line(line((f"{clock}  ", "dim"), (name, "bold"), (said, style)), error)
 
 
 def _changes(result: Result) -> list[str]:

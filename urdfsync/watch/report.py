@@ -86,11 +86,10 @@ class TextReport:
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]
-        texts = [line.text for line in lines]
         if self._area is None:
-            write_lines(texts, sys.stdout)
+            write_lines([line.text for line in lines], sys.stdout)
         else:
             # a command knows nothing of the status, and would write into it
             is_shown = not (self._commands or isinstance(event, events.Stopping))
             rows = self._table.lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
-            self._area.write(texts, list(rows))
+            self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])

@@ -5,16 +5,13 @@ from __future__ import annotations
 import enum
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.outcome import Checked, Result
-from urdfsync.output.console import text
+from urdfsync.output.console import StyledLine, line
 from urdfsync.watch import events
 from urdfsync.watch.event_log import NAME_WIDTH
-
-if TYPE_CHECKING:
-    from rich.text import Text
 
 _SPACED = 4
 """Rows of the status from which an empty one stands above it."""
@@ -105,17 +102,17 @@ class StatusTable:
             case _:
                 pass
 
-    def lines(self, room: int, *, marks: bool) -> Iterator[Text]:
+    def lines(self, room: int, *, marks: bool) -> Iterator[StyledLine]:
         """Yield a line for each robot for which there is room, and one for all others.
 
         If there are too many robots, those that need attention are shown.
         """
         rows = self.rows
         if rows and room >= _SPACED:
-            yield text(("", ""))
+            yield line(("", ""))
             room -= 1
         if self.pause_reason:
-            yield text((f"paused: {self.pause_reason}", "yellow"))
+            yield line((f"paused: {self.pause_reason}", "yellow"))
             room -= 1
         by_rank = sorted(rows, key=lambda robot: _RANKS[rows[robot].activity])
         number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
@@ -123,13 +120,12 @@ class StatusTable:
         for robot in (robot for robot in rows if robot in by_rank[:number]):
             activity, said = rows[robot]
             mark, style = _SIGNS.get(activity, _BUSY)
-            name = text((robot, "bold"))
-            name.truncate(width, overflow="ellipsis", pad=True)
-            words = text((f"  {said}", "" if activity is Activity.IN_STEP else style))
-            yield text((f"{mark} " if marks else "", style)).append_text(name).append_text(words)
+            name = f"{robot:<{width}}" if len(robot) <= width else f"{robot[: width - 1]}…"
+            words = f"  {said}", "" if activity is Activity.IN_STEP else style
+            yield line((f"{mark} " if marks else "", style), (name, "bold"), words)
         if counts := Counter(rows[robot].activity for robot in by_rank[number:]):
             rest = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
-            yield text((f"… and {counts.total()} more: {rest}", "dim"))
+            yield line((f"… and {counts.total()} more: {rest}", "dim"))
 
 
 def _after_build(result: Result, clock: str, before: RobotStatus | None) -> RobotStatus:
