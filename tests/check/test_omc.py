@@ -161,10 +161,10 @@ def test_an_omc_that_does_not_start_or_is_not_there_is_one_clear_line(
     cache = UserCache(tmp_path / "cache")
     (fake / "omc").write_text("no program")
     with pytest.raises(CompilerError, match="OpenModelica does not start"):
-        list(run_job("omc", CompileJob((), (TASK,)), cache))
+        run_job("omc", CompileJob((), (TASK,)), cache)
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(CompilerError, match="`omc` is not on the PATH; install OpenModelica"):
-        list(run_job("omc", CompileJob((), (TASK,)), cache))
+        run_job("omc", CompileJob((), (TASK,)), cache)
 
 
 @needs_library

@@ -50,10 +50,3 @@ def test_nasty_names_compile(modelica_library: Path, tmp_path: Path) -> None:
     package.write(tmp_path)
     (outcome,) = execute(modelica_library, [tmp_path / "Plant"], [compile_task("Plant.Nasty.NastyTest")])
     assert outcome.error == ""
-
-
-@pytest.mark.slow
-def test_a_model_that_is_not_balanced_does_not_compile(modelica_library: Path) -> None:
-    task = Task("model Loose\n  import Modelica;\n  Real x;\n  Real y;\nequation\n  x = 1;\nend Loose;\n", "Loose")
-    (outcome,) = execute(modelica_library, [], [task])
-    assert "unbalanced model: 1 equations, 2 unknowns" in outcome.error

@@ -163,3 +163,34 @@ def test_axes_of_joint_records_are_parameters() -> None:
     records = [LIBRARY / "Records" / f"{kind}Joint.mo" for kind in ("Revolute", "Continuous", "Prismatic", "Planar")]
     assert "parameter" in parsed(LIBRARY / "Records" / "Robot.mo").symbols["jointAxes"].prefixes
     assert [where(file) for file in records if "parameter" not in components(file)["axis"].prefixes] == []
+
+
+BARE = re.compile(r"^  (?:\w+ )*?Real (\w+)(\[[^\]]*\])?(?!.*unit)[^(]*$", re.MULTILINE)
+PLAIN = {
+    "axisStarts": {"lower", "upper", "start"},
+    "axisValues": {"x", "y"},
+    "jointVector": {"ofTurning", "ofSliding", "factor", "x"},
+    "sweepTurns": {"start", "lower", "upper", "velocity", "reach", "turn", "room", "above", "below"},
+    "AxisSweeps": {"start", "lower", "upper", "velocity", "reach", "turn"},
+    "jacobian": {"J"},
+}
+"""Numbers of any unit, and the Jacobian, whose rows have two."""
+RATIOS = {"followerMultipliers"}
+"""rad or m per rad or m."""
+
+
+def record_files() -> Iterator[Path]:
+    yield from (LIBRARY / "Dynamics").glob("*.mo")
+    yield from (LIBRARY / "Records").glob("*.mo")
+    names = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot", "ArticulatedRobot", "AxisSweeps")
+    yield from (LIBRARY / "Robots" / f"{name}.mo" for name in (*names, "MultiBodyGenericRobot"))
+
+
+def test_no_number_of_the_robots_that_are_read_from_a_record_is_without_a_unit() -> None:
+    found = {
+        (file.stem, name)
+        for file in record_files()
+        for name, _ in BARE.findall(file.read_text("utf-8"))
+        if name not in RATIOS | PLAIN.get(file.stem, set())
+    }
+    assert found <= {(kind, "multiplier") for kind in ("RotationalMimic", "TranslationalMimic")}

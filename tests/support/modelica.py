@@ -76,7 +76,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
     roots = (standard(library), str(URDFSYNC), *map(str, packages))
     CACHE.trim()
     try:
-        results = list(run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE))
+        results = run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE)
     except CompilerError as error:
         return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
     return [_outcome(result) for result in results]

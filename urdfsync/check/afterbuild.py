@@ -60,23 +60,29 @@ class BuildChecker:
         return None if self._request.full or key is None else self._cache.load(key, BuildCheck)
 
     def check(self, robots: Sequence[RobotConfig], tell: Progress) -> Iterator[BuildCheck]:
-        """Check packages, in their order. What is wrong with one, or with its check, comes back as diagnostics."""
+        """Check packages, in their order, as far as no earlier check is known.
+
+        What is wrong with a package, or with its check, comes back as diagnostics.
+        """
         request = self._request
         options = CheckOptions(jobs=request.jobs, wait=request.wait, package_paths=request.package_paths)
-        keys = [self.key(robot) for robot in robots]
-        results = run.check_robots(self._config, robots, options, tell)
+        keys = {robot.name: self.key(robot) for robot in robots}
+        known = {name: self.known(key) for name, key in keys.items()}
+        results = run.check_robots(self._config, [one for one in robots if known[one.name] is None], options, tell)
         trouble: BuildCheck | None = None
-        for robot, key in zip(robots, keys, strict=True):
-            try:
-                found = trouble or _judged(next(results))
-            except (UrdfsyncError, OSError) as error:
-                diagnostics = _lenient(findings_of(error))
-                lacking = all(one.severity is not Severity.ERROR for one in diagnostics)
-                found = trouble = BuildCheck(Checked.UNCHECKED if lacking else Checked.WRONG, diagnostics)
-            if key is not None and key == self.key(robot):  # else somebody has saved meanwhile
-                kept = BuildCheck(found.checked, tuple(filter(is_general, found.diagnostics)))
-                is_right = found.checked in (Checked.RIGHT, Checked.INCOMPLETE)
-                self._cache.save(key, kept if is_right else None)
+        for robot in robots:
+            found, key = known[robot.name], keys[robot.name]
+            if found is None:
+                try:
+                    found = trouble or _judged(next(results))
+                except (UrdfsyncError, OSError) as error:
+                    diagnostics = _lenient(findings_of(error))
+                    lacking = all(one.severity is not Severity.ERROR for one in diagnostics)
+                    found = trouble = BuildCheck(Checked.UNCHECKED if lacking else Checked.WRONG, diagnostics)
+                if key is not None and key == self.key(robot):  # else somebody has saved meanwhile
+                    kept = BuildCheck(found.checked, tuple(filter(is_general, found.diagnostics)))
+                    is_right = found.checked in (Checked.RIGHT, Checked.INCOMPLETE)
+                    self._cache.save(key, kept if is_right else None)
             yield found
 
 
@@ -85,23 +91,18 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
 
     The checks come after all builds, since others wait for the lock as long as these are not done.
     """
-    checker = BuildChecker(config, request)
     robots = {robot.name: robot for robot in config.robots}
     said: set[Diagnostic] = set()
     built: list[Result] = []
     told = 0
     try:
         built.extend(results)
-        known: dict[str, BuildCheck | None] = {}  # None: it has to be checked
+        fresh = [one.robot for one in built if not (one.failed or one.dry or one.checked)]
+        due = [robots[name] for name in fresh if robots[name].checking]
+        checks = BuildChecker(config, request).check(due, request.progress)
         for result in built:
-            robot = robots[result.robot]
-            if robot.checking and not result.failed and not result.dry and result.checked is None:
-                known[robot.name] = checker.known(checker.key(robot))
-        due = [robots[name] for name, found in known.items() if found is None]
-        checks = checker.check(due, request.progress) if due else iter(())
-        for result in built:
-            if result.robot in known:
-                found = known[result.robot] or next(checks)
+            if robots[result.robot] in due:
+                found = next(checks)
                 new = tuple(one for one in found.diagnostics if one not in said)
                 said.update(filter(is_general, new))  # what is about the machine is said once for all robots
                 diagnostics = (*result.diagnostics, *new)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
 import shutil
@@ -168,7 +167,7 @@ class Compilation:
         self, jobs: Mapping[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]]
     ) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
-        self._progress.total = 3 + sum(len(tasks) for _, tasks in jobs.values())
+        self._progress.total = 2 + len(jobs)
         done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._options.compilers) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
@@ -188,16 +187,14 @@ class Compilation:
             roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
         originals = {**self._originals, str(top): robot.output / top.name}
         job = CompileJob((str(self._standard), *roots, str(top)), tuple(map(self._with_imports, tasks)))
+        titles = [task.title.removeprefix(f"{robot.target.package}.") for task in tasks]
+        self._progress.begin(f"loading libraries, then compiling {listed(titles)}")
         results = []
-        with contextlib.closing(compilers.run_job(self._options.compiler, job, cache)) as found:
-            for number, task in enumerate(tasks):
-                what = task.title.removeprefix(f"{robot.target.package}.")
-                self._progress.begin(f"{'' if number else 'loading libraries, then '}compiling {what}")
-                one = next(found)
-                problem = one.problem
-                for copy, original in originals.items():
-                    problem = problem.replace(copy, str(original))
-                results.append(msgspec.structs.replace(one, problem=problem))
+        for one in compilers.run_job(self._options.compiler, job, cache):
+            problem = one.problem
+            for copy, original in originals.items():
+                problem = problem.replace(copy, str(original))
+            results.append(msgspec.structs.replace(one, problem=problem))
         return results
 
     def _with_imports(self, task: CompileTask) -> CompileTask:

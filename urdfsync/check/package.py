@@ -22,6 +22,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import normalised
 from urdfsync.modelica.files import files_that_use, has_word
+from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 
@@ -93,7 +94,7 @@ class CheckedPackage(msgspec.Struct):
     models: tuple[str, ...]
     """The classes that have to compile by themselves, by their names below the package, the main one first."""
     edits: tuple[str, ...]
-    """The edited files that have a part in the main model."""
+    """The edited files that have a part in the main model, and in which more than comments and blanks differ."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> CheckedPackage:
@@ -115,7 +116,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     edited = edited_files(generated, on_disk) if in_step else []
-    edits = tuple(path for path in edited if path not in benches)
+    edits = (path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path]))
     return CheckedPackage(
         robot=robot,
         domain=domain,
@@ -130,7 +131,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,
-        edits=edits,
+        edits=tuple(edits),
     )
 
 
@@ -138,6 +139,11 @@ def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -
     """The Modelica files that differ from what is generated, by their path below the package."""
     paths = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
     return [path for path in paths if normalised(on_disk[path]) != generated[path]]
+
+
+def _words(text: bytes) -> list[str]:
+    """What a text says but for comments, blanks and ends of line."""
+    return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
 def holds_class(path: PurePosixPath) -> bool:

@@ -91,9 +91,8 @@ def _check_models(
 
 def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:
     """Check files and names; returns why nothing can be compiled, empty if it can."""
-    robot = package.robot
     found = texts.check_layout(package.files)
-    found += texts.check_around({robot.output / path: content for path, content in package.around.items()})
+    found += texts.check_around(package.robot.output, package.around)
     message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
     found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
     found += texts.missing_resources(package)

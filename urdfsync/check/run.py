@@ -126,7 +126,7 @@ def _check(
     """
     name, limit = order.robot, order.options.timeout
     steps[name] = CheckStep("", 0.0)
-    fault, peak, deadline = None, 0, time.monotonic() + limit
+    fault, peak, deadline, family = None, 0, time.monotonic() + limit, list[psutil.Process]()
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = psutil.Popen(
             COMMAND,
@@ -147,7 +147,8 @@ def _check(
                 with contextlib.suppress(psutil.TimeoutExpired):
                     process.wait(_INTERVAL)
                     break
-                used = sum(_memory(one) for one in _family(process))
+                family = _family(process)
+                used = sum(map(_memory, family))
                 peak = max(peak, used)
                 if time.monotonic() >= deadline:
                     hint = "allow more with `urdfsync check --timeout`"
@@ -160,7 +161,7 @@ def _check(
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
         finally:
-            for one in _family(process):
+            for one in {*family, *_family(process)}:  # of a process that is dead, the system knows no children
                 with contextlib.suppress(psutil.Error):
                     one.kill()
             process.wait()

@@ -92,25 +92,19 @@ def check_layout(package: PackageFiles) -> list[Diagnostic]:
     return sorted(found, key=lambda one: (one.file, one.line))
 
 
-def check_around(files: Mapping[Path, bytes]) -> list[Diagnostic]:
-    """What keeps a compiler from reading files beside a package: syntax, `within`, and the names of packages.
+def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
+    """What keeps a compiler from reading the files around a package: syntax, `within`, and the names of packages.
 
-    `files` are by absolute path, and hold each `package.mo` around a file. Other faults of theirs are left to those
-    who make them.
+    `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
     """
     found: list[Diagnostic] = []
-    for file in sorted(files):
-        top = next((folder for folder in reversed(file.parents) if folder / _PACKAGE in files), None)
-        folder = top or file.parent
-        path = PurePosixPath(file.relative_to(folder).as_posix())
-        if holds_class(path):
-            parts = [*([top.name] if top else []), *path.with_suffix("").parts]
-            first, *others = parts[:-1] if top and path.name == _PACKAGE else parts
-            name = ".".join((first.partition(" ")[0], *others))  # a version may follow the name of a library
-            package = PackageFiles(name, folder, {str(path): files[file]})
-            ignored = {"repeated", "second-class", *(["wrong-within"] if _misnamed_part(path) else [])}
-            ignored |= set() if path.name == _PACKAGE and not _misnamed_part(path) else {"wrong-name"}
-            found += [one for one in check_file(package, str(path), name)[1] if one.code not in ignored]
+    for path in filter(holds_class, map(PurePosixPath, sorted(files))):
+        name = path.parent if path.name == _PACKAGE else path.with_suffix("")
+        package = PackageFiles("", output, {str(path): files[str(path)]})
+        ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
+        ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
+        said = check_file(package, str(path), ".".join(name.parts))[1]
+        found += [one for one in said if one.code not in ignored]
     return found
 
 

@@ -8,9 +8,8 @@ import importlib.util
 import os
 import subprocess
 import tempfile
-from collections.abc import Generator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import IO, cast
 
 import msgspec
 
@@ -48,46 +47,32 @@ def installed_version(name: str, *others: str) -> str:
     return "; ".join(found)
 
 
-def run_job(name: str, job: CompileJob, cache: UserCache) -> Generator[CompileResult, None, None]:
-    """Do the tasks of a job in a process; gives a result for each, in order, as soon as it is known.
+def run_job(name: str, job: CompileJob, cache: UserCache) -> list[CompileResult]:
+    """Do the tasks of a job in a process; returns a result for each, in order.
 
-    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down. The
-    process ends with the generator.
+    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down.
     """
     require(name)
-    compiler, done = COMPILERS[name], 0
-    with (
-        tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
-        tempfile.TemporaryFile() as errors,
-    ):
-        worker = subprocess.Popen(  # noqa: S603 - a command of ours
+    compiler = COMPILERS[name]
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        process = subprocess.run(  # noqa: S603 - a command of ours
             processes.python_module("urdfsync.check.compilers", name),
-            stdin=subprocess.PIPE,  # stays open: see `processes.end_with_parent`
-            stdout=subprocess.PIPE,
-            stderr=errors,
+            input=msgspec.json.encode(job),
+            capture_output=True,
             env={**os.environ, **processes.importable(), **compiler.environment(str(cache.compiler), folder)},
+            check=False,
         )
-        with worker:
-            try:
-                with contextlib.suppress(BrokenPipeError):  # the process has ended, and its exit code says why
-                    cast(IO[bytes], worker.stdin).write(msgspec.json.encode(job) + b"\n")
-                    cast(IO[bytes], worker.stdin).flush()
-                for line in cast(IO[bytes], worker.stdout):
-                    yield msgspec.json.decode(line, type=CompileResult)
-                    done += 1
-                worker.wait()
-            finally:
-                worker.kill()
-        errors.seek(0)
-        lines = errors.read().decode(errors="replace").strip().split("\n")
-    if done == len(job.tasks):
-        return
-    said = f": {lines[-1].strip()}" if lines[-1] else ""
-    if worker.returncode == MISSING:
+    results = [msgspec.json.decode(line, type=CompileResult) for line in process.stdout.splitlines()]
+    if len(results) == len(job.tasks):
+        return results
+    words = process.stderr.decode(errors="replace").strip().split("\n")[-1].strip()
+    said = f": {words}" if words else ""
+    if process.returncode == MISSING:
         raise _missing(compiler, f"{compiler.TITLE} does not start{said}")
-    message = f"{compiler.TITLE} broke down at {job.tasks[done].title}: {processes.exit_cause(worker.returncode)}{said}"
+    task, cause = job.tasks[len(results)].title, processes.exit_cause(process.returncode)
+    message = f"{compiler.TITLE} broke down at {task}: {cause}{said}"
     killed = "most likely the system for want of memory: check fewer robots at a time"
-    hint = killed if worker.returncode == -9 else compiler.REPORT
+    hint = killed if process.returncode == -9 else compiler.REPORT
     raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint))
 
 

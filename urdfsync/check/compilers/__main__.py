@@ -10,20 +10,11 @@ from urdfsync import processes
 from urdfsync.check.compilers import COMPILERS, MISSING
 from urdfsync.check.compilers.compiler import CompileJob
 
-
-def main() -> int:
-    """Do one job; returns the exit code."""
-    answers = processes.reserve_stdout()
-    job = msgspec.json.decode(sys.stdin.buffer.readline(), type=CompileJob)
-    processes.end_with_parent()
+with processes.reserve_stdout() as answers:
     try:
-        for result in COMPILERS[sys.argv[1]].work(job):
+        for result in COMPILERS[sys.argv[1]].work(msgspec.json.decode(sys.stdin.buffer.read(), type=CompileJob)):
             answers.write(msgspec.json.encode(result) + b"\n")
-            answers.flush()
+            answers.flush()  # a crash leaves what was done until then
     except ImportError as error:
         sys.stderr.write(f"{error}\n")
-        return MISSING
-    return 0
-
-
-sys.exit(main())
+        sys.exit(MISSING)
