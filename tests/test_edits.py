@@ -430,6 +430,19 @@ def test_files_around_the_package_that_use_what_is_gone_are_named(project: Path)
     assert not run().diagnostics
 
 
+def test_a_record_that_a_model_of_the_users_needs_stays_as_long_as_it_does(project: Path) -> None:
+    run()
+    bench, record = Path("modelica/Bench.mo"), Path(C1.replace(".mo", "Parameters.mo"))
+    bench.write_text("model Bench\n  parameter Ladder.Elements.C1Parameters numbers;\nend Bench;\n")
+    drop("C1")
+    for _ in range(2):
+        assert warnings(run()) == []
+        assert (record.exists(), Path(C1).exists()) == (True, False)
+    bench.unlink()
+    run()
+    assert not record.exists()
+
+
 @pytest.mark.parametrize(
     ("path", "old", "new", "words"),
     [
