@@ -488,3 +488,18 @@ def test_an_own_class_that_cant_be_read_stops_no_build(
     assert refused
     assert not result.diagnostics
     assert not Path(C1).exists()
+
+
+@pytest.mark.parametrize("is_folder", [False, True], ids=["file", "folder"])
+def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(project: Path, is_folder: bool) -> None:
+    run()
+    edit(R1, "equation", SENSOR)
+    mine, place = Path(R1).read_bytes(), Path(SHUNT)
+    if is_folder:
+        place = place.with_suffix("") / "package.mo"
+        place.parent.mkdir()
+    place.write_text("mine")
+    rename("R1", "Shunt")
+    found = kinds(run())
+    assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
+    assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
