@@ -18,6 +18,7 @@ from support.networks import kinds as all_kinds
 from urdfsync import files
 from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
+from urdfsync.files import text_digest
 from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state import file_operations
 
@@ -521,3 +522,12 @@ def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypat
         words = "it changed while urdfsync looked at it; build again [restless]"
         assert failure() == f"{LADDER}/Resources/step.txt: error: {words}"
     assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
+
+
+def test_a_recorded_model_of_the_wrong_shape_is_read_again(project: Path) -> None:
+    run()
+    model = project / ".urdfsync/robots/ladder.json"
+    recorded = text_digest(model.read_bytes())
+    model.write_text('{"format": 1, "imports": {}, "snapshot": {"elements": 3}}\n')
+    edit(MANIFEST, recorded, text_digest(model.read_bytes()))
+    assert run().in_step

@@ -290,3 +290,22 @@ def test_whatever_the_system_refuses_is_one_line(
     monkeypatch.setattr(config, "load", refuse)
     assert cli.main(["build"]) == 2
     assert capsys.readouterr().err == "somewhere: error: Permission denied [system]\n"
+
+
+def test_conflict(edited: Path, capsys: Capture) -> None:
+    change(edited, '"R2"', '"R3"')
+    model = Path("modelica/Ladder/Ladder.mo")
+    for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
+        assert cli.main(arguments) == 3
+        lines = capsys.readouterr().out.splitlines()
+        assert lines[0] == "ladder: 1 conflict, 5 changes waiting for that"
+        assert f"  conflict   {model}  network" in lines
+        assert '    generated  16    Elements.R3 elementR3 "Element R3";' in lines
+        assert f"    urdfsync resolve {model} --merge" in lines
+    assert cli.main(["build", "--quiet"]) == 3
+    assert capsys.readouterr().out.splitlines() == [
+        "ladder: 1 conflict, 5 changes waiting for that",
+        f"  conflict   {model}  the changes fit together: --merge takes both",
+        "",
+        "  urdfsync resolve --all --robot ladder --merge  merges it",
+    ]

@@ -247,3 +247,19 @@ def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:
     (built / "ladder.json").unlink()
     assert "the source ladder.json does not exist" in refused(capsys, "ladder.json")
     assert "the source can't be read" in refused(capsys, "ladder.json", "--against", "step.csv")
+
+
+def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
+    shutil.copy(project / "ladder.json", project / "copy.json")
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
+    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
+
+
+def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
+    change(arm, "</robot>", '<transmission name="t"/></robot>', "arm.urdf")
+    change(arm, 'effort="60"', 'effort="54"', "new.urdf")
+    change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
+    code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
+    assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
+    assert lines[-1] == "    not modelled  1 change"

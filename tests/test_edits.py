@@ -430,6 +430,19 @@ def test_files_around_the_package_that_use_what_is_gone_are_named(project: Path)
     assert not run().diagnostics
 
 
+def test_a_record_that_a_model_of_the_users_needs_stays_as_long_as_it_does(project: Path) -> None:
+    run()
+    bench, record = Path("modelica/Bench.mo"), Path(C1.replace(".mo", "Parameters.mo"))
+    bench.write_text("model Bench\n  parameter Ladder.Elements.C1Parameters numbers;\nend Bench;\n")
+    drop("C1")
+    for _ in range(2):
+        assert warnings(run()) == []
+        assert (record.exists(), Path(C1).exists()) == (True, False)
+    bench.unlink()
+    run()
+    assert not record.exists()
+
+
 @pytest.mark.parametrize(
     ("path", "old", "new", "words"),
     [
@@ -475,3 +488,18 @@ def test_an_own_class_that_cant_be_read_stops_no_build(
     assert refused
     assert not result.diagnostics
     assert not Path(C1).exists()
+
+
+@pytest.mark.parametrize("is_folder", [False, True], ids=["file", "folder"])
+def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(project: Path, is_folder: bool) -> None:
+    run()
+    edit(R1, "equation", SENSOR)
+    mine, place = Path(R1).read_bytes(), Path(SHUNT)
+    if is_folder:
+        place = place.with_suffix("") / "package.mo"
+        place.parent.mkdir()
+    place.write_text("mine")
+    rename("R1", "Shunt")
+    found = kinds(run())
+    assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
+    assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")

@@ -119,19 +119,28 @@ def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capt
             assert said(capsys, mode, code=0) == [], path
 
 
-def test_a_source_with_later_changes_keeps_a_build_from_writing(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot
+@pytest.mark.parametrize(
+    ("path", "old", "staged", "later"),
+    [
+        ("ladder.json", '"ohm": 100}', '"ohm": 120}', '"ohm": 130}'),
+        ("step.csv", "0.1,5", "0.1,6", "0.1,7"),
+        ("urdfsync.toml", "rcnetwork", 'rcnetwork"\nprefix = "joint', 'rcnetwork"\nprefix = "point'),
+    ],
+)
+def test_later_changes_of_what_is_staged_keep_a_build_from_writing(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot, path: str, old: str, staged: str, later: str
 ) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
-    resistor(130, before=120)
+    """A source, a table or mesh, and the configuration are judged as they are staged."""
+    edit(path, old, staged)
+    repo.git("add", path)
+    edit(path, staged, later)
     before = snapshot_of(repo.folder)
     lines = said(capsys, "build")
-    assert lines == [
-        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
-        "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
-        f"  urdfsync build ladder && git add {STATE} {RECORD}",
+    assert lines[:2] == [
+        f"ladder: out of step: 1 file to write; {path} has changes that are not staged",
+        f"stage the changes (git add {path}) or put them aside (git stash push --keep-index), then build:",
     ]
+    assert lines[2].startswith("  urdfsync build ladder && git add ")
     assert snapshot_of(repo.folder) == before
     run("git stash push --keep-index")
     do_as_told(capsys, lines)
@@ -273,19 +282,6 @@ def test_robots_are_built_together_as_far_as_their_sources_are_staged(
     assert said(capsys, "check", code=0) == []
 
 
-def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
-    edit("urdfsync.toml", 'domain = "rcnetwork"', 'domain = "rcnetwork"\nprefix = "joint"')
-    repo.git("add", "urdfsync.toml")
-    edit("urdfsync.toml", "joint", "point")
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "build")
-    assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
-    assert snapshot_of(repo.folder) == before
-    edit("urdfsync.toml", "point", "joint")
-    run(said(capsys, "build")[-1])
-    assert said(capsys, "build", code=0) == []
-
-
 def cut_off(repo: Repository) -> None:
     Path("ladder.json").write_bytes(Path("ladder.json").read_bytes()[:100])
 
@@ -349,19 +345,6 @@ def test_what_has_no_state_and_no_configuration_is_not_judged(repo: Repository, 
     repo.git("rm", "-q", "-r", "--cached", "urdfsync.toml", ".urdfsync")
     assert said(capsys, "check", code=0) == []
     assert said(capsys, "check", "urdfsync.toml", code=2)[0].startswith("urdfsync.toml: error: git does not track")
-
-
-def test_a_mesh_or_table_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
-    edit("step.csv", "0.1,5", "0.1,6")
-    assert said(capsys, "check", code=0) == []
-    repo.git("add", "step.csv")
-    edit("step.csv", "0.1,6", "0.1,7")
-    lines = said(capsys, "build")
-    assert lines[0] == "ladder: out of step: 1 file to write; step.csv has changes that are not staged"
-    edit("step.csv", "0.1,7", "0.1,6")
-    lines = said(capsys, "build")
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
 
 
 def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,6 @@ What differs in the hook that checks is shown by `test_hook_command.py` without 
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import subprocess
 import sys
@@ -31,36 +30,22 @@ pytestmark = [
 ]
 
 
-@dataclasses.dataclass
-class Site:
-    """A repository with pre-commit installed, whose hook is the one of this checkout."""
+def commit(*arguments: str, code: int = 0) -> str:
+    """Commit what is staged; what the hooks print."""
+    done = subprocess.run(["git", "commit", "-m", "next", *arguments], check=False, capture_output=True, text=True)
+    said = done.stdout + done.stderr
+    assert done.returncode == code, said
+    return said
 
-    repository: Repository
 
-    def commit(self, *arguments: str, code: int = 0, folder: str = ".") -> str:
-        """Commit what is staged; what the hooks print."""
-        done = subprocess.run(
-            ["git", "commit", "-m", "next", *arguments], cwd=folder, check=False, capture_output=True, text=True
-        )
-        said = done.stdout + done.stderr
-        assert done.returncode == code, said
-        return said
-
-    def committed(self, path: str) -> str:
-        """A file of the last commit."""
-        return subprocess.run(["git", "show", f"HEAD:{path}"], check=True, capture_output=True, text=True).stdout
-
-    def status(self) -> list[str]:
-        """What git says of the working tree."""
-        done = subprocess.run(["git", "status", "--porcelain"], check=True, capture_output=True, text=True)
-        return done.stdout.splitlines()
+def git(*arguments: str) -> str:
+    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
 
 
 @pytest.fixture
-def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Site]:
+def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     """A function that makes a repository with a network in step, committed, and the hook installed that builds."""
-    path = os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER)))
-    monkeypatch.setenv("PYTHONPATH", path)
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER))))
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
     monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
     repository = Repository(project, monkeypatch)
@@ -68,7 +53,7 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
     script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
     script.chmod(0o755)
 
-    def make(also: str = "") -> Site:
+    def make(also: str = "") -> None:
         cli.main(["build", "--quiet"])
         hook = f"id: urdfsync-build, name: build, entry: {script} build, language: system"
         options = "pass_filenames: false, always_run: true, stages: [pre-commit, pre-merge-commit]"
@@ -78,7 +63,6 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
         )
         repository.commit()
         subprocess.run([PRE_COMMIT, "install"], check=True, capture_output=True)
-        return Site(repository)
 
     return make
 
@@ -89,85 +73,85 @@ def command(said: str) -> list[str]:
     return line.split()
 
 
-def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., Site]) -> None:
-    site = make()
+def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., None]) -> None:
+    make()
     resistor(120)
-    site.repository.git("add", ".")
-    said = site.commit(code=1)
+    git("add", ".")
+    said = commit(code=1)
     assert "ladder: out of step: 1 file written\nadd to the commit:\n  git add " in said
-    site.repository.git(*command(said)[1:])
-    site.commit()
-    assert "120" in site.committed(RECORD)
-    assert site.status() == []
+    git(*command(said)[1:])
+    commit()
+    assert "120" in git("show", f"HEAD:{RECORD}")
+    assert git("status", "--porcelain") == ""
 
 
-def test_a_staged_source_with_later_changes(make: Callable[..., Site]) -> None:
+def test_a_staged_source_with_later_changes(make: Callable[..., None]) -> None:
     """pre-commit stashes the later change: a build would write what does not fit when it is back."""
-    site = make()
+    make()
     resistor(120)
-    site.repository.git("add", ".")
+    git("add", ".")
     resistor(130, before=120)
-    said = site.commit(code=1)
+    said = commit(code=1)
     assert "ladder: out of step: 1 file to write" in said
     assert "ladder.json has changes that are not staged" in said
     assert '"ohm": 130}' in Path("ladder.json").read_text()
-    assert site.status() == ["MM ladder.json"], "nothing was written, nothing is lost"
+    assert git("status", "--porcelain") == "MM ladder.json\n", "nothing was written, nothing is lost"
 
 
-def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., Site]) -> None:
+def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., None]) -> None:
     """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
     fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
     Path("notes").write_text("one\n")
-    site = make(f"  - {{{fixer}}}\n")
+    make(f"  - {{{fixer}}}\n")
     edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
-    site.repository.git("add", "ladder.json")
+    git("add", "ladder.json")
     Path("notes").write_text("two\n")
-    said = site.commit(code=1)
+    said = commit(code=1)
     assert "Rolling back fixes" in said
     assert Path("notes").read_text() == "two\n"
     assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
     assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
-    site.repository.git("add", ".")
-    site.commit("--no-verify")
-    assert "R3" in site.committed("modelica/Ladder/Ladder.mo")
+    git("add", ".")
+    commit("--no-verify")
+    assert "R3" in git("show", "HEAD:modelica/Ladder/Ladder.mo")
     assert cli.main(["build", "--check", "--quiet"]) == 0
 
 
-def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., Site]) -> None:
-    site = make()
+def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> None:
+    make()
     for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
-        site.repository.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
+        git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
         edit("ladder.json", f'"ohm": {old}}}', f'"ohm": {new}}}')
         cli.main(["build"])
-        site.repository.git("add", ".")
-        site.commit()
+        git("add", ".")
+        commit()
     assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
     assert "<<<<<<<" in Path(MANIFEST).read_text()
-    site.repository.git("add", ".")
-    said = site.commit(code=1)
+    git("add", ".")
+    said = commit(code=1)
     assert f"{MANIFEST}:" in said
     assert "urdfsync build --repair" in said
     assert cli.main(["build", "--repair", "--quiet"]) == 0
-    site.repository.git("add", ".")
-    site.commit()
+    git("add", ".")
+    commit()
     for path, number in ((RECORD, "120"), (RECORD.replace("R1", "R2"), "330.5")):
         assert f"= {number}" in Path(path).read_text()
 
 
-def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., Site]) -> None:
-    site = make()
+def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., None]) -> None:
+    make()
     resistor(120)
     Path("README").write_text("one")
-    site.repository.git("add", "README")
-    assert "1 file written" in site.commit("--", "ladder.json", code=1)
-    site.commit("--all")
-    assert "120" in site.committed(RECORD)
+    git("add", "README")
+    assert "1 file written" in commit("--", "ladder.json", code=1)
+    commit("--all")
+    assert "120" in git("show", f"HEAD:{RECORD}")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
-def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site: Path) -> None:
+def test_the_daemon_beside_it(make: Callable[..., None], project: Path, rc_site: Path) -> None:
     """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
-    site = make()
+    make()
     store = os.environ["PRE_COMMIT_HOME"]
     quick = ("--settle", "50", "--sample", "20")
     with Watch(project, *quick, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
@@ -177,12 +161,12 @@ def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site:
             resistor(new, before=old)
             watch.wait("built", lambda event: bool(event["files"]), since)
             watch.rest(since)
-            site.repository.git("add", ".")
+            git("add", ".")
             since = watch.mark
             resistor(new + 5, before=new)
             watch.wait("built", lambda event: bool(event["files"]), since)
-            site.commit()
-            assert str(new) in site.committed(RECORD), "the staged source has its own outputs"
+            commit()
+            assert str(new) in git("show", f"HEAD:{RECORD}"), "the staged source has its own outputs"
             assert f'"ohm": {new + 5}}}' in Path("ladder.json").read_text(), "the later change is back"
             since = watch.mark
             resistor(new, before=new + 5)
@@ -190,7 +174,7 @@ def test_the_daemon_beside_it(make: Callable[..., Site], project: Path, rc_site:
             watch.rest(since)
         watch.stop()
     assert cli.main(["build", "--check", "--quiet"]) == 0
-    assert site.status() == []
+    assert git("status", "--porcelain") == ""
 
 
 def test_the_hooks_are_what_pre_commit_expects() -> None:

@@ -64,7 +64,7 @@ def _attack(
     for number, command in enumerate(commands):
         if number == 0 or afresh:
             work.fill(stale)
-            hostile.ATTACKS[name](work.project, work.outside)
+            hostile.attack(name, work.project, work.outside)
             if name in hostile.COMMITTED:
                 subprocess.run(["git", "add", "-A"], cwd=work.project, check=True, capture_output=True)
             before = contents(work.project)
@@ -139,7 +139,7 @@ def test_no_module_of_the_working_folder_runs(
     tables = [f'[robots.r{n}]\nsource = "r{n}.urdf"\npackage = "R{n}"\ncross_check = false\n' for n in range(ROBOTS)]
     (tmp_path / "new/urdfsync.toml").write_text("".join(tables))
     work.fill(tmp_path / "new")
-    hostile.ATTACKS[attack](work.project, work.outside)
+    hostile.attack(attack, work.project, work.outside)
     Repository(work.project, monkeypatch).git("add", "-A")
     with _started(work, [*command, *(["--jobs", "2"] if command == ["build"] else [])]) as process:
         if command[0] == "watch":
@@ -160,9 +160,8 @@ class Clone(Workplace):
     def __init__(self, folder: Path, stale: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         super().__init__(folder)
         self.fill(stale)
-        for name, attack in hostile.COMMITTED.items():
-            if name not in hostile.APART:
-                attack(self.project, self.outside)
+        for name in hostile.TOGETHER:
+            hostile.attack(name, self.project, self.outside)
         Repository(self.project, monkeypatch).git("add", "-A", "--force")
         Repository(self.project, monkeypatch).git("commit", "-q", "-m", "hostile")
         self.project.rename(folder / "origin")

@@ -53,3 +53,12 @@ def test_robots_that_other_processes_plan_count(project: Path, capsys: Capture) 
     written = sum(action["action"] == "create" for robot in document["robots"] for action in robot["actions"])
     assert document["profile"]["counts"]["rendered"] <= written
     assert document["profile"]["counts"]["rendered"] > written / 2
+
+
+def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
+    assert cli.main(["build", "--profile"]) == 0
+    said = capsys.readouterr()
+    assert said.out.startswith("ladder: 14 files written\n")
+    for words in ("looking at files", "rendering", "writing", "total", "11 rendered"):
+        assert words in said.err
+    assert "saved answer is printed" not in said.err.partition("total")[2], "there was none that could have answered"

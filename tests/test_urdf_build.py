@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from support.networks import edit
 from support.replay import contents
 
 from urdfsync.config import load
 from urdfsync.diagnostics import Severity
+from urdfsync.domain import ChangeKind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.outcome import Result
@@ -164,3 +166,11 @@ def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None
     (error,) = run(cart).diagnostics
     assert (error.code, error.line, error.hint) == ("frame-of-no-link", 5, "did you mean `tire`?")
     assert contents(cart / "modelica") == before
+
+
+def test_another_name_of_a_joint_that_others_follow_is_told_as_such(arm: Path) -> None:
+    run(arm)
+    edit(arm / "ws/src/six_axis_arm/six_axis_arm.urdf", '"gripper_stroke"', '"stroke"')
+    changes = run(arm).changes
+    assert changes is not None
+    assert [(one.kind, one.element) for one in changes.changes] == [(ChangeKind.RENAMED, "joint gripper_stroke")]

@@ -15,6 +15,7 @@ from support.networks import MANIFEST, edit
 from support.replay import contents
 
 from urdfsync import cli
+from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
@@ -159,3 +160,18 @@ def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: s
         else:
             file.mkdir()
     assert Store(tmp_path).written_folders("arm") == frozenset()
+
+
+def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
+    outside, root = tmp_path / "outside", tmp_path / "root"
+    (root / ".urdfsync").mkdir(parents=True)
+    outside.mkdir()
+    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
+        (root / ".urdfsync" / name).symlink_to(outside / "victim")
+    Store(root).note_folders("arm", ["m/Arm"])
+    assert Store(root).written_folders("arm") == {"m/Arm"}
+    shutil.rmtree(root / ".urdfsync")
+    (root / ".urdfsync").symlink_to(outside)
+    with pytest.raises(OutputError, match="symbolic link"):
+        Store(root).note_folders("arm", ["m/Arm"])
+    assert list(outside.iterdir()) == []

@@ -8,6 +8,7 @@ import shutil
 import stat
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -211,3 +212,17 @@ def test_a_lock_file_that_cant_be_one(path: Path) -> None:
     path.mkdir(parents=True)
     with pytest.raises(OutputError, match="it can't be written"):
         Lock(path, 0).acquire()
+
+
+def test_patience_ends_once_for_all(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pauses: list[float] = []
+    monkeypatch.setattr(time, "sleep", pauses.append)
+    with Lock(path, 0) as other:
+        other.acquire()
+        lock = Lock(path, 0.01)
+        with pytest.raises(LockedError):
+            lock.acquire()
+        pauses.clear()
+        with pytest.raises(LockedError):
+            lock.acquire()
+        assert pauses == []
