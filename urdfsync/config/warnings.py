@@ -18,20 +18,18 @@ _SUFFIX = ".jinja"
 @profiling.stage("configuration")
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist, and templates that replace none."""
-    found = [*_search_paths(config, robots), *_templates(robots)]
-    return tuple(dict.fromkeys(found))
-
-
-def _search_paths(config: Config, robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
+    found = []
     for robot in robots:
         for folder in robot.package_paths:
             if not is_folder(folder):
                 message = f"the folder {shown(folder)} of `package_paths` does not exist"
                 line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
-                yield Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line=line, hint=hint)
+                warning = Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line, hint=hint)
+                found.append(warning)
+    return tuple(dict.fromkeys([*found, *_find_stray_templates(robots)]))
 
 
-def _templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
+def _find_stray_templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
     """Files in template folders that are neither named as a template of the domain nor used by another file there."""
     for robot in robots:
         if robot.templates is None or not is_folder(robot.templates):

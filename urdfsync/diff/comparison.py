@@ -240,7 +240,10 @@ def _with_version(
             place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
             actions.append(Action(place, kind, known_file[0], known_file[1]))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
-    edited = _find_edited(own, robot, options) if own else frozenset()
+    edited: frozenset[str] = frozenset()
+    if own:  # a dry build knows which files are others than the last one wrote
+        (dry,) = build(own, [robot], msgspec.structs.replace(options, dry=True))
+        edited = frozenset(action.path for action in dry.actions.decided if action.kind in {*_MINE, Kind.KEEP})
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
@@ -290,9 +293,3 @@ def _read(
 
     imported = imports.bring_in(domain, dependencies, recorded, version.name, again=False, progress=progress)
     return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
-
-
-def _find_edited(config: Config, robot: RobotConfig, options: BuildOptions) -> frozenset[str]:
-    """Return the files that are others on disk than the last build wrote."""
-    (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
-    return frozenset(action.path for action in result.actions.decided if action.kind in {*_MINE, Kind.KEEP})

@@ -121,21 +121,16 @@ def _block_lines(texts: Texts, block: Block, has_base: bool) -> Iterator[Line]:
 def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tuple[list[StyledLine], int]:
     """The versions of a file where they differ, and the number of lines that were left out for want of room.
 
-    Contradictions come first if there is no room for all.
+    Contradictions come first.
     """
     hunks = find_hunks(conflict.base, conflict.mine, conflict.generated, conflict.merge)
     digits = len(str(max((line.number for hunk in hunks for line in hunk.lines), default=1)))
-    painted = []
-    for hunk in hunks:
-        rows = [row for line in hunk.lines for row in _rows(line, console, digits)]
-        painted.append([_title(hunk, conflict, console), *rows])
-    kept: list[int] = []
-    for index in sorted(range(len(hunks)), key=lambda index: not hunks[index].clash):
-        if kept and not verbose and sum(len(painted[other]) for other in (*kept, index)) > LINES:
-            break
-        kept.append(index)
-    lines = [line for index in sorted(kept) for line in painted[index][: None if verbose else LINES]]
-    return lines, sum(map(len, painted)) - len(lines)
+    lines: list[StyledLine] = []
+    for hunk in sorted(hunks, key=lambda hunk: not hunk.clash):
+        lines.append(_title(hunk, conflict, console))
+        lines += (row for line in hunk.lines for row in _rows(line, console, digits))
+    most = len(lines) if verbose else LINES
+    return lines[:most], len(lines[most:])
 
 
 def _title(hunk: Hunk, conflict: Conflict, console: Console) -> StyledLine:

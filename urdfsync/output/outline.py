@@ -70,34 +70,25 @@ def _title(elements: Sequence[str]) -> str:
 
 
 def _element_rows(found: Sequence[Change]) -> list[OutlineRow]:
+    """Return a row for each change or vector, and one that counts what is not modelled, and one for all rounding."""
     counts = {_NOT_MODELLED: 0, _ROUNDING: 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
     for change in found:
+        are_numbers = is_number(change.old) and is_number(change.new)
+        component = _COMPONENT.fullmatch(change.path[-1])
         if change.change_class is ChangeClass.UNMODELLED:
             counts[_NOT_MODELLED] += 1
-        elif _is_rounding(change):
+        elif change.noise or (are_numbers and change.unit in ("m", "rad") and abs(change.new - change.old) <= _SAME):
             counts[_ROUNDING] += 1
+        elif component and are_numbers:
+            vectors[(*change.path[:-1], component[1], change.unit)].append(change)
         else:
-            vectors[_vector_key(change)].append(change)
+            vectors[id(change)].append(change)
     rows = [change_row(components) for components in vectors.values()]
     for label, number in counts.items():
         if number:
             rows.append(OutlineRow(label, value=f"{number} change{'s' if number > 1 else ''}", is_quiet=True))
     return rows
-
-
-def _is_rounding(change: Change) -> bool:
-    """Whether a change is noise, or none that anybody could measure: zeros of an exporter, mostly."""
-    is_length = change.unit in ("m", "rad") and is_number(change.old) and is_number(change.new)
-    return change.noise or bool(is_length and abs(change.new - change.old) <= _SAME)
-
-
-def _vector_key(change: Change) -> object:
-    """Return what the components of one vector share; nothing else shares it."""
-    match = _COMPONENT.fullmatch(change.path[-1])
-    if match is None or not (is_number(change.old) and is_number(change.new)):
-        return id(change)
-    return (*change.path[:-1], match[1], change.unit)
 
 
 def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineRow:

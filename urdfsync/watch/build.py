@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import traceback
 from collections.abc import Iterator, Sequence
@@ -70,12 +71,14 @@ def internal_error(error: Exception, what: str) -> Diagnostic:
 
 
 def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:
-    """Plan a build that writes nothing for one robot of each domain.
+    """Plan a build that writes nothing for one robot of each domain, the one with the smallest source.
 
     So libraries are imported and templates compiled while nobody waits: without it the first change in the daemon
     takes about a second more than the rows "one mass changed in the daemon" of docs/speed.md allow.
     """
     importlib.import_module("deepdiff")  # only the first difference imports it
+    with contextlib.suppress(OSError):  # a source that is missing is told when the robot is built
+        robots = sorted(robots, key=lambda robot: robot.source.stat().st_size, reverse=True)
     for robot in {robot.domain: robot for robot in robots}.values():
         try:
             plan_robot(config, robot, BuildOptions(dry=True, draw=True))  # to draw, the plan reads the whole source

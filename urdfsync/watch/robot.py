@@ -144,9 +144,9 @@ class WatchedRobot(msgspec.Struct):
 
         If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
         """
-        before = self.hashes()
         if not paths or not self.files.keys() >= set(paths):
-            return self.read_files() != before
-        for path in paths:
-            self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
-        return any(self.files[path].sha256 != before[path] for path in paths)
+            return self.hashes() != self.read_files()
+        before = {path: self.files[path] for path in paths}
+        for path, state in before.items():
+            self.files[path] = read_state(path, state, follow=path not in self.paths.outputs)
+        return any(self.files[path].sha256 != state.sha256 for path, state in before.items())
