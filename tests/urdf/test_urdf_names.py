@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -40,22 +39,13 @@ ROBOT_RECORD = {
 DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
 
 
-def names_in_robot_model(identifier: Identifier) -> Iterator[str]:
-    """The name of a link or joint in the robot model, folded."""
-    yield identifier.component.lower()
-
-
-def components(identifiers: Mapping[Key, Identifier]) -> dict[Key, str]:
-    return {key: identifier.component for key, identifier in identifiers.items()}
-
-
 @given(SETS, TAKEN)
 @example(frozenset({("link", "b-c"), ("link", "b.c"), ("joint", "b_c"), ("link", "b_c_link")}), "Robot")
 @example(frozenset({("link", "fooAxis"), ("joint", "foo"), ("link", "FOO")}), "Robot")
 def test_no_two_names_meet_anywhere(names: frozenset[Key], taken: str) -> None:
     identifiers = identify(names, [taken])
     assert identifiers.keys() == names
-    in_model = [name for identifier in identifiers.values() for name in names_in_robot_model(identifier)]
+    in_model = [identifier.component.lower() for identifier in identifiers.values()]
     assert len(in_model) == len(set(in_model))
     assert not {taken.lower(), *ROBOT_MODEL} & set(in_model)
     assert not ROBOT_RECORD & set(in_model)
@@ -88,9 +78,9 @@ def test_the_order_of_names_makes_no_difference(order: list[int], names: list[Ke
 @given(SETS, KEYS, TAKEN)
 def test_a_name_that_clashes_with_nothing_changes_nothing_else(names: frozenset[Key], new: Key, taken: str) -> None:
     assume(new not in names)
-    before, wanted = identify(names, [taken]), Identifier(spell(new[1], new[0]))
-    others = {name for each in before.values() for name in names_in_robot_model(each)}
-    assume(others.isdisjoint(names_in_robot_model(wanted)))
+    before, wanted = identify(names, [taken]), spell(new[1], new[0])
+    others = {taken.lower(), *(each.component.lower() for each in before.values())}
+    assume(wanted.lower() not in others and not is_reserved(wanted))
     after = identify(names | {new}, [taken])
     assert {key: after[key] for key in names} == before
 
@@ -101,10 +91,9 @@ def test_a_name_that_is_free_and_right_is_kept(names: frozenset[Key]) -> None:
     for (kind, name), identifier in identifiers.items():
         if identifier.component == name:
             continue
-        others = [each for key, each in identifiers.items() if key != (kind, name)]
-        wanted = set(names_in_robot_model(Identifier(spell(name, kind))))
-        clashes = wanted & {other for each in others for other in names_in_robot_model(each)}
-        assert clashes or is_reserved(spell(name, kind)) or spell(name, kind) != name
+        others = {each.component.lower() for key, each in identifiers.items() if key != (kind, name)}
+        spelled = spell(name, kind)
+        assert spelled.lower() in others or is_reserved(spelled) or spelled != name
 
 
 @pytest.mark.parametrize("name", sorted(ROBOT_MODEL | ROBOT_RECORD | DEVICES | WORDS))
