@@ -18,6 +18,7 @@ from urdfsync.dependencies import LSTAT, STAT
 READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
 
+
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], set[tuple[str, str]]]:
     """A function that runs another and gives the calls of the system that it made, each with its path."""
