@@ -1,4 +1,4 @@
-"""The example robots: other readers take them without a word, and they are what their comments say."""
+"""The example robots: other readers take them without a word, and they have the masses that their comments say."""
 
 from __future__ import annotations
 

@@ -18,8 +18,6 @@ from urdfsync.dependencies import LSTAT, STAT
 READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
 
-Capture = pytest.CaptureFixture[str]
-
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], set[tuple[str, str]]]:

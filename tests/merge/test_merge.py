@@ -458,3 +458,17 @@ def test_lines_merge_as_in_git(seed: int, files: list[list[str]], tmp_path: Path
             clean += 1
             assert result == expected
     assert 5 < clean < 55, "the cases are worth comparing"
+
+
+def test_edits_of_one_side_are_judged_one_by_one() -> None:
+    comments = ("mass = 1.2,", "mass = 1.2, // weighed"), ("iyy = 0.029335,", "iyy = 0.029335, // a guess")
+    generated = ("1.2,\n", "1.3,\n      load = 3,\n"), ("0.005953", "1"), ("0.029335", "2"), ("0.030752", "3")
+    expected = changed(*comments, ("1.2,", "1.3,"), ("      inertia", "      load = 3,\n      inertia"), *generated[1:])
+    assert merge(RECORD, changed(*comments), changed(*generated)).text == expected
+
+
+def test_alike_on_both_sides_is_done_once() -> None:
+    mine, generated = changed(("1.2", "1.3"), ("1.05", "1.1 // tuned")), changed(("1.2", "1.3"), ("1.05", "1.1"))
+    assert merge(RECORD, mine, generated).text == mine
+    mine, generated = changed(("inertia(", "// full\n      tensor(")), changed(("inertia(", "tensor("))
+    assert merge(RECORD, mine, generated).text == mine
