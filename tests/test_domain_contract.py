@@ -162,8 +162,34 @@ def test_bad_sources_are_told_with_file_and_no_exception(case: Case, content: by
     assert {found.file for found in errors} == {"bad"}
 
 
+def test_dependencies_are_only_looked_for_by_the_core(case: Case) -> None:
+    dependency = case.dependency
+    assert dependency.candidates[0] == Path("/sources") / Path(dependency.uri).name
+    assert all(path.is_absolute() for path in dependency.candidates)
+    assert dependency.line > 0
+    assert dependency.noun.isidentifier()
+    generate.check_paths((dependency.target,))
+
+
+def test_a_conversion_is_repeatable(case: Case) -> None:
+    content = SAMPLES[case.domain.name][1]
+    one, two = (case.domain.convert(case.dependency, case.dependency.candidates[0], content) for _ in range(2))
+    assert (one.content, dict(one.facts)) == (two.content, dict(two.facts))
+
+
 def texts(package: generate.Package) -> dict[str, bytes]:
     return {path: package.content(path) for path in package.artifacts}
+
+
+def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
+    artifacts = case.artifacts()
+    generate.check_paths((*(artifact.path for artifact in artifacts), case.dependency.target))
+    assert {artifact.role for artifact in artifacts if isinstance(artifact, Artifact)} <= {
+        Role.RECORD,
+        Role.MODEL,
+        Role.PACKAGE,
+    }
+    assert all(artifact.owner for artifact in artifacts if isinstance(artifact, Artifact))
 
 
 def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
@@ -209,6 +235,23 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
+def test_defaults_suit_every_model(case: Case) -> None:
+    assert list(case.domain.check_options(case.snapshot, case.options)) == []
+
+
+def test_proposals_are_options(case: Case) -> None:
+    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
+    options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}
+    assert values.keys() <= options
+    msgspec.convert(values, case.domain.options)
+
+
+def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
+    models = case.domain.models(case.snapshot, TARGET, case.options)
+    assert models[0] == TARGET.name
+    assert {f"{model.replace('.', '/')}.mo" for model in models} <= case.generated().artifacts.keys()
+
+
 def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
     reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
     for package, within_clause in (("Plant", "within Plant;\n"), ("", "within ;\n")):
@@ -222,3 +265,9 @@ def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
         text = generate.Package([found.artifact], templates).content(found.artifact.path).decode()
         assert text.startswith(f"{within_clause}\nrecord Whole ")
         assert text.endswith("end Whole;\n")
+
+
+def test_a_drawing_is_svg(case: Case) -> None:
+    drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
+    assert drawing is None or "<svg" in drawing
+    assert drawing == case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)

@@ -23,35 +23,29 @@ from urdfsync.watch import precommit
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 
 Capture = pytest.CaptureFixture[str]
-MODEL = "modelica/Ladder/Ladder.mo"
-STATE = f".urdfsync/robots/ladder.json {MANIFEST}"
 
 
-@pytest.fixture(scope="module")
-def committed() -> list[Path]:
-    """A copy of the repository that each test begins with, once the first one has made it."""
-    return []
+_committed: list[Path] = []
+"""A copy of the repository that each test begins with, once the first one has made it."""
 
 
 @pytest.fixture
 def repo(
-    project: Path,
-    committed: list[Path],
-    tmp_path_factory: pytest.TempPathFactory,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: Capture,
+    project: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> Repository:
     """A repository with a network and its package, in step and committed; the working folder is its top."""
     for name in ("GIT_PREFIX", "PRE_COMMIT", "PWD"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "pre-commit"))
-    if committed:
-        shutil.copytree(committed[0], project, dirs_exist_ok=True)
+    if _committed:
+        shutil.copytree(_committed[0], project, dirs_exist_ok=True)
         return Repository(project, monkeypatch)
     repository = Repository(project, monkeypatch)
     assert cli.main(["build", "--quiet"]) == 0
     repository.commit()
-    committed.append(shutil.copytree(project, tmp_path_factory.mktemp("committed") / "project"))
+    _committed.append(tmp_path_factory.mktemp("committed") / "project")
+    shutil.copytree(project, _committed[0])
+    capsys.readouterr()
     return repository
 
 
@@ -80,154 +74,129 @@ def run(line: str) -> None:
             git(*arguments)
 
 
-def do_as_told(capsys: Capture, lines: Sequence[str]) -> None:
-    """Run the last line; then both hooks have nothing to say."""
-    run(lines[-1])
-    for mode in ("check", "build"):
-        assert said(capsys, mode, code=0) == []
-
-
-def test_a_stale_output_is_built_and_has_to_be_added(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The check says what to do, and writes nothing. The program `urdfsync-hook` is the command."""
-    monkeypatch.setattr(sys, "argv", ["urdfsync-hook", "check"])
+def test_a_stale_output_is_built_and_has_to_be_added(repo: Repository, capsys: Capture) -> None:
     resistor(120)
-    assert hook.main() == 0, "what is not staged does not count"
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "build")
+    assert lines == [
+        "ladder: out of step: 1 file written",
+        "add to the commit:",
+        f"  git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
+    ]
+    assert "120" in Path(RECORD).read_text()
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    assert said(capsys, "check", code=0) == []
+    assert (
+        git("status", "--porcelain")
+        == "M  .urdfsync/robots/ladder.json\nM  " + f"{MANIFEST}\nM  ladder.json\nM  {RECORD}\n"
+    )
+
+
+def test_the_check_says_what_to_do_and_writes_nothing(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+    resistor(120)
     repo.git("add", "ladder.json")
     before = snapshot_of(repo.folder)
-    assert said(capsys, "check") == [
-        "ladder: out of step: 1 file to write",
-        "build, then add to the commit:",
-        f"  urdfsync build ladder && git add {STATE} {RECORD}",
-    ]
-    assert hook.main() == 1
+    lines = said(capsys, "check")
+    assert lines[:2] == ["ladder: out of step: 1 file to write", "build, then add to the commit:"]
     assert snapshot_of(repo.folder) == before
-    lines = said(capsys, "build")
-    assert lines == ["ladder: out of step: 1 file written", "add to the commit:", f"  git add {STATE} {RECORD}"]
-    assert "120" in Path(RECORD).read_text()
-    do_as_told(capsys, lines)
-    assert git("status", "--porcelain").splitlines() == [
-        f"M  {path}" for path in (*STATE.split(), "ladder.json", RECORD)
-    ]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
 
 
 def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capture) -> None:
-    for path in ("ladder.json", RECORD, MANIFEST, "urdfsync.toml"):
-        Path(path).write_text("nonsense")
+    def passes(what: str) -> None:
         for mode in ("build", "check"):
-            assert said(capsys, mode, code=0) == [], path
+            assert said(capsys, mode, code=0) == [], what
+
+    passes("nothing has changed")
+    resistor(120)
+    passes("the source")
+    edit(RECORD, "100", "140")
+    Path("modelica/Ladder/Ladder.mo").unlink()
+    Path(MANIFEST).write_text("nonsense")
+    passes("outputs and state")
+    Path("urdfsync.toml").write_text("nonsense")
+    passes("the configuration")
 
 
-@pytest.mark.parametrize(
-    ("path", "old", "staged", "later"),
-    [
-        ("ladder.json", '"ohm": 100}', '"ohm": 120}', '"ohm": 130}'),
-        ("step.csv", "0.1,5", "0.1,6", "0.1,7"),
-        ("urdfsync.toml", "rcnetwork", 'rcnetwork"\nprefix = "joint', 'rcnetwork"\nprefix = "point'),
-    ],
-)
-def test_later_changes_of_what_is_staged_keep_a_build_from_writing(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot, path: str, old: str, staged: str, later: str
+def test_a_source_with_later_changes_keeps_a_build_from_writing(
+    repo: Repository, capsys: Capture, snapshot_of: Snapshot
 ) -> None:
-    """A source, a table or mesh, and the configuration are judged as they are staged."""
-    edit(path, old, staged)
-    repo.git("add", path)
-    edit(path, staged, later)
+    resistor(120)
+    repo.git("add", "ladder.json")
+    resistor(130, before=120)
     before = snapshot_of(repo.folder)
     lines = said(capsys, "build")
-    assert lines[:2] == [
-        f"ladder: out of step: 1 file to write; {path} has changes that are not staged",
-        f"stage the changes (git add {path}) or put them aside (git stash push --keep-index), then build:",
+    assert lines == [
+        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+        "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
+        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
     ]
-    assert lines[2].startswith("  urdfsync build ladder && git add ")
     assert snapshot_of(repo.folder) == before
     run("git stash push --keep-index")
-    do_as_told(capsys, lines)
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    run("git commit -qm staged")
+    assert "120" in git("show", f"HEAD:{RECORD}")
+
+
+def test_outputs_that_are_built_but_not_staged(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    run("urdfsync build")
+    repo.git("add", "ladder.json", RECORD)
+    add = [
+        "ladder: in step on disk, but 2 files are not staged",
+        "add to the commit:",
+        f"  git add .urdfsync/robots/ladder.json {MANIFEST}",
+    ]
+    assert said(capsys, "check") == add
+    assert said(capsys, "build") == add
+    run(add[-1])
+    assert said(capsys, "check", code=0) == []
 
 
 def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> None:
-    edit(MODEL, "end Ladder;", "  // mine\nend Ladder;")
+    edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
     repo.git("add", ".")
-    edit(MODEL, "// mine", "// mine and more")
+    edit("modelica/Ladder/Ladder.mo", "// mine", "// mine and more")
     resistor(120)
     repo.git("add", "ladder.json")
     lines = said(capsys, "build")
     assert "Ladder.mo" not in lines[-1], "the rest of the edits stays where it is"
-    do_as_told(capsys, lines)
-    assert git("status", "--porcelain", MODEL) == f"MM {MODEL}\n"
+    run(lines[-1])
+    assert said(capsys, "build", code=0) == []
+    assert git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
 
 
-def built_but_not_staged(repo: Repository) -> None:
-    resistor(120)
-    run("urdfsync build")
-    repo.git("add", "ladder.json", RECORD)
-
-
-def ignored(repo: Repository) -> None:
+def test_an_output_that_git_is_told_to_ignore(repo: Repository, capsys: Capture) -> None:
     repo.git("rm", "-q", "--cached", RECORD)
     Path(".gitignore").write_text("*Parameters.mo\n")
     repo.git("add", ".gitignore")
+    lines = said(capsys, "check")
+    assert lines[-1] == f"  git add -f {RECORD}"
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
 
 
-def not_tracked(repo: Repository) -> None:
+def test_a_source_that_git_does_not_track(repo: Repository, capsys: Capture) -> None:
     repo.git("rm", "-q", "--cached", "ladder.json")
-
-
-def to_be_added_one_day(repo: Repository) -> None:
-    repo.git("rm", "-q", "--cached", RECORD)
-    repo.git("add", "--intent-to-add", RECORD)
-
-
-def deleted(repo: Repository) -> None:
-    repo.git("rm", "-q", RECORD)
-
-
-def changed_in_the_state_only(repo: Repository) -> None:
-    edit("ladder.json", '"ohm": 100}', '"ohm": 100.0}')
-    repo.git("add", "ladder.json")
-
-
-def conflicting(repo: Repository) -> None:
-    """The user has kept his number."""
-    resistor(120)
-    edit(RECORD, "100", "140")
-    repo.git("add", ".")
-    assert cli.main(["build", "--quiet"]) == 3
-    run(f"urdfsync resolve {RECORD} --keep --quiet")
-
-
-@pytest.mark.parametrize(
-    ("arrange", "first", "last"),
-    [
-        (built_but_not_staged, "ladder: in step on disk, but 2 files are not staged", f"  git add {STATE}"),
-        (ignored, "ladder: in step on disk, but 1 file is not staged", f"  git add -f {RECORD}"),
-        (not_tracked, "ladder", "  git add ladder.json"),
-        (to_be_added_one_day, "ladder", f"  git add {RECORD}"),
-        (deleted, "ladder: out of step: 1 restored because you deleted it", f"  git add {RECORD}"),
-        (
-            changed_in_the_state_only,
-            "ladder: out of step: what urdfsync recorded of it is out of date",
-            f"  git add {MANIFEST}",
-        ),
-        (conflicting, "ladder: in step on disk, but 2 files are not staged", "  git add"),
-    ],
-)
-def test_what_is_not_staged_is_named_with_the_command_that_adds_it(
-    repo: Repository, capsys: Capture, arrange: Callable[[Repository], None], first: str, last: str
-) -> None:
-    arrange(repo)
-    said(capsys, "check")
-    lines = said(capsys, "build")
-    assert lines[0].startswith(first)
-    assert lines[-1].startswith(last)
-    do_as_told(capsys, lines)
-
-
-def test_a_source_that_is_ignored_on_purpose_is_judged_as_it_is_on_disk(repo: Repository, capsys: Capture) -> None:
-    not_tracked(repo)
+    assert said(capsys, "check")[-1] == "  git add ladder.json"
     Path(".gitignore").write_text("ladder.json\n")
     repo.git("add", ".gitignore")
+    assert said(capsys, "check", code=0) == [], "ignored on purpose: judged as it is on disk"
+
+
+def test_an_output_that_will_be_deleted_by_the_commit(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", RECORD)
+    assert said(capsys, "check")[0] == "ladder: out of step: 1 to restore"
+    lines = said(capsys, "build")
+    assert lines == [
+        "ladder: out of step: 1 restored because you deleted it",
+        "add to the commit:",
+        f"  git add {RECORD}",
+    ]
+    run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
 
@@ -282,69 +251,120 @@ def test_robots_are_built_together_as_far_as_their_sources_are_staged(
     assert said(capsys, "check", code=0) == []
 
 
-def cut_off(repo: Repository) -> None:
-    Path("ladder.json").write_bytes(Path("ladder.json").read_bytes()[:100])
+def test_a_robot_that_is_removed_with_its_source(repo: Repository, capsys: Capture) -> None:
+    text = Path("urdfsync.toml").read_text()
+    add_robot(repo)
+    Path("urdfsync.toml").write_text(text)
+    repo.git(
+        "rm", "-q", "-r", "other.json", "modelica/Other", ".urdfsync/robots/other.toml", ".urdfsync/robots/other.json"
+    )
+    repo.git("add", "urdfsync.toml")
+    assert said(capsys, "check", code=0) == []
+    assert said(capsys, "build", code=0) == []
 
 
-def wrong_key(repo: Repository) -> None:
-    edit("urdfsync.toml", "domain", "sorce = 1\ndomain")
-
-
-def gone(repo: Repository) -> None:
+def test_a_source_that_the_commit_deletes(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", "ladder.json")
     Path("ladder.json").unlink()
+    for mode in ("build", "check"):
+        assert "does not exist" in said(capsys, mode, code=2)[0]
 
 
-def with_markers(repo: Repository) -> None:
-    state = Path(MANIFEST).read_text()
-    Path(MANIFEST).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
+def test_a_change_that_concerns_the_state_only(repo: Repository, capsys: Capture) -> None:
+    edit("ladder.json", '"ohm": 100}', '"ohm": 100.0}')
+    repo.git("add", "ladder.json")
+    lines = said(capsys, "check")
+    assert lines[0] == "ladder: out of step: what urdfsync recorded of it is out of date"
+    lines = said(capsys, "build")
+    assert lines[-1] == f"  git add {MANIFEST}"
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
 
 
-def in_conflict(repo: Repository) -> None:
-    resistor(120)
-    edit(RECORD, "100", "140")
-
-
-def without_configuration(repo: Repository) -> None:
-    Path("urdfsync.toml").unlink()
-
-
-def unmerged(repo: Repository) -> None:
-    repo.git("checkout", "-q", "-b", "other")
-    for branch, ohm in (("other", 120), ("main", 130)):
-        repo.git("checkout", "-q", branch)
-        resistor(ohm)
-        repo.commit()
-    assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
+def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+    edit("urdfsync.toml", 'domain = "rcnetwork"', 'domain = "rcnetwork"\nprefix = "joint"')
+    repo.git("add", "urdfsync.toml")
+    edit("urdfsync.toml", "joint", "point")
+    before = snapshot_of(repo.folder)
+    lines = said(capsys, "build")
+    assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
+    assert snapshot_of(repo.folder) == before
+    edit("urdfsync.toml", "point", "joint")
+    run(said(capsys, "build")[-1])
+    assert said(capsys, "build", code=0) == []
 
 
 @pytest.mark.parametrize(
-    ("arrange", "code", "words"),
+    ("path", "change", "message"),
     [
-        (cut_off, 2, "ladder.json:6: error: "),
-        (wrong_key, 2, "urdfsync.toml:4: error: unknown key `sorce` in robot `ladder`"),
-        (gone, 2, "does not exist"),
-        (with_markers, 2, "urdfsync build --repair"),
-        (in_conflict, 3, f"  urdfsync resolve {RECORD} --keep"),
-        (without_configuration, 2, f"{MANIFEST}: error: its configuration urdfsync.toml is not part"),
-        (unmerged, 2, "ladder.json: error: the file is not merged yet"),
+        (
+            "urdfsync.toml",
+            lambda content: content.replace(b"domain", b"sorce = 1\ndomain"),
+            "urdfsync.toml:4: error: unknown key `sorce` in robot `ladder`",
+        ),
+        ("ladder.json", lambda content: content[:100], "ladder.json:6: error: "),
     ],
 )
-def test_an_error_in_what_is_staged_is_told(
-    repo: Repository, capsys: Capture, arrange: Callable[[Repository], None], code: int, words: str
+def test_an_error_in_what_is_staged_has_its_file_and_line(
+    repo: Repository, capsys: Capture, path: str, change: Callable[[bytes], bytes], message: str
 ) -> None:
-    arrange(repo)
-    if arrange is not unmerged:
-        repo.git("add", ".")
+    content = Path(path).read_bytes()
+    Path(path).write_bytes(change(content))
+    repo.git("add", path)
+    Path(path).write_bytes(content)
+    lines = said(capsys, "check", code=2)
+    assert lines[0].startswith(message)
+    assert "urdfsync-" not in "".join(lines), "the mirror is nobody's business"
+
+
+def test_a_conflict_of_what_is_staged_comes_with_the_command_that_settles_it(repo: Repository, capsys: Capture) -> None:
+    resistor(120)
+    edit(RECORD, "100", "140")
+    repo.git("add", ".")
     for mode in ("check", "build"):
-        lines = "\n".join(said(capsys, mode, code=code))
-        assert words in lines
-        assert "urdfsync-" not in lines, "the checkout of what is staged is nobody's business"
-
-
-def test_what_has_no_state_and_no_configuration_is_not_judged(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "-r", "--cached", "urdfsync.toml", ".urdfsync")
+        lines = said(capsys, mode, code=3)
+        assert f"  urdfsync resolve {RECORD} --keep" in "\n".join(lines)
+    run(f"urdfsync resolve {RECORD} --keep --quiet")
+    lines = said(capsys, "check")
+    assert lines[0] == "ladder: in step on disk, but 2 files are not staged"
+    run(lines[-1])
     assert said(capsys, "check", code=0) == []
-    assert said(capsys, "check", "urdfsync.toml", code=2)[0].startswith("urdfsync.toml: error: git does not track")
+
+
+def test_merge_markers_in_the_state(repo: Repository, capsys: Capture) -> None:
+    state = Path(MANIFEST).read_text()
+    Path(MANIFEST).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
+    repo.git("add", MANIFEST)
+    for mode in ("check", "build"):
+        assert "urdfsync build --repair" in said(capsys, mode, code=2)[0]
+    run("urdfsync build --repair")
+    repo.git("add", ".")
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_mesh_or_table_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
+    edit("step.csv", "0.1,5", "0.1,6")
+    assert said(capsys, "check", code=0) == []
+    repo.git("add", "step.csv")
+    edit("step.csv", "0.1,6", "0.1,7")
+    lines = said(capsys, "build")
+    assert lines[0] == "ladder: out of step: 1 file to write; step.csv has changes that are not staged"
+    edit("step.csv", "0.1,7", "0.1,6")
+    lines = said(capsys, "build")
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_dependency_outside_of_the_repository_is_judged_as_it_is_on_disk(repo: Repository, capsys: Capture) -> None:
+    Path("../tables").mkdir()
+    Path("step.csv").rename("../tables/step.csv")
+    edit("urdfsync.toml", "domain", 'package_paths = ["../tables"]\ndomain')
+    run("urdfsync build")
+    repo.commit()
+    resistor(120)
+    assert said(capsys, "check", code=0) == [], "found from the mirror, too"
+    edit("../tables/step.csv", "0.1,5", "0.1,6")
+    assert said(capsys, "check")[0].startswith("ladder: out of step: 1 file to write")
 
 
 def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -364,6 +384,49 @@ def test_configurations_below_the_top(repo: Repository, capsys: Capture, monkeyp
     lines = said(capsys, "check")
     assert lines[-1].startswith("  urdfsync build ladder --config ../left/urdfsync.toml && git add ../left/.urdfsync/")
     assert said(capsys, "check", "robots/right/urdfsync.toml", code=0) == []
+
+
+def test_robots_of_two_configurations_are_told_apart(repo: Repository, capsys: Capture) -> None:
+    Path("robots").mkdir()
+    for name in ("ladder.json", "urdfsync.toml"):
+        Path("robots", name).write_bytes(Path(name).read_bytes())
+    repo.git("add", "robots")
+    resistor(120)
+    repo.git("add", ".")
+    lines = said(capsys, "build")
+    assert lines[:2] == [
+        "ladder (robots/urdfsync.toml): out of step: 13 files written",
+        "ladder (urdfsync.toml): out of step: 1 file written",
+    ]
+    run(lines[-1])
+    assert said(capsys, "check", code=0) == []
+
+
+def test_a_commit_without_the_configuration_of_its_state(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", "urdfsync.toml")
+    assert said(capsys, "check", code=2)[0].startswith(
+        f"{MANIFEST}: error: its configuration urdfsync.toml is not part"
+    )
+    assert said(capsys, "check", "urdfsync.toml", code=2)[0].startswith("urdfsync.toml: error: git does not track")
+    repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
+    assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
+
+
+def test_files_that_will_be_added_one_day_are_no_part_of_the_commit(repo: Repository, capsys: Capture) -> None:
+    repo.git("rm", "-q", "--cached", RECORD)
+    repo.git("add", "--intent-to-add", RECORD)
+    assert said(capsys, "check")[-1] == f"  git add {RECORD}"
+
+
+def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
+    repo.git("checkout", "-q", "-b", "other")
+    resistor(120)
+    repo.commit()
+    repo.git("checkout", "-q", "main")
+    resistor(130)
+    repo.commit()
+    assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
+    assert said(capsys, "check", code=2)[0].startswith("ladder.json: error: the file is not merged yet")
 
 
 def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -446,3 +509,28 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     repo.git("add", ".")
     repo.git("reset", "-q", "--hard")
     assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
+
+
+def test_the_script_is_the_command(repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["urdfsync-hook", "check"])
+    assert hook.main() == 0
+    resistor(120)
+    assert hook.main() == 0
+    repo.git("add", "ladder.json")
+    assert hook.main() == 1
+    assert "".join(capsys.readouterr()).splitlines() == said(capsys, "check")
+
+
+def test_whatever_passes_is_in_step_in_a_clone(
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resistor(120)
+    edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
+    repo.git("add", ".")
+    run(said(capsys, "build")[-1])
+    assert said(capsys, "check", code=0) == []
+    repo.git("commit", "-qm", "next")
+    git("clone", "-q", ".", "../clone")
+    monkeypatch.chdir("../clone")
+    assert cli.main(["build", "--check", "--quiet"]) == 0
+    assert said(capsys, "check", code=0) == []

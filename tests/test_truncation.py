@@ -120,6 +120,19 @@ def test_truncations_of_a_real_robot(corpus: Path, tmp_path: Path, file: str, mo
     assert_refused(project, (content[:end] for end in some(chosen, count)))
 
 
+def test_what_is_cut_off_is_built_when_it_is_whole(tmp_path: Path) -> None:
+    content = FULL.encode()
+    project = built(tmp_path / "project", content)
+    heavier = content.replace(b'mass value="2"', b'mass value="31"')
+    assert_refused(project, [heavier[:-40]])
+    project.save(heavier)
+    result = project.build()
+    assert not result.failed
+    assert not result.conflicts
+    assert b"// mine" in project.files()["Bot.mo"]
+    assert b"31" in project.files()["Links/BaseParameters.mo"]
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [

@@ -10,6 +10,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -86,11 +87,26 @@ def test_the_answer_belongs_to_the_folder_and_the_environment(
     assert saved(*BUILD) is not None
 
 
+def test_a_configuration_that_is_named(folder: Path) -> None:
+    Path("urdfsync.toml").rename("robots.toml")
+    save("build", "--config", "robots.toml")
+    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
+    save("build", "--config=./robots.toml")
+
+
 @pytest.mark.parametrize("command", [["build", "--full"], ["build", "--svg"], ["diff"], ["build", "--check", "nobody"]])
 def test_what_is_not_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
     time.sleep(0.1)
     cli.main(command)
     assert saved(*command) is None
+
+
+def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
+    time.sleep(0.1)
+    Path(LEG).unlink()
+    assert cli.main(BUILD) == 0
+    assert saved(*BUILD) is None
+    save(*BUILD)
 
 
 def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -198,6 +214,13 @@ def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pyte
         assert saved(*BUILD) is None, "nor one of other groups"
 
 
+def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
+    save(*BUILD)
+    for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
+        _edit("write", path)(folder)
+    assert saved(*BUILD) is not None
+
+
 # When an answer is saved
 
 
@@ -276,6 +299,13 @@ def test_a_truncated_file_holds_no_answer(folder: Path) -> None:
     assert saved(*BUILD) is not None, "nothing else was wrong"
 
 
+def test_a_copy_holds_no_answer(folder: Path) -> None:
+    save(*BUILD)
+    shutil.copy2(STAMP, "copy")
+    Path("copy").replace(STAMP)
+    assert saved(*BUILD) is None, "such as one that somebody has committed"
+
+
 def test_a_file_of_nothing_but_separators_is_no_answer_at_once(folder: Path) -> None:
     save(*STATUS)
     with Path(STAMP).open("r+b") as file:  # which git packs into some kilobytes
@@ -315,6 +345,17 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
     """The time of change of status is that of content."""
     times = {"st_mtime_ns": status.st_mtime_ns, "st_ctime_ns": status.st_mtime_ns, "st_atime_ns": status.st_atime_ns}
     return os.stat_result(tuple(status), times)
+
+
+def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    save(*BUILD)
+    assert "━" in capsys.readouterr().err, "there was one"
+    assert uptodate.print_answer(BUILD) == 0
+    said = capsys.readouterr()
+    assert "━" not in said.err
+    assert said.out.count("in step") == 2
 
 
 def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Capture) -> None:
@@ -434,19 +475,79 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     assert names[0] - anyway - ours <= {"urdfsync", *light}
 
 
-def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    save(*BUILD)
-    assert "━" in capsys.readouterr().err, "there was one"
-    assert uptodate.print_answer(BUILD) == 0
-    said = capsys.readouterr()
-    assert "━" not in said.err
-    assert said.out.count("in step") == 2
+FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
+SHORT = "import sys; from urdfsync.__main__ import main; sys.exit(main())"
 
 
-def test_a_configuration_that_is_named(folder: Path) -> None:
-    Path("urdfsync.toml").rename("robots.toml")
-    save("build", "--config", "robots.toml")
-    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
-    save("build", "--config=./robots.toml")
+def started(code: str, command: list[str], **options: Any) -> subprocess.Popen[bytes]:
+    variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1]), **options.pop("env", {})}
+    return subprocess.Popen([sys.executable, "-c", code, *command], env=variables, **options)
+
+
+def save_by_program(command: list[str]) -> None:
+    """Let the whole program run until it has saved an answer."""
+    end = time.monotonic() + answers.LIMIT
+    while not Path(STAMP).exists():
+        with started(FULL, command, stdout=subprocess.PIPE) as process:
+            process.communicate()
+        assert time.monotonic() < end, "no answer was saved"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+@pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
+def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
+    said = {_on_terminal(FULL, variables)}
+    end = time.monotonic() + answers.LIMIT
+    while not Path(STAMP).exists():
+        said.add(_on_terminal(FULL, variables))
+        assert time.monotonic() < end, "no answer was saved"
+    said.add(_on_terminal(SHORT.replace("sys.exit(main())", "main(); assert 'argparse' not in sys.modules"), variables))
+    (same,) = said
+    assert (b"\x1b[" in same) is not bool(variables)
+    assert "✓ ".encode() in same
+
+
+def _on_terminal(code: str, variables: dict[str, str]) -> bytes:
+    import pty
+
+    master, slave = pty.openpty()
+    variables = {"TERM": "xterm", "PYTHONUTF8": "1", **variables}
+    with started(code, BUILD, stdin=slave, stdout=slave, stderr=slave, env=variables) as process:
+        os.close(slave)
+        said = b""
+        while block := _read(master):
+            said += block
+    os.close(master)
+    assert process.returncode == 0, said
+    return said
+
+
+def _read(descriptor: int) -> bytes:
+    try:
+        return os.read(descriptor, 4096)
+    except OSError:  # the other end is closed
+        return b""
+
+
+def _with_full_disk(code: str) -> tuple[int, bytes]:
+    with Path("/dev/full").open("wb") as sink, started(code, CHECK, stdout=sink, stderr=subprocess.PIPE) as process:
+        _, said = process.communicate()
+    return process.returncode, said
+
+
+def _without_reader(code: str) -> tuple[int, bytes]:
+    source, sink = os.pipe()
+    os.close(source)
+    with started(code, CHECK, stdout=sink, stderr=subprocess.PIPE) as process:
+        os.close(sink)
+        _, said = process.communicate()
+    return process.returncode, said
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+@pytest.mark.parametrize("ending", [_with_full_disk, _without_reader])
+def test_an_output_that_ends_early(folder: Path, ending: Callable[[str], tuple[int, bytes]]) -> None:
+    whole = ending(FULL)
+    save_by_program(CHECK)
+    assert ending(SHORT) == whole
+    assert whole[0] == (2 if ending is _with_full_disk else 0)

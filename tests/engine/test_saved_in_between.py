@@ -45,6 +45,24 @@ def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[
     return arrange
 
 
+def test_a_newer_source_is_written_to_all_other_files(
+    project: Path, save_in_between: Callable[[Callable[[], None]], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    source = project / "ladder.json"
+    assert cli.main(["build"]) == Exit.IN_STEP
+    set_ohms(source, 70)
+    save_in_between(lambda: set_ohms(source, 80))
+    capsys.readouterr()
+    assert cli.main(["build"]) == Exit.CONFLICT
+    assert " 1 conflict\n" in capsys.readouterr().out
+    assert "80" in (project / R2).read_text()
+    assert (project / R1).read_text().endswith(MINE)
+    assert cli.main(["resolve", R1, "--merge"]) == Exit.IN_STEP
+    assert "80" in (project / R1).read_text()
+    assert (project / R1).read_text().endswith(MINE)
+    assert cli.main(["build", "--check"]) == Exit.IN_STEP
+
+
 def test_a_source_that_is_broken_for_a_while_changes_nothing_about_it(
     project: Path, save_in_between: Callable[[Callable[[], None]], None]
 ) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 import tomli
 import tomli_w
+from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, edit
 from support.replay import contents
 
@@ -60,6 +61,27 @@ def hostile(project: Path) -> Path:
     return project
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["build"],
+        ["build", "--full"],
+        ["build", "--repair"],
+        ["build", "--dry-run"],
+        ["build", "--check"],
+        ["status"],
+        ["diff"],
+        ["resolve", "--all", "--take"],
+    ],
+    ids=" ".join,
+)
+def test_a_strangers_manifest_deletes_nothing_of_the_users(hostile: Path, command: Sequence[str]) -> None:
+    run(*command)
+    assert contents(hostile / "modelica/Mine") == OWN
+    run("build")
+    assert contents(hostile / "modelica/Mine") == OWN
+
+
 def test_a_strangers_manifest_moves_no_edits(hostile: Path) -> None:
     mine = hostile / "modelica/Mine/Ladder.mo"
     mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
@@ -92,6 +114,18 @@ def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project
     assert contents(clone / "modelica/Ladder") == built
     assert not (project / "modelica/Ladder").exists()
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
+
+
+@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
+def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
+    assert run("build") == 0
+    clone = tmp_path / "clone"
+    shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
+    config = str(clone / "urdfsync.toml")
+    assert run("build", "--config", config) == 0
+    move(clone)
+    assert run("build", "--config", config) == 0
+    assert not (clone / "modelica/Ladder").exists()
 
 
 def _rename_robot(project: Path) -> None:
@@ -139,6 +173,14 @@ def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(project: Path
     assert run("build") == 0
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize("mode", ["build", "check"])
+def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    Repository(hostile, monkeypatch).git("add", "-A")
+    run("hook", mode)
+    assert contents(hostile / "modelica/Mine") == OWN
 
 
 @pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])

@@ -12,8 +12,12 @@ from support.packages import Package, generate
 from urdfsync.check.results import agrees, largest
 from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics.experiment import PinocchioExperiment
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.physics import free_joints, motion, probe
+from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import Instant, Reference
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,11 +88,37 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviatio
 
 
 def pinocchio_series(urdf: str) -> dict[str, list[float]]:
-    """What a simulation of the probe would give if it were Pinocchio's."""
-    experiment = DOMAIN.experiment(urdf.encode(), "robot.urdf", Target("Bot", "Bot"), Options(), complete=False)
-    assert isinstance(experiment, PinocchioExperiment)
+    """What a simulation of the probe would give if it were Pinocchio's; free joints stay as they begin."""
+    found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
+    assert found is not None
+    skeleton = KinematicTree.of(found)
+    axes, free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
+    names = [[joint.name for joint in joints] for joints in (axes, free)]
+    reference = Reference(read(urdf.encode(), "robot.urdf"), *names)
+    starts = {joint.name: reference.start(joint.name, free_joints.free_start(joint)) for joint in free}
+    courses = [motion.axis_course(joint) for joint in axes]
     series: dict[str, list[float]] = {}
-    for time in (0.0, experiment.probe.stop):
-        for name, value in {"time": time, **experiment.values(time)}.items():
-            series.setdefault(name, []).append(value)
+    for time in (0.0, free_joints.duration(skeleton)):
+        instant = reference.solve(reference.state(time, courses, starts))
+        for name, value in {"time": time, **_values(skeleton, instant)}.items():
+            series.setdefault(name, []).append(float(value))
     return series
+
+
+def _values(skeleton: KinematicTree, instant: Instant) -> dict[str, float]:
+    """What Pinocchio says, by the names of the probe's values."""
+    mass, centre = instant.mass_and_centre()
+    names = probe.robot_variables(skeleton, Target("Bot", "Bot"), Options())
+    pairs: list[tuple[Sequence[str], Any]] = [
+        (tuple(names.efforts(skeleton).values()), instant.efforts),
+        (probe.FORCE, -instant.force),
+        (probe.TORQUE, -instant.torque),
+        (probe.MASS, [mass]),
+        (probe.MOMENT, mass * centre),
+    ]
+    for link in skeleton.links:
+        frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
+        pairs += [(names.axes[link.name], frame.axes.T.ravel()), (names.places[link.name], frame.place)]
+        parts = {"v_0": frame.velocity, "w_a": frame.turning, "a_0": linear, "z_a": angular}
+        pairs += [(names.of_body(link.name, part), values) for part, values in parts.items()]
+    return {name: value for called, values in pairs for name, value in zip(called, values, strict=True)}

@@ -36,7 +36,7 @@ def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
     parts = {re.sub(r"\[.*", "", value) for value in found.values}
     assert parts == {
         *(f"robot.{name}.frame_a.{part}" for name in ("base", "upper_arm", "hand", "drone") for part in ("r_0", "R.T")),
-        *(f"robot.drone.body.{part}" for part in ("a_0", "z_a")),
+        *(f"robot.drone.body.{part}" for part in ("v_0", "w_a", "a_0", "z_a")),
         *("robot.shoulderAxis.tau", "base.frame_b.f", "base.frame_b.t", "mass", "moment"),
     }
     inner = set(re.findall(r"robot\.\w+(?:\.\w+)*", found.source)) - {value for value in parts if "frame_a" in value}

@@ -11,7 +11,8 @@ from hypothesis.extra.numpy import arrays
 from support.urdfs import dynamics, joint, link, robot
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.urdf.physics.reading import directions, read
+from urdfsync.urdf.physics.free_joints import directions
+from urdfsync.urdf.physics.reading import read
 
 NORMALS = arrays(np.float64, 3, elements=st.floats(-100, 100))
 
@@ -20,7 +21,10 @@ def test_a_planar_joint_is_two_slides_and_a_turn_with_losses_each() -> None:
     losses = [dynamics(2, 1)]
     skate = joint("skate", "planar", "floor", "plate", axis="0 3 4", inside=losses)
     found = read(robot(link("floor"), link("plate", 3.0), skate).encode(), "robot.urdf")
-    kinds = [found.model.joints[found.model.getJointId(part)].shortname() for part in found.planar_parts["skate"]]
+    plane = found.split_joints["skate"]
+    assert plane.axes[0] == pytest.approx([1, 0, 0])
+    assert plane.axes[2] == pytest.approx([0, 0.6, 0.8])
+    kinds = [found.model.joints[found.model.getJointId(part)].shortname() for part in plane.parts]
     assert [kind.removeprefix("JointModel")[0] for kind in kinds] == ["P", "P", "R"]
     assert list(found.model.damping[6:]) == [2, 2, 2]
     assert list(found.model.friction[6:]) == [1, 1, 1]

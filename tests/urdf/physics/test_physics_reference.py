@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -13,9 +12,10 @@ from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.reading import directions, read
-from urdfsync.urdf.physics.reference import Configuration, Instant, Reference
+from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics.free_joints import FreeJointState
+from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
 from urdfsync.urdf.robot import Joint
 
 Array = NDArray[np.float64]
@@ -50,9 +50,9 @@ class Bot:
         found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
         assert found is not None
         skeleton = KinematicTree.of(found)
-        self.axes, self.free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
+        self.axes, self.free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
-        self.starts = {joint.name: motion.free_start(joint) for joint in self.free}
+        self.starts = {j.name: self.reference.start(j.name, free_joints.free_start(j)) for j in self.free}
 
     def state(self, time: float = 0.0) -> Configuration:
         return self.reference.state(time, [motion.axis_course(joint) for joint in self.axes], self.starts)
@@ -94,13 +94,12 @@ def test_the_wrench_on_the_base_is_the_change_of_momentum() -> None:
     before, after, now = (momentum(bot, time) for time in (-step, step, 0.0))
     change = (after - before) / (2 * step)
     instant = bot.instant()
-    mass, moment = instant.mass_and_moment()
-    centre = moment / mass
+    mass, centre = instant.mass_and_centre()
     weight = np.array([0, 0, -mass * motion.GRAVITY])
-    place, axes = instant.frame("base")
-    force, torque = axes @ instant.force, axes @ instant.torque
+    base = instant.frame("base")
+    force, torque = base.axes @ instant.force, base.axes @ instant.torque
     assert force + weight == pytest.approx(change[:3], abs=1e-5)
-    assert torque + np.cross(place, force) + np.cross(centre, weight) == pytest.approx(change[3:], abs=1e-5)
+    assert torque + np.cross(base.place, force) + np.cross(centre, weight) == pytest.approx(change[3:], abs=1e-5)
     assert np.abs(now).max() > 1
     assert mass == pytest.approx(7.4)
 
@@ -114,36 +113,40 @@ def momentum(bot: Bot, time: float) -> Array:
     return np.concatenate([about_centre.linear, shifted])
 
 
-def test_free_joints_begin_with_the_parameters_of_their_models() -> None:
-    bot, step = Bot(FREE), 1e-6
-    drone, puck = (motion.free_start(joint) for joint in bot.free)
-    assert isinstance(drone, motion.Floating)
-    assert isinstance(puck, motion.Planar)
-    model, state = bot.reference.model, bot.state()
-    later = pin.integrate(model, state.q, state.v * step)
-    data = [model.createData(), model.createData()]
-    for one, q in zip(data, (state.q, later), strict=True):
-        pin.forwardKinematics(model, one, q)
+@pytest.mark.parametrize("urdf", [DRIVEN, FREE], ids=["driven", "free"])
+def test_velocities_are_derivatives_of_places(urdf: str) -> None:
+    """Free joints move as they begin: on straight lines, with constant turning in the joint frame."""
+    bot, step = Bot(urdf), 1e-5
+    starts = dict(bot.starts)
+    now = bot.instant()
+    frames = []
+    for time in (-step, step):
+        bot.starts = {name: moved(start, time) for name, start in starts.items()}
+        frames.append({frame: bot.instant(time).frame(frame) for frame in links_of(bot)})
+    for name in links_of(bot):
+        frame = now.frame(name)
+        velocity = (frames[1][name].place - frames[0][name].place) / (2 * step)
+        turning = pin.log3(frames[0][name].axes.T @ frames[1][name].axes) / (2 * step)
+        assert frame.velocity == pytest.approx(velocity, abs=1e-8)
+        assert frame.turning == pytest.approx(turning, abs=1e-8)
 
-    def moves(last: str, first: str) -> tuple[Any, Array, Array]:
-        """Pose, velocity and angular velocity in the joint frame."""
-        number, before = model.getJointId(last), model.getJointId(first)
-        at, then = (
-            (one.oMi[model.parents[before]] * model.jointPlacements[before]).actInv(one.oMi[number]) for one in data
-        )
-        return at, (then.translation - at.translation) / step, pin.log3(then.rotation @ at.rotation.T) / step
 
-    at, velocity, turning = moves("air", "air")
-    assert at.translation == pytest.approx(drone.r)
-    assert at.rotation == pytest.approx(pin.rpy.rpyToMatrix(*drone.rpy))
-    assert velocity == pytest.approx(drone.v, abs=1e-5)
-    assert turning == pytest.approx(drone.w, abs=1e-5)
-    x, y, normal = directions(np.array([0.3, 1, -0.2]))
-    at, velocity, turning = moves(read(FREE.encode(), "robot.urdf").planar_parts["tray"][-1], "tray")
-    assert at.translation == pytest.approx(puck.s[0] * x + puck.s[1] * y)
-    assert at.rotation == pytest.approx(pin.exp3(puck.phi * normal))
-    assert velocity == pytest.approx(puck.v[0] * x + puck.v[1] * y, abs=1e-5)
-    assert turning == pytest.approx(puck.w * normal, abs=1e-5)
+def moved(start: FreeJointState, time: float) -> FreeJointState:
+    axes = pin.exp3(start.turning * time) @ start.axes
+    return FreeJointState(start.place + start.velocity * time, axes, start.velocity, start.turning)
+
+
+def links_of(bot: Bot) -> list[str]:
+    return [frame.name for frame in bot.reference.model.frames if frame.type == pin.BODY and "__" not in frame.name]
+
+
+def test_a_state_is_found_again_from_the_frames_of_links() -> None:
+    bot = Bot(FREE)
+    state, instant = bot.state(), bot.instant()
+    frames: dict[str, FreeJointState | FrameMotion] = {joint.name: instant.frame(joint.child) for joint in bot.free}
+    again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames)
+    assert again.q == pytest.approx(state.q, abs=1e-12)
+    assert again.v == pytest.approx(state.v, abs=1e-12)
 
 
 def test_followers_move_with_their_leader_and_load_it() -> None:

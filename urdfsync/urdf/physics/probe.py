@@ -7,17 +7,17 @@ values of planar and floating joints.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+
+import msgspec
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
-_EFFORTS: Mapping[Motion, str] = {"rotational": "tau", "translational": "f"}
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
 _DRIVE = """
   model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
@@ -49,15 +49,13 @@ _BASE = """
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
 """What the robot does to the base that moves it, resolved in the root link's frame."""
+_BODY = ("v_0", "w_a", "a_0", "z_a")  # of a link behind a free joint: velocities and accelerations
 MASS = ("mass",)
 MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
 """The sum of mass times place over all bodies, in kg·m."""
 
-_NINE = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
-_TURN = "Modelica.Mechanics.MultiBody.Frames.resolve1"
 
-
-class RobotVariables(NamedTuple):
+class RobotVariables(msgspec.Struct, frozen=True):
     """Names in a model that has the robot as `robot`; keys are URDF names."""
 
     declaration: str
@@ -69,53 +67,74 @@ class RobotVariables(NamedTuple):
     axes: Mapping[str, tuple[str, ...]]
     """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
-    """By driven joint, in the order of `motion.driven_axes`: the connector of its axis."""
-    efforts: Mapping[str, str]
-    """By driven joint: what drives it."""
-    accelerations: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]]
-    """By link behind a free joint: the linear one in the world, the angular one in the link's frame."""
+    """By joint that can be driven: the connector of its axis."""
+    bodies: Mapping[str, str]
+    """By link: its body, which tells velocities; empty where links have no components of their own."""
+
+    def efforts(self, tree: KinematicTree) -> dict[str, str]:
+        """By driven joint: what drives it, in the order of `motion.driven_axes`."""
+        return {
+            joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
+            for joint in motion.driven_axes(tree)
+        }
+
+    def of_body(self, link: str, part: str) -> tuple[str, ...]:
+        """The three elements of a vector of a link's body: v_0 and a_0 in the world, w_a and z_a in its frame."""
+        return tuple(f"{self.bodies[link]}.{part}[{i}]" for i in (1, 2, 3))
 
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
-    """Return the names for the approach that is compared: that of the package, if there is a choice.
+    """The names for the approach that is compared: that of the package, if there is a choice."""
+    compare = _package_variables if "package" in options.approach else _record_variables
+    return compare(tree, target, options)
 
-    In the generic robot links are numbers, and only their poses are told.
-    """
-    accelerations = {}
-    if "package" in options.approach:
-        declaration = f"{target.package}.{target.name} robot(animation = false, "
-        links = {link.name: f"robot.{tree.link(link.name).component}" for link in tree.links}
-        moments = [f"{k}.body.m*({k}.frame_a.r_0 + {_TURN}({k}.frame_a.R, {k}.body.r_CM))" for k in links.values()]
-        places = {name: tuple(f"{k}.frame_a.r_0[{i}]" for i in (1, 2, 3)) for name, k in links.items()}
-        axes = {name: tuple(f"{k}.frame_a.R.T[{i},{j}]" for i, j in _NINE) for name, k in links.items()}
-        connectors = connector_names(tree, options).axes
-        flanges = {joint.name: f"robot.{connectors[joint.name]}" for joint in motion.driven_axes(tree)}
-        for name, k in ((joint.child, links[joint.child]) for joint in motion.free_joints(tree)):
-            linear, angular = (tuple(f"{k}.body.{part}[{i}]" for i in (1, 2, 3)) for part in ("a_0", "z_a"))
-            accelerations[name] = linear, angular
-    else:
-        record = f"redeclare parameter {target.package}.{target.name}Parameters data"
-        declaration = f"UrdfSync.Robots.GenericRobot robot({record}, "
-        numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
-        moments = [
-            f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :])"
-            for k in numbers.values()
-        ]
-        places = {name: tuple(f"robot.r_0[{k},{i}]" for i in (1, 2, 3)) for name, k in numbers.items()}
-        axes = {name: tuple(f"robot.R_0[{k},{j},{i}]" for i, j in _NINE) for name, k in numbers.items()}
-        flanges = {
-            joint.name: f"robot.{kind}Axis[{number}]"
-            for kind in _EFFORTS
-            for number, joint in enumerate(tree.axes(kind), 1)
-        }
-    kinds = {joint.name: MOTION_KINDS[joint.type] for joint in motion.driven_axes(tree)}
-    efforts = {name: f"{flange}.{_EFFORTS[kinds[name]]}" for name, flange in flanges.items()}
-    return RobotVariables(declaration, " + ".join(moments), places, axes, flanges, efforts, accelerations)
+
+def _package_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
+    connectors = connector_names(tree, options)
+    links = {link.name: f"robot.{tree.link(link.name).component}" for link in tree.links}
+    resolve = "Modelica.Mechanics.MultiBody.Frames.resolve1"
+    moments = (
+        f"{link}.body.m*({link}.frame_a.r_0 + {resolve}({link}.frame_a.R, {link}.body.r_CM))" for link in links.values()
+    )
+    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
+    return RobotVariables(
+        declaration=f"{target.package}.{target.name} robot(animation = false, ",
+        moment=" + ".join(moments),
+        places={name: tuple(f"{link}.frame_a.r_0[{i}]" for i in (1, 2, 3)) for name, link in links.items()},
+        axes={name: tuple(f"{link}.frame_a.R.T[{i},{j}]" for i, j in nine) for name, link in links.items()},
+        flanges={name: f"robot.{axis}" for name, axis in connectors.axes.items()},
+        bodies={name: f"{link}.body" for name, link in links.items()},
+    )
+
+
+def _record_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
+    """The generic robot with a generated record: links are numbers there, and only their poses are told."""
+    numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
+    motions: tuple[Motion, ...] = ("rotational", "translational")
+    moments = (
+        f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :])"
+        for k in numbers.values()
+    )
+    record = f"redeclare parameter {target.package}.{target.name}Parameters data"
+    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
+    return RobotVariables(
+        declaration=f"UrdfSync.Robots.GenericRobot robot({record}, ",
+        moment=" + ".join(moments),
+        places={name: tuple(f"robot.r_0[{k},{i}]" for i in (1, 2, 3)) for name, k in numbers.items()},
+        axes={name: tuple(f"robot.R_0[{k},{j},{i}]" for i, j in nine) for name, k in numbers.items()},
+        flanges={
+            joint.name: f"robot.{motion}Axis[{number}]"
+            for motion in motions
+            for number, joint in enumerate(tree.axes(motion), 1)
+        },
+        bodies={},
+    )
 
 
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
-    """Return a model in which every axis of the robot moves, and the values to compare."""
+    """A model in which every axis of the robot moves, and the values to compare."""
     names = robot_variables(tree, target, options)
+    axes, free = motion.driven_axes(tree), free_joints.free_joints(tree)
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -123,13 +142,13 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
     if options.base == "floating":
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     modifiers = ["checkLimits = false", "fixedStart = false"]
-    for joint in motion.free_joints(tree):
-        start = motion.free_start(joint)._asdict().items()
+    for joint in free:
+        start = free_joints.free_start(joint)._asdict().items()
         texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
         modifiers.append(f"{tree.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
     declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
     connections = ["base.frame_b, robot.frame_a"]
-    for k, joint in enumerate(motion.driven_axes(tree), 1):
+    for k, joint in enumerate(axes, 1):
         course = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({course})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
@@ -148,8 +167,8 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    stop = motion.duration(tree)
+    stop = free_joints.duration(tree)
     values = [name for link in tree.links for name in (*names.places[link.name], *names.axes[link.name])]
-    values += [name for pair in names.accelerations.values() for part in pair for name in part]
-    values += [*names.efforts.values(), *FORCE, *TORQUE, *MASS, *MOMENT]
+    values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
+    values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
     return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(values))

@@ -7,21 +7,14 @@ between them; the first direction is the x axis, or y where the normal is close 
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from typing import Any, NamedTuple
-from xml.etree.ElementTree import Element, SubElement, tostring
-
-import numpy as np
-from numpy.typing import NDArray
+from xml.etree.ElementTree import tostring
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
 from urdfsync.urdf.parse import xml
-
-Array = NDArray[np.float64]
-
-_CLOSE_TO_X = 0.9  # cosine of the angle to x from which on a normal counts as close to it
+from urdfsync.urdf.physics.free_joints import SplitJoint, split_planar
 
 
 class Follower(NamedTuple):
@@ -39,8 +32,8 @@ class PinocchioRobot(NamedTuple):
     """Pinocchio's model; its first joint is the free motion of the root link."""
     followers: Mapping[str, Follower]
     """By joint: the mimic elements."""
-    planar_parts: Mapping[str, tuple[str, ...]]
-    """By planar joint: the three joints that stand for it, from the parent to the child."""
+    split_joints: Mapping[str, SplitJoint]
+    """By joint: those that stand for it."""
 
 
 def read(content: bytes, file: str) -> PinocchioRobot:
@@ -48,25 +41,27 @@ def read(content: bytes, file: str) -> PinocchioRobot:
     pin = pinocchio()
     root = xml.parse(content).root
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter()))
-    followers = {}
+    followers: dict[str, Follower] = {}
+    split_joints: dict[str, SplitJoint] = {}
     for joint in root.findall("joint"):
+        name = joint.get("name", "")
         for mimic in joint.findall("mimic"):
             multiplier, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
-            followers[joint.get("name", "")] = Follower(mimic.get("joint", ""), multiplier, offset)
-    planar = [joint for joint in root.findall("joint") if joint.get("type") == "planar"]
-    parts = {joint.get("name", ""): _split_planar(root, joint, unused) for joint in planar}
-    text = tostring(root, "unicode") if parts else content.decode("utf-8-sig")
+            followers[name] = Follower(mimic.get("joint", ""), multiplier, offset)
+        if joint.get("type") == "planar":
+            split_joints[name] = split_planar(root, joint, unused)
+    text = tostring(root, "unicode") if split_joints else content.decode("utf-8-sig")
     try:
         model = pin.buildModelFromXML(text, pin.JointModelFreeFlyer(), unused)
     except (ValueError, RuntimeError) as error:
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
         hint = "correct the file, or compare it without physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
-    return PinocchioRobot(model, followers, parts)
+    return PinocchioRobot(model, followers, split_joints)
 
 
 def pinocchio() -> Any:
-    """Return the library; raises SourceError if it is not installed."""
+    """The library; raises SourceError if it is not installed."""
     try:
         import pinocchio  # an optional extra
     except ImportError:
@@ -74,35 +69,3 @@ def pinocchio() -> Any:
         hint = install_command("physics")
         raise SourceError(Diagnostic(Severity.ERROR, "no-pinocchio", message, hint=hint)) from None
     return pinocchio
-
-
-def _split_planar(root: Element, joint: Element, unused: str) -> tuple[str, ...]:
-    """Replace a planar joint by three with links between them; return their names. No name contains `unused`."""
-    name, axis, parent, child = joint.get("name", ""), joint.find("axis"), joint.find("parent"), joint.find("child")
-    parts = name, f"{name}{unused}2", f"{name}{unused}3"
-    ends = ["" if end is None else end.get("link", "") for end in (parent, child)]
-    ends[1:1] = parts[1:]
-    normal = "1 0 0" if axis is None else axis.get("xyz", "1 0 0")
-    axes = directions(np.array([float(number) for number in normal.split()]))
-    for k, kind in enumerate(("prismatic", "prismatic", "continuous")):
-        part = SubElement(root, "joint", name=parts[k], type=kind)
-        part.extend(copy.deepcopy(joint.findall("dynamics")))
-        if k == 0:
-            part.extend(joint.findall("origin"))
-        else:
-            SubElement(root, "link", name=ends[k])
-        SubElement(part, "parent", link=ends[k])
-        SubElement(part, "child", link=ends[k + 1])
-        SubElement(part, "axis", xyz=" ".join(repr(float(number)) for number in axes[k]))
-        SubElement(part, "limit", lower="-1000", upper="1000", effort="1000", velocity="1000")
-    root.remove(joint)
-    return parts
-
-
-def directions(normal: Array) -> Array:
-    """Return the axes of a planar joint as rows: two in the plane, and the unit vector along `normal`."""
-    axis = normal / np.linalg.norm(normal)
-    other = np.eye(3)[0 if abs(axis[0]) < _CLOSE_TO_X else 1]
-    first = other - (other @ axis) * axis
-    first /= np.linalg.norm(first)
-    return np.array([first, np.cross(axis, first), axis])

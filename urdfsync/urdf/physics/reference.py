@@ -10,13 +10,15 @@ of the driven axes, so that the efforts of these are Bᵀ·tau.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
+import msgspec
 import numpy as np
 
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course, Planar, Start
-from urdfsync.urdf.physics.reading import Array, PinocchioRobot, pinocchio
+from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics.free_joints import Array, FreeJointState, Start
+from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.physics.reading import PinocchioRobot, pinocchio
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
@@ -26,8 +28,20 @@ _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPr
 _SINGULAR = 1e-12  # ratio of the least to the greatest eigenvalue of an inertia
 
 
-class Configuration(NamedTuple):
-    """Pinocchio's configuration, velocity and acceleration; the accelerations of free joints are 0."""
+class FrameMotion(msgspec.Struct, frozen=True):
+    """A link's frame as it moves in the world."""
+
+    place: Array
+    axes: Array
+    """The axes of the frame as columns."""
+    velocity: Array
+    """Resolved in the world."""
+    turning: Array
+    """Angular velocity, resolved in the link's frame."""
+
+
+class Configuration(msgspec.Struct, frozen=True):
+    """Pinocchio's configuration, velocity and acceleration; those of free joints may be unknown yet."""
 
     q: Array
     v: Array
@@ -42,7 +56,7 @@ class Reference:
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], free: Sequence[str]) -> None:
         self.pin = pinocchio()
-        self.model, self._planar_parts = robot.model, robot.planar_parts
+        self.model, self._split_joints = robot.model, robot.split_joints
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes, self.free = tuple(axes), tuple(free)
         self.projection, self._offset = self._mimic(robot)
@@ -55,51 +69,60 @@ class Reference:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
-    def state(self, time: float, courses: Sequence[Course], starts: Mapping[str, Start]) -> Configuration:
-        """Return where the robot is, `courses` being those of the axes from time 0; free joints are as they begin."""
+    def start(self, name: str, start: Start) -> FreeJointState:
+        """The state of a free joint from its start values."""
+        return free_joints.start_state(self.pin, start, self._split_axes(name))
+
+    def state(
+        self, time: float, courses: Sequence[Course], free: Mapping[str, FreeJointState | FrameMotion]
+    ) -> Configuration:
+        """Where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0."""
         p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         positions = self.projection @ p + self._offset
         state = Configuration(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
         for joint in self.model.joints[2:]:
             if joint.nv == 1:
-                state.q[_slice(joint)] = _angle(joint, positions[joint.idx_v])
+                position = positions[joint.idx_v]
+                turns = joint.nq == 2  # continuous: cosine and sine
+                state.q[_slice(joint)] = (np.cos(position), np.sin(position)) if turns else position
         _place_base(self.pin, state, time)
-        for name, start in starts.items():
-            self._place_free(state, name, start)
+        for name in self.free:
+            known = free[name]
+            self._place(state, name, known if isinstance(known, FreeJointState) else self._relative(state, name, known))
         return state
 
     def solve(self, state: Configuration) -> Instant:
-        """Return efforts of base and axes, and accelerations of free joints."""
+        """Efforts of base and axes, and accelerations of free joints."""
         data, a = self.model.createData(), state.a.copy()
-        load = self._load(data, state, a)
+        load = self._load(data, state.q, state.v, a)
         if self.loose.size:
-            a[self.loose] = np.linalg.solve(self._free_inertia(state), -load[self.loose])
-            load = self._load(data, state, a)
+            a[self.loose] = np.linalg.solve(self.free_inertia(state), -load[self.loose])
+            load = self._load(data, state.q, state.v, a)
         self.pin.forwardKinematics(self.model, data, state.q, state.v, a)
         self.pin.updateFramePlacements(self.model, data)
         return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
 
     def losses(self, v: Array) -> Array:
-        """Return the efforts of damping and dry friction at velocity v."""
+        """Efforts of damping and dry friction at velocity v."""
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
     def is_singular(self, state: Configuration) -> bool:
-        """Return whether free joints carry so little inertia that their accelerations have no solution."""
-        values = np.linalg.eigvalsh(self._free_inertia(state))
+        """Whether free joints carry so little inertia that their accelerations have no solution."""
+        values = np.linalg.eigvalsh(self.free_inertia(state))
         return bool(values.size and values[0] <= _SINGULAR * values[-1])
 
-    def _free_inertia(self, state: Configuration) -> Array:
-        """Return the part of the inertia matrix H that belongs to the free joints."""
+    def free_inertia(self, state: Configuration) -> Array:
+        """The part of the inertia matrix H that belongs to the free joints."""
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
         inertia = upper + np.triu(upper, 1).T
         return np.asarray(inertia[np.ix_(self.loose, self.loose)])
 
-    def _load(self, data: Any, state: Configuration, a: Array) -> Array:
-        """Return the efforts in all joints, losses included."""
-        return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.losses(state.v))
+    def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
+        """Efforts in all joints, losses included."""
+        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + self.losses(v))
 
     def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
-        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
+        """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
         columns = {name: k for k, name in enumerate(self.axes)}
         scalar = set(self.model.names) - set(self.free)
         projection, offset = np.zeros((self.model.nv, len(columns))), np.zeros(self.model.nv)
@@ -114,22 +137,32 @@ class Reference:
         return projection, offset
 
     def _parts(self, name: str) -> list[Any]:
-        """Return those of Pinocchio's joints that stand for a joint of the robot."""
-        return [self.model.joints[self.model.getJointId(part)] for part in self._planar_parts.get(name, (name,))]
+        """Those of Pinocchio's joints that stand for a joint of the robot."""
+        names = self._split_joints[name].parts if name in self._split_joints else (name,)
+        return [self.model.joints[self.model.getJointId(part)] for part in names]
 
-    def _place_free(self, state: Configuration, name: str, start: Start) -> None:
-        """Put a free joint where it begins; Pinocchio resolves the velocity of a floating one in the child's frame."""
-        parts = self._parts(name)
-        if isinstance(start, Planar):
-            for part, q, v in zip(parts, (*start.s, start.phi), (*start.v, start.w), strict=True):
-                state.q[_slice(part)], state.v[part.idx_v] = _angle(part, q), v
-        else:
-            axes = self.pin.rpy.rpyToMatrix(*start.rpy)
-            state.q[_slice(parts[0])] = np.concatenate([start.r, self.pin.Quaternion(axes).coeffs()])
-            state.v[parts[0].idx_v :][:6] = np.concatenate([axes.T @ start.v, axes.T @ start.w])
+    def _split_axes(self, name: str) -> Array:
+        return self._split_joints[name].axes if name in self._split_joints else free_joints.NOT_SPLIT
+
+    def _relative(self, state: Configuration, name: str, frame: FrameMotion) -> FreeJointState:
+        """State of a free joint from the frame of its child; all joints before it are in place."""
+        first = self._parts(name)[0].id
+        data, parent, placement = self.model.createData(), self.model.parents[first], self.model.jointPlacements[first]
+        self.pin.forwardKinematics(self.model, data, state.q, state.v)
+        joint, moves = data.oMi[parent] * placement, placement.actInv(data.v[parent])
+        inward = joint.rotation.T
+        place, axes = inward @ (frame.place - joint.translation), inward @ frame.axes
+        velocity = inward @ frame.velocity - moves.linear - np.cross(moves.angular, place)
+        return FreeJointState(place, axes, velocity, axes @ frame.turning - moves.angular)
+
+    def _place(self, state: Configuration, name: str, at: FreeJointState) -> None:
+        """Put a free joint into the configuration and velocity."""
+        found = free_joints.coordinates(self.pin, at, self._split_axes(name))
+        for part, (q, v) in zip(self._parts(name), found, strict=True):
+            state.q[_slice(part)], state.v[part.idx_v : part.idx_v + part.nv] = q, v
 
 
-class Instant(NamedTuple):
+class Instant(msgspec.Struct, frozen=True):
     """What the reference says of a robot at one instant."""
 
     reference: Reference
@@ -141,28 +174,35 @@ class Instant(NamedTuple):
     efforts: Array
     """Of the driven axes."""
 
-    def frame(self, link: str) -> tuple[Array, Array]:
-        """Return place and axes of a link's frame in the world, the axes as columns."""
-        place = self.data.oMf[self._number(link)]
-        return np.array(place.translation), np.array(place.rotation)
+    def frame(self, link: str) -> FrameMotion:
+        """How the frame of a link moves."""
+        pin, number = self.reference.pin, self._number(link)
+        place = self.data.oMf[number]
+        velocity = self._velocity(number, pin.LOCAL_WORLD_ALIGNED).linear
+        turning = self._velocity(number, pin.LOCAL).angular
+        return FrameMotion(np.array(place.translation), np.array(place.rotation), velocity, turning)
 
     def acceleration(self, link: str) -> tuple[Array, Array]:
-        """Return that of a link's frame: the linear one resolved in the world, the angular one in the frame."""
+        """Of a link's frame: the linear one resolved in the world, the angular one in the frame."""
         pin, number = self.reference.pin, self._number(link)
-        world, local = (
+        values = [
             pin.getFrameClassicalAcceleration(self.reference.model, self.data, number, resolved)
             for resolved in (pin.LOCAL_WORLD_ALIGNED, pin.LOCAL)
-        )
-        return world.linear, local.angular
+        ]
+        return values[0].linear, values[1].angular
 
-    def mass_and_moment(self) -> tuple[float, Array]:
-        """Return mass of the whole robot, and the sum of mass times place in the world."""
+    def mass_and_centre(self) -> tuple[float, Array]:
+        """Mass of the whole robot and its centre in the world; zero without any mass."""
         bodies = list(zip(self.reference.model.inertias, self.data.oMi, strict=True))
+        mass = sum(inertia.mass for inertia, _ in bodies)
         moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
-        return sum(inertia.mass for inertia, _ in bodies), moment
+        return mass, moment / mass if mass else moment
 
     def _number(self, link: str) -> int:
         return int(self.reference.model.getFrameId(link, self.reference.pin.BODY))
+
+    def _velocity(self, number: int, resolved: Any) -> Any:
+        return self.reference.pin.getFrameVelocity(self.reference.model, self.data, number, resolved)
 
 
 def _place_base(pin: Any, state: Configuration, time: float) -> None:
@@ -176,11 +216,6 @@ def _place_base(pin: Any, state: Configuration, time: float) -> None:
     state.a[:6] = np.concatenate([inward @ acceleration - np.cross(speed * axis, inward @ velocity), gain * axis])
 
 
-def _angle(joint: Any, position: float) -> float | tuple[float, float]:
-    """Return the position of an axis as Pinocchio has it: cosine and sine for a continuous joint."""
-    return (np.cos(position), np.sin(position)) if joint.nq == 2 else position
-
-
 def _slice(joint: Any) -> slice:
-    """Return where a joint is in Pinocchio's configuration."""
+    """Where a joint is in Pinocchio's configuration."""
     return slice(joint.idx_q, joint.idx_q + joint.nq)
