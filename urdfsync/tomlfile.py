@@ -13,18 +13,18 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 DEEPEST = 50
 """Tables and lists within each other; nothing that urdfsync reads needs more than a few."""
 
-_PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
+_PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
 _PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
 _HEADER = re.compile(r"\s*\[\[?")
-_MARKER = re.compile(r"^(<{7}|={7}|>{7})(\s|$)")
-_TWICE = re.compile(r"Cannot declare \((.*)\) twice")
-_WORD = re.compile(r"'([^']*)'")
+_MARKER = r"^(<{7}|={7}|>{7})(\s|$)"
+_TWICE = r"Cannot declare \((.*)\) twice"
+_WORD = r"'([^']*)'"
 
 
 def marker_line(text: str) -> int:
     """The first line that is a merge marker of a version control system, counted from 1; 0 if there is none."""
     lines = enumerate(text.split("\n"), start=1)
-    return next((number for number, line in lines if _MARKER.match(line)), 0)
+    return next((number for number, line in lines if re.match(_MARKER, line)), 0)
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> dict[str, Any]:
@@ -80,7 +80,7 @@ def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, 
     if marker := marker_line(text):
         return "unresolved merge markers", marker, 0, "settle the merge"
     message = str(problem)
-    place = _PLACE.search(message)
+    place = re.search(_PLACE, message)
     if place is None:
         return message, 0, 0, ""
     lines = text.rstrip().split("\n")
@@ -89,8 +89,8 @@ def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, 
     if message == "Cannot overwrite a value":
         key = ".".join(_keys(lines[line - 1])) if line <= len(lines) else ""
         return f"`{key}` is set twice" if key else "a key is set twice", line, 0, "remove one of them"
-    if table := _TWICE.match(message):
-        name = ".".join(_WORD.findall(table[1]))
+    if table := re.match(_TWICE, message):
+        name = ".".join(re.findall(_WORD, table[1]))
         return f"the table `{name}` is there twice", line, 0, "put the keys of both into one table"
     hint = "strings stand in quotes" if message == "Invalid value" else ""
     return message[0].lower() + message[1:], line, column, hint

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
-_MARKER = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
+_MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
 
 
@@ -164,7 +164,7 @@ def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[s
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     keys = [action.origin or action.path for action in edited]
     for key, text in {**{key: files.text(key) for key in keys}, **orders}.items():
-        if text and (match := _MARKER.search(text)):
+        if text and (match := re.search(_MARKER, text)):
             line = text.count("\n", 0, match.start()) + 1
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))

@@ -101,9 +101,10 @@ def check_paths(paths: Sequence[str]) -> None:
         if not _is_inside(name) or (slash and folder not in known and not _is_inside(folder)):
             problems.append(_problem("outside", f"{path!r} is no path inside the package"))
             continue
-        if path.casefold() in files:
-            problems.append(_clash(files[path.casefold()], path))
-        files[path.casefold()] = path
+        folded = path.casefold()
+        if folded in files:
+            problems.append(_clash(files[folded], path))
+        files[folded] = path
         while folder and folder not in known:
             known.add(folder)
             other = folders.setdefault(folder.casefold(), folder)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfsync.dependencies import depend_on, file_type, is_file, list_folder, read_file
 
-_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+_NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
 _MARKS = _IGNORED | {"package.xml"}
 _DEPTH = 8
@@ -88,7 +88,7 @@ def _passed_over(error: OSError) -> None:
 def _package_name(folder: Path) -> str | None:
     file = folder / "package.xml"
     try:
-        match = _NAME.search(read_file(file)) if is_file(file) else None
+        match = re.search(_NAME, read_file(file)) if is_file(file) else None
     except OSError:
         return None
     return match[1].decode(errors="replace") if match else None

@@ -9,20 +9,15 @@ from collections.abc import Iterable, Sequence
 INFINITY = "Modelica.Constants.inf"
 
 _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"})
-_CONTROLS = re.compile(
-    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
-)
+_CONTROLS = "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
 """What could end a line, turn the direction of text around, or can't be written as UTF-8."""
-_LITERAL = re.compile(
-    r"""
+_LITERAL = r"""(?xs)
     "(?:[^"\\]|\\.)*"                        # a string
     | (?:[-+]\s*)?(?:
         Modelica\.Constants\.inf\b           # stands for a limit that is absent
         | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
       )
-    """,
-    re.VERBOSE | re.DOTALL,
-)
+    """
 _LARGEST_INTEGER = 2**31 - 1  # what every Modelica tool takes without a decimal point
 
 
@@ -61,7 +56,7 @@ def string(value: str) -> str:
     if value.isprintable():
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
         return f'"{escaped}"'
-    return f'"{_CONTROLS.sub(" ", value.translate(_ESCAPES))}"'
+    return f'"{re.sub(_CONTROLS, " ", value.translate(_ESCAPES))}"'
 
 
 def html(value: str) -> str:
@@ -81,4 +76,4 @@ def numbers_only(old: str, new: str) -> bool:
 
 
 def _shape(text: str) -> str:
-    return _LITERAL.sub(lambda match: '""' if match[0].startswith('"') else "0", text.replace("\r\n", "\n"))
+    return re.sub(_LITERAL, lambda match: '""' if match[0].startswith('"') else "0", text.replace("\r\n", "\n"))

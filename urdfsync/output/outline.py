@@ -25,12 +25,12 @@ _NAMES = 140
 """Characters of the names of elements in a title; there is always one name."""
 _SAME = 1e-9
 """Relative change of a sum that comes from its rounding; lengths and angles that nobody can measure, in m and rad."""
-_COMPONENT = re.compile(r"(.*)\[(\d+)\]")
+_COMPONENT = r"(.*)\[(\d+)\]"
 _WIDTH = 40
 """Characters of a text that are shown."""
 _CONTEXT = 12
 """Characters of a long text before the place where it differs."""
-_HASH = re.compile(r"[0-9a-f]{64}")
+_HASH = "[0-9a-f]{64}"
 
 
 class OutlineRow(msgspec.Struct, frozen=True):
@@ -75,7 +75,7 @@ def _element_rows(found: Sequence[Change]) -> list[OutlineRow]:
     vectors: dict[object, list[Change]] = defaultdict(list)
     for change in found:
         are_numbers = is_number(change.old) and is_number(change.new)
-        component = _COMPONENT.fullmatch(change.path[-1])
+        component = re.fullmatch(_COMPONENT, change.path[-1])
         if change.change_class is ChangeClass.UNMODELLED:
             counts[_NOT_MODELLED] += 1
         elif change.noise or (are_numbers and change.unit in ("m", "rad") and abs(change.new - change.old) <= _SAME):
@@ -146,7 +146,7 @@ def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
     """
     if isinstance(old, str) and isinstance(new, str):
         shown = old or '""', new or '""'
-        if _HASH.fullmatch(old) and _HASH.fullmatch(new):
+        if re.fullmatch(_HASH, old) and re.fullmatch(_HASH, new):
             shown = old[:8], new[:8]
         elif not exact and max(len(old), len(new)) > _WIDTH:
             same = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))

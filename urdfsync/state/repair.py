@@ -20,11 +20,12 @@ from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
 from urdfsync.state.modelfile import ConversionFacts, Model
 from urdfsync.state.record import FileRecord
 
-_MARKER = re.compile(r"([<|=>])\1{6,}(?:[ \t].*)?\r?\n?")
-_FORMAT = re.compile(r'^ ?"?format"?[ \t]*[=:][ \t]*(\d{1,9}),?[ \t]*\r?$', re.MULTILINE)
-_BASE = re.compile(r'^base = "([^"\\]+)"[ \t]*\r?$', re.MULTILINE)
-_IMPORTED = re.compile(r'^target_hash = "([^"\\]+)"[ \t]*\r?$', re.MULTILINE)
-_TABLE = re.compile(r"^(?=\[)", re.MULTILINE)
+# patterns that hardly any build needs are compiled where they are used, by the cache of `re`
+_MARKER = r"([<|=>])\1{6,}(?:[ \t].*)?\r?\n?"
+_FORMAT = r'(?m)^ ?"?format"?[ \t]*[=:][ \t]*(\d{1,9}),?[ \t]*\r?$'
+_BASE = r'(?m)^base = "([^"\\]+)"[ \t]*\r?$'
+_IMPORTED = r'(?m)^target_hash = "([^"\\]+)"[ \t]*\r?$'
+_TABLE = r"(?m)^(?=\[)"
 
 _Parsed = TypeVar("_Parsed")
 
@@ -77,7 +78,9 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     names files outside of its package, or is no model, is left out.
     """
     for text, name in ((toml, file), (json, beside)):
-        for match in _FORMAT.finditer(text or ""):  # a side that a newer urdfsync wrote may be no manifest for this one
+        for match in re.finditer(
+            _FORMAT, text or ""
+        ):  # a side that a newer urdfsync wrote may be no manifest for this one
             if int(match[1]) > FORMAT:
                 message = f"a newer urdfsync wrote some of this state (format {match[1]}; this one knows {FORMAT})"
                 line = (text or "").count("\n", 0, match.start()) + 1
@@ -87,7 +90,7 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     return Recovered(
         tuple(side for side in manifests if side is not None),
         {key: model for key, model in models if model is not None},
-        frozenset(_BASE.findall(toml or "")) - frozenset(_IMPORTED.findall(toml or "")),
+        frozenset(re.findall(_BASE, toml or "")) - frozenset(re.findall(_IMPORTED, toml or "")),
     )
 
 
@@ -103,7 +106,7 @@ def sides(text: str) -> tuple[str, ...]:
     targets = {"<": (ours,), "|": (), "=": (theirs,), ">": (ours, theirs)}
     into: tuple[list[str], ...] = (ours, theirs)
     for line in split_lines(text):
-        if marker := _MARKER.fullmatch(line):
+        if marker := re.fullmatch(_MARKER, line):
             into = targets[marker[1]]
         else:
             for side in into:
@@ -113,7 +116,7 @@ def sides(text: str) -> tuple[str, ...]:
 
 def _each_table_once(side: str) -> str:
     """A side of the TOML file without tables that a merge by lines put in twice; the last one counts."""
-    return "\n".join({table.partition("\n")[0]: table for table in _TABLE.split(side)}.values())
+    return "\n".join({table.partition("\n")[0]: table for table in re.split(_TABLE, side)}.values())
 
 
 def _parse(parse: Callable[[str, str], _Parsed], text: str, file: str) -> _Parsed | None:

@@ -11,7 +11,7 @@ from urdfsync.domain import ElementKey, Snapshot
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 
-_SUBJECT = re.compile(r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\"")
+_SUBJECT = r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\""
 """The name in an element's first tag; in canonical XML the value of an attribute has no quotes."""
 
 
@@ -63,7 +63,7 @@ def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, str]:
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():
         for text in texts:
-            subject = _SUBJECT.match(text)
+            subject = re.match(_SUBJECT, text)
             label = f"{tag} {subject[1]}" if subject else tag
             counts[label] += 1
             result[label if counts[label] == 1 else f"{label} ({counts[label]})"] = text

@@ -22,10 +22,10 @@ UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 AS_IS = (".stl", ".obj")
 """Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
 
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)")  # two letters at least: `C:` is a drive
-_FOUND = re.compile(r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)")
-_DRIVE = re.compile(r"/*([A-Za-z]:/.*)")
-_UNFIT = re.compile("[\x00-\x1f\x7f\ud800-\udfff]")
+_SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # two letters at least: `C:` is a drive
+_FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)"
+_DRIVE = r"/*([A-Za-z]:/.*)"
+_UNFIT = "[\x00-\x1f\x7f\ud800-\udfff]"
 _NAME_BYTES = 255
 _PATH_BYTES = 4095
 _STEM_LENGTH = 40
@@ -91,14 +91,14 @@ def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
     The URI is taken literally first, then with its percent-encoding undone.
     """
     texts = (uri.strip(), unquote(uri.strip()))
-    paths = (path for text in texts if not _UNFIT.search(text) for path in _places(text.replace("\\", "/"), lookup))
+    paths = (path for text in texts if not re.search(_UNFIT, text) for path in _places(text.replace("\\", "/"), lookup))
     return tuple(dict.fromkeys(path for path in paths if path.is_absolute() and _possible(path)))
 
 
 def _places(text: str, lookup: Lookup) -> Iterator[Path]:
-    if match := _FOUND.fullmatch(text):
+    if match := re.fullmatch(_FOUND, text):
         yield from _in_package(match[1].strip(), match[2], lookup)
-    elif not (match := _SCHEME.fullmatch(text)):
+    elif not (match := re.fullmatch(_SCHEME, text)):
         yield from _at_path(text, lookup)
     elif match[1].lower() == "file":
         yield from _at_path(re.sub("^localhost/", "/", match[2]), lookup)
@@ -112,7 +112,7 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
 
 def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
     """A path without a scheme: absolute, or relative to the source's folder, the folders above or a search path."""
-    if drive := _DRIVE.fullmatch(text):
+    if drive := re.fullmatch(_DRIVE, text):
         yield Path(drive[1])
     elif text.startswith("/"):
         yield Path("/" + text.lstrip("/"))
@@ -150,7 +150,7 @@ def _in_library(class_name: str, text: str, lookup: Lookup) -> Iterator[Path]:
     """
     name, *inner = class_name.split(".")
     path = text.lstrip("/")
-    if not path or ".." in path.split("/") or _DRIVE.match(path) or not all(map(str.isidentifier, (name, *inner))):
+    if not path or ".." in path.split("/") or re.match(_DRIVE, path) or not all(map(str.isidentifier, (name, *inner))):
         return
     roots = [lookup.libraries[name]] if name in lookup.libraries else []
     for folder in lookup.source.parents:

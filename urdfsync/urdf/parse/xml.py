@@ -39,8 +39,8 @@ _DECLARATION = re.compile(
     re.VERBOSE | re.ASCII,
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
-_FAULTY_DECLARATION = re.compile(r"\s*<\?xml\s[^<>]*\?>", re.IGNORECASE | re.ASCII)
-_CONFLICT_MARKER = re.compile(r"^(?:<{7}|>{7})(?= |$)", re.MULTILINE)
+_FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
+_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 
 
@@ -66,7 +66,7 @@ def parse(content: bytes) -> Document:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
-    lines: list[int] = []
+    lines: dict[Element, int] = {}
     above: list[tuple[str, int]] = []
 
     def start(tag: str, attributes: dict[str, str]) -> None:
@@ -75,8 +75,7 @@ def parse(content: bytes) -> Document:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
             raise ParseError("xml-syntax", message, line)
         above.append((tag, line))
-        lines.append(line)
-        builder.start(tag, attributes)
+        lines[builder.start(tag, attributes)] = line
 
     def end(tag: str) -> None:
         above.pop()
@@ -100,7 +99,7 @@ def parse(content: bytes) -> Document:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as found:
         error = found
-    if (error or ">>>>>>>" in text) and (marker := _CONFLICT_MARKER.search(text)):
+    if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
         line = text.count("\n", 0, marker.start()) + 1
         raise ParseError("merge-conflict", "the file has merge conflict markers", line)
     if error:
@@ -108,8 +107,7 @@ def parse(content: bytes) -> Document:
         if what in _UNCLOSED and above:
             what = f"<{above[-1][0]}> of line {above[-1][1]} is not closed"
         raise ParseError("xml-syntax", f"this is not well-formed XML: {what}", error.lineno, error.offset + 1)
-    root = builder.close()
-    document = Document(text, root, dict(zip(root.iter(), lines, strict=True)), warnings)
+    document = Document(text, builder.close(), lines, warnings)
     if ":" in text:
         warnings += _undeclared_prefixes(document)
     return document
@@ -165,7 +163,7 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
         message = f"there is no XML version {declaration['version']!r}; the file is read as 1.0"
         warnings.append(diagnostic("xml-version", message, 1))
     if not declaration:
-        declaration = _FAULTY_DECLARATION.match(text)
+        declaration = re.match(_FAULTY_DECLARATION, text)
         is_faulty = declaration is not None
     if is_faulty:
         message = "the XML declaration has a fault; the file is read as XML 1.0 in UTF-8"
