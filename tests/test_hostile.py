@@ -130,9 +130,13 @@ def _started(
     ids=str,
 )
 def test_no_module_of_the_working_folder_runs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, attack: str, command: Sequence[str]
+    tmp_path: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
+    attack: str,
+    command: Sequence[str],
 ) -> None:
-    work = Workplace(tmp_path)
+    work = Workplace(tmp_path_factory.mktemp("w"))  # not `tmp_path`: the path of a socket has 107 bytes at most
     for number in range(ROBOTS):
         (tmp_path / "new").mkdir(exist_ok=True)
         (tmp_path / f"new/r{number}.urdf").write_text(hostile.urdf())
