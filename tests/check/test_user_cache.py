@@ -116,3 +116,9 @@ def test_a_cache_that_can_not_be_made_is_a_clear_error(tmp_path: Path) -> None:
         pass
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.code, diagnostic.file) == ("cache-not-writable", str(tmp_path / "file" / "cache"))
+
+
+def test_what_others_delete_meanwhile_is_passed_over(cache: UserCache, monkeypatch: pytest.MonkeyPatch) -> None:
+    cache.results.mkdir(parents=True)
+    monkeypatch.setattr(os, "walk", lambda folder: [(str(folder), [], ["gone.json"])])
+    assert cache.trim(0) == 0

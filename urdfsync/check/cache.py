@@ -130,16 +130,13 @@ class UserCache:
         That is what is in folders of ours, and each file of the compiler but for its locks.
         """
         for folder in self._folders():
-            for path in folder.rglob("*") if folder == self.compiler else folder.iterdir():
-                is_folder = path.is_dir() and not path.is_symlink()
-                if folder == self.compiler and (is_folder or path.name.startswith(".")):
-                    continue
-                with contextlib.suppress(OSError):  # it is gone: others trim too
-                    note = path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
-                    used = max(one.lstat().st_mtime for one in (path, note) if os.path.lexists(one))
-                    inside = [one.lstat() for one in (path, *(path.rglob("*") if is_folder else ()))]
-                    sizes = (max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in inside)
-                    yield used, path, sum(sizes)
+            for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too
+                if folder == self.compiler:
+                    names = [name for name in files if not name.startswith(".")]
+                else:
+                    names, folders[:] = [*files, *folders], []
+                for path in (Path(current, name) for name in names):
+                    yield from _entry(path)
 
 
 @contextlib.contextmanager
@@ -151,6 +148,18 @@ def cache_errors(folder: Path) -> Iterator[None]:
         message = f"the cache can't be written to: {error.strerror or error}"
         hint = "make room, or name another folder with XDG_CACHE_HOME"
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
+
+
+def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
+    """Yield when a file or folder was used last, itself, and its bytes on disk; nothing if it is gone."""
+    with contextlib.suppress(OSError):
+        used, note = path.lstat().st_mtime, path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
+        with contextlib.suppress(OSError):  # nobody noted when it was used
+            used = max(used, note.lstat().st_mtime)
+        is_folder = path.is_dir() and not path.is_symlink()
+        inside = [one.lstat() for one in (path, *(path.rglob("*") if is_folder else ()))]
+        sizes = (max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in inside)
+        yield used, path, sum(sizes)
 
 
 def _delete(path: Path) -> None:
