@@ -32,7 +32,6 @@ class Package:
         self._templates = templates
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
-        self._keys: dict[str, bytes] = {}
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
@@ -48,10 +47,8 @@ class Package:
 
     def data_key(self, path: str) -> bytes:
         """Return what the text of a file follows from, as bytes: in JSON 0.0 and -0.0 differ, as in the text."""
-        if path not in self._keys:
-            artifact = self.artifacts[path]
-            self._keys[path] = artifact.template.encode() + b"\n" + msgspec.json.encode(artifact.data)
-        return self._keys[path]
+        artifact = self.artifacts[path]
+        return artifact.template.encode() + b"\n" + msgspec.json.encode(artifact.data)
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text can differ from that of another package of the same templates."""

@@ -197,8 +197,6 @@ def _sound(struct: type[Values], attributes: tuple[tuple[str, str], ...]) -> Val
     return None if reader.diagnostics else values
 
 
-# Many attributes of a robot have the same text, such as `xyz="0 0 0"`: this saves a third of reading 1,000 links.
-@functools.lru_cache(maxsize=1024)
 def parse_numbers(text: str, count: int) -> tuple[float, ...]:
     """Return exactly `count` decimal numbers between blanks; raise ValueError that says what is wrong.
 
