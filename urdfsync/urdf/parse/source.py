@@ -6,8 +6,8 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -19,7 +19,9 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.fields import Reader, summary
 from urdfsync.urdf.parse.joint import read_actuated, read_joint
 from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import Joint, Link, Robot
+
+_Value = TypeVar("_Value", bound=Link | Joint | None)
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -50,7 +52,7 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines)
-    robot = _read(reader, document.root) if _is_urdf(reader, document) else None
+    robot = _read(reader, document) if _is_urdf(reader, document) else None
     if cross_check and robot is not None and not reader.failed:
         _cross_check(content, robot, reader)
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
@@ -93,8 +95,9 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     return True
 
 
-def _read(reader: Reader, root: Element) -> Robot:
+def _read(reader: Reader, document: xml.Document) -> Robot:
     """Return the robot; it is of use only if no diagnostic is an error."""
+    root = document.root
     reader.place(root, "robot")
     reader.expect(root, "robot", ("name",))
     name = root.get("name", "")
@@ -113,13 +116,15 @@ def _read(reader: Reader, root: Element) -> Robot:
     actuated = [found for element, path in driving for found in read_actuated(reader, element, path)]
     actuated_names = {name for _, name in actuated}
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    links = [link for element, path in elements("link") if (link := read_link(reader, element, path)).name]
+    found_links = [_read_part(reader, document, *place, read_link) for place in elements("link")]
+    found_joints = [_read_part(reader, document, *place, read_joint) for place in elements("joint")]
+    links = [link for link in found_links if link.name]
     joints = [
         msgspec.structs.replace(joint, actuated=True) if joint.name in actuated_names else joint
-        for element, path in elements("joint")
-        if (joint := read_joint(reader, element, path)) and joint.name
+        for joint in found_joints
+        if joint and joint.name
     ]
-    complete = len(links) == len(root.findall("link")) and len(joints) == len(root.findall("joint"))
+    complete = len(links) == len(found_links) and len(joints) == len(found_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     links_with_materials = resolve_materials(reader, by_path, materials)
     robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions))
@@ -127,3 +132,37 @@ def _read(reader: Reader, root: Element) -> Robot:
     if complete:  # else the joint that a transmission names may be one of those left out
         reader.extend(validate.check_actuated(actuated, {joint.name for joint in joints}))
     return validate.normalise_axes(robot)
+
+
+class _Part(NamedTuple):
+    """A link or joint about which there is nothing to say."""
+
+    value: Any
+    lines: Mapping[str, int]
+    """By path, from 0 at its own start tag."""
+
+
+# By path and text. Serves the rows "one mass changed in the daemon": nearly all links and joints are as they were.
+_parts: dict[tuple[str, bytes], _Part] = {}
+_PARTS = 20_000
+
+
+def _read_part(
+    reader: Reader, document: xml.Document, element: Element, path: str, read: Callable[[Reader, Element, str], _Value]
+) -> _Value:
+    """Read a link or joint, unless its text is known and sound."""
+    first, key = document.lines[element], (path, document.parts.get(element, b""))
+    part = _parts.get(key)
+    if part is None:
+        own = Reader(document.lines)
+        part = _Part(read(own, element, path), {place: line - first for place, line in own.lines.items()})
+        reader.diagnostics += own.diagnostics
+        reader.extensions += own.extensions
+        if key[1] and not own.diagnostics and not own.extensions:
+            if len(_parts) == _PARTS:
+                _parts.clear()
+            _parts[key] = part
+    for place, line in part.lines.items():
+        reader.lines.setdefault(place, first + line)
+    value: _Value = part.value
+    return value

@@ -59,6 +59,8 @@ class Document(NamedTuple):
     root: Element
     lines: Mapping[Element, int]
     """Where start tags begin, from 1; in document order."""
+    parts: Mapping[Element, bytes]
+    """Text of each child of the root up to the next: equal texts are equal elements. None with a document type."""
     warnings: list[Diagnostic]
 
 
@@ -66,16 +68,19 @@ def parse(content: bytes) -> Document:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
+    encoded = text.encode()
     lines: dict[Element, int] = {}
-    above: list[tuple[str, int]] = []
+    starts: list[tuple[Element, int]] = []
+    above: list[Element] = []
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        line = parser.CurrentLineNumber
-        if len(above) == _DEEPEST:
+        lines[element := builder.start(tag, attributes)] = parser.CurrentLineNumber
+        if len(above) == 1:
+            starts.append((element, parser.CurrentByteIndex))
+        elif len(above) == _DEEPEST:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
-            raise ParseError("xml-syntax", message, line)
-        above.append((tag, line))
-        lines[builder.start(tag, attributes)] = line
+            raise ParseError("xml-syntax", message, lines[element])
+        above.append(element)
 
     def end(tag: str) -> None:
         above.pop()
@@ -96,7 +101,7 @@ def parse(content: bytes) -> Document:
     parser.StartDoctypeDeclHandler, parser.EntityDeclHandler = refuse_type, refuse_entity
     error = None
     try:
-        parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
+        parser.Parse(encoded, True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as found:
         error = found
     if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
@@ -105,9 +110,13 @@ def parse(content: bytes) -> Document:
     if error:
         what = expat.ErrorString(error.code)
         if what in _UNCLOSED and above:
-            what = f"<{above[-1][0]}> of line {above[-1][1]} is not closed"
+            what = f"<{above[-1].tag}> of line {lines[above[-1]]} is not closed"
         raise ParseError("xml-syntax", f"this is not well-formed XML: {what}", error.lineno, error.offset + 1)
-    document = Document(text, builder.close(), lines, warnings)
+    root = builder.close()
+    begins = [] if "<!DOCTYPE" in text else [at for _, at in starts]  # which can say how to read attributes
+    ends = [*begins[1:], len(encoded)]
+    parts = {element: encoded[begin:end] for (element, _), begin, end in zip(starts, begins, ends, strict=False)}
+    document = Document(text, root, lines, parts, warnings)
     if ":" in text:
         warnings += _undeclared_prefixes(document)
     return document
