@@ -185,7 +185,7 @@ DENIED = [
     (MODEL, 0o000, f"{MODEL}: error: "),
     (".urdfsync/journal", 0o500, ".urdfsync/journal/prepare.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
-    (".urdfsync/base/ladder", 0o500, ".urdfsync/base/ladder: error: "),
+    (".urdfsync/base/ladder/texts", 0o400, ".urdfsync/base/ladder: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
     (".urdfsync/robots", 0o000, ".urdfsync/robots"),
     (MANIFEST, 0o000, f"{MANIFEST}: error: "),

@@ -100,8 +100,10 @@ def _an_older_record(project: Path, random: Random) -> None:
 
 
 def _bases(project: Path, random: Random) -> None:
-    path = random.choice(sorted((project / ".urdfsync/base/ladder").iterdir()))
-    path.unlink() if random.random() < 0.5 else path.write_bytes(path.read_bytes()[:-9])
+    path = project / ".urdfsync/base/ladder/texts"
+    lines = path.read_bytes().splitlines(keepends=True)
+    random.shuffle(lines)
+    path.write_bytes(b"".join(lines[1:])[: -9 if random.random() < 0.5 else None])
 
 
 def _by_hand(project: Path, random: Random) -> None:

@@ -26,10 +26,20 @@ from urdfsync.state import file_operations
 from urdfsync.state.store import Store
 
 NAMES = (
-    *("make_folder", "remove_folder", "write", "write_bound", "exchange", "complete_exchange", "replace", "place"),
+    *(
+        "make_folder",
+        "remove_folder",
+        "write",
+        "append",
+        "write_bound",
+        "exchange",
+        "complete_exchange",
+        "replace",
+        "place",
+    ),
     *("remove", "sync"),
 )
-WRITES = ("write", "write_bound")
+WRITES = ("write", "append", "write_bound")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that asks for all, if it is set to anything."""
@@ -114,7 +124,8 @@ def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambd
         earlier(operation)
         if operation.number == number:
             if half and operation.name in WRITES:
-                operation.paths[0].write_bytes(b'{"robot": "cut sh')
+                with operation.paths[0].open("ab") as file:  # only `append` finds one
+                    file.write(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
 
     _, status = os.waitpid(forked(project, hook), 0)

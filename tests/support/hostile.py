@@ -163,7 +163,7 @@ class Stranger:
         text, manifest = b"\xff\xfe", (self.project / MANIFEST).read_text()
         begin = manifest.index("base = ", manifest.index(f'[files."{Path(RECORD).relative_to("modelica/Arm")}"]'))
         self.write(MANIFEST, manifest[:begin] + f'base = "{_digest(text)}"' + manifest[manifest.index("\n", begin) :])
-        self.write(f".urdfsync/base/arm/{_digest(text)}", text)
+        self.write(".urdfsync/base/arm/texts", f"{_digest(text)} ".encode() + b'"%s"\n' % text)
 
     def entities(self) -> None:
         declared = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(12))

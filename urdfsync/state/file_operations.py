@@ -19,6 +19,7 @@ from pathlib import Path
 from urdfsync import profiling
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+_APPEND = (_CREATE & ~os.O_EXCL) | os.O_APPEND | getattr(os, "O_NONBLOCK", 0)
 _FEW = 32
 """Up to this many files are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
 
@@ -65,6 +66,18 @@ def write(path: Path, content: bytes, like: Path | None = None) -> None:
             with contextlib.suppress(FileNotFoundError):
                 mode = stat.S_IMODE(like.lstat().st_mode)
                 os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
+    finally:
+        os.close(descriptor)
+
+
+def append(path: Path, content: bytes) -> None:
+    """Write at the end of a regular file, which need not exist."""
+    descriptor = os.open(path, _APPEND, 0o666)
+    try:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "it is no regular file", str(path))
+        while content:
+            content = content[os.write(descriptor, content) :]
     finally:
         os.close(descriptor)
 
