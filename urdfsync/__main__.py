@@ -9,16 +9,16 @@ def main() -> int:
         from urdfsync import uptodate  # here, so that Ctrl-C during the import leaves no traceback
 
         try:
-            code = uptodate.print_answer(sys.argv[1:])
+            trouble = uptodate.print_answer(sys.argv[1:])
         except Exception:  # noqa: BLE001 - whatever it is: the command does its work without
-            code = None
-        if code is None:
-            from urdfsync import cli  # 30 ms, which a command without work does not have
+            trouble = None
+        if trouble == "":
+            return 0
+        from urdfsync import cli  # 30 ms, which a command without work does not have
 
-            code = cli.main()
+        return cli.main() if trouble is None else cli.tell_unwritten(trouble)
     except KeyboardInterrupt:
         return 130
-    return code
 
 
 if __name__ == "__main__":

@@ -52,12 +52,13 @@ def main(given: Sequence[str] | None = None) -> int:
 def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
     with streams.SafeStreams(transcript) as output, _terminated_as_interrupted():
         code = _main(given)
-        return tell_unwritten(output) if output.trouble else code
+        trouble = output.trouble
+        return tell_unwritten(trouble) if trouble else code
 
 
-def tell_unwritten(output: streams.Stream) -> int:
+def tell_unwritten(trouble: str) -> int:
     """Say that not all of the output could be written; returns the exit code."""
-    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {output.trouble}")
+    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {trouble}")
     Console().end("", Exit.ERROR, [found])
     return Exit.ERROR
 

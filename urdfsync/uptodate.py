@@ -124,8 +124,11 @@ def has_answer(arguments: list[str]) -> bool:
     return config_file is not None and find_answer(config_file, answer_key(arguments, config_file)) is not None
 
 
-def print_answer(arguments: list[str]) -> int | None:
-    """Print the saved answer of a command. Returns the exit code; None if there is none, so that the command runs."""
+def print_answer(arguments: list[str]) -> str | None:
+    """Print the saved answer of a command; None if there is none, so that the command runs.
+
+    Returns why not all of it could be written; an empty string if it could.
+    """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
     config_file = find_config(arguments)
@@ -135,11 +138,7 @@ def print_answer(arguments: list[str]) -> int | None:
     with streams.SafeStreams() as output:
         for name, text in zip(answer[::2], answer[1::2], strict=True):
             (output if name == streams.OUTPUT else sys.stderr).write(text)
-        if output.trouble:
-            from urdfsync import cli  # 30 ms, and hardly ever needed
-
-            return cli.tell_unwritten(output)
-    return 0
+        return output.trouble
 
 
 def save_answer(

@@ -176,7 +176,7 @@ class Console:
             return
         self.findings(diagnostics)
         if profile:
-            self.print(profiles.profile_lines(profile), error=True)
+            self.print((line(*parts) for parts in profiles.profile_lines(profile)), error=True)
 
     def write_json(
         self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()
