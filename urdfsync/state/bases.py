@@ -10,9 +10,10 @@ import contextlib
 import errno
 import os
 import stat
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
+from urdfsync.config import shown
 from urdfsync.dependencies import list_folder, read_unrecorded
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
@@ -21,8 +22,8 @@ from urdfsync.state import file_operations
 class BaseStore:
     """The kept texts of one robot; `folder` need not exist."""
 
-    def __init__(self, folder: Path, shown: Callable[[Path], str] = str) -> None:
-        self._folder, self._shown = folder, shown
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._names: set[str] | None = None
 
     def __contains__(self, digest: str | None) -> bool:
@@ -64,7 +65,7 @@ class BaseStore:
         except OSError as error:
             with contextlib.suppress(OSError):
                 temporary.unlink()
-            raise failure(error, self._shown(self._folder)) from None
+            raise failure(error, shown(self._folder)) from None
         self._names = None
 
     def prune(self, wanted: Collection[str]) -> None:
