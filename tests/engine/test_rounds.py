@@ -20,8 +20,8 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.rules import (
+    CLASS_FOLDER,
     DesiredFile,
-    OnDisk,
     decide,
     hold,
     keep_needed,
@@ -129,10 +129,10 @@ class Project:
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
         return hold(actions, {path for path, (old, new) in texts.items() if numbers_only(old, new)}), merged
 
-    def _found(self, path: str) -> OnDisk:
+    def _found(self, path: str) -> str | None:
         if path in self.files:
-            return OnDisk(self.files[path])
-        return OnDisk(is_folder=path != PACKAGE and as_folder(path) in self.files)
+            return self.files[path]
+        return CLASS_FOLDER if path != PACKAGE and as_folder(path) in self.files else None
 
     def _conflict(self, action: Action) -> Conflict:
         place, generated = action.origin or action.path, action.generated or ""

@@ -12,46 +12,35 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.engine.actions import WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.engine.rules import DesiredFile, OnDisk, decide, decide_file, records_after
+from urdfsync.engine.rules import CLASS_FOLDER, DesiredFile, decide, decide_file, records_after
 from urdfsync.state.record import Choice, FileRecord, RecordState
-
-ABSENT = OnDisk()
-FOLDER = OnDisk(is_folder=True)
-
-
-def on_disk(text: str) -> OnDisk:
-    return OnDisk(text)
 
 
 @pytest.mark.parametrize(
     ("base", "mine", "generated", "kind"),
     [
-        pytest.param(None, ABSENT, "new", Kind.CREATE, id="never written"),
-        pytest.param("old", ABSENT, "old", Kind.RESTORE, id="deleted by the user"),
-        pytest.param("old", ABSENT, "new", Kind.RESTORE, id="deleted by the user, source changed"),
-        pytest.param("old", FOLDER, "old", Kind.KEEP, id="made a package by the user"),
-        pytest.param("old", FOLDER, "new", Kind.CONFLICT, id="made a package by the user, source changed"),
-        pytest.param(None, FOLDER, "new", Kind.UNOWNED, id="a package of the user in the way"),
-        pytest.param("old", FOLDER, None, Kind.ORPHAN, id="made a package by the user, no longer generated"),
-        pytest.param("same", on_disk("same"), "same", Kind.UNCHANGED, id="nothing to do"),
-        pytest.param("old", on_disk("new"), "new", Kind.ADOPT, id="already right"),
-        pytest.param(None, on_disk("new"), "new", Kind.ADOPT, id="already right, state lost"),
-        pytest.param("old", on_disk("old"), "new", Kind.UPDATE, id="source changed"),
-        pytest.param("old", on_disk("edited"), "old", Kind.KEEP, id="edited"),
-        pytest.param("old", on_disk("edited"), "new", Kind.CONFLICT, id="edited, source changed"),
-        pytest.param(None, on_disk("foreign"), "new", Kind.UNOWNED, id="a file of the user in the way"),
-        pytest.param("old", on_disk("old"), None, Kind.DELETE, id="no longer generated"),
-        pytest.param("old", on_disk("edited"), None, Kind.ORPHAN, id="edited, no longer generated"),
-        pytest.param("old", ABSENT, None, Kind.FORGET, id="no longer generated, deleted"),
-        pytest.param(None, on_disk("foreign"), None, Kind.FORGET, id="in the way of what is no longer generated"),
+        pytest.param(None, None, "new", Kind.CREATE, id="never written"),
+        pytest.param("old", None, "old", Kind.RESTORE, id="deleted by the user"),
+        pytest.param("old", None, "new", Kind.RESTORE, id="deleted by the user, source changed"),
+        pytest.param("old", CLASS_FOLDER, "old", Kind.KEEP, id="made a package by the user"),
+        pytest.param("old", CLASS_FOLDER, "new", Kind.CONFLICT, id="made a package by the user, source changed"),
+        pytest.param(None, CLASS_FOLDER, "new", Kind.UNOWNED, id="a package of the user in the way"),
+        pytest.param("old", CLASS_FOLDER, None, Kind.ORPHAN, id="made a package by the user, no longer generated"),
+        pytest.param("same", "same", "same", Kind.UNCHANGED, id="nothing to do"),
+        pytest.param("old", "new", "new", Kind.ADOPT, id="already right"),
+        pytest.param(None, "new", "new", Kind.ADOPT, id="already right, state lost"),
+        pytest.param("old", "old", "new", Kind.UPDATE, id="source changed"),
+        pytest.param("old", "edited", "old", Kind.KEEP, id="edited"),
+        pytest.param("old", "edited", "new", Kind.CONFLICT, id="edited, source changed"),
+        pytest.param(None, "foreign", "new", Kind.UNOWNED, id="a file of the user in the way"),
+        pytest.param("old", "old", None, Kind.DELETE, id="no longer generated"),
+        pytest.param("old", "edited", None, Kind.ORPHAN, id="edited, no longer generated"),
+        pytest.param("old", None, None, Kind.FORGET, id="no longer generated, deleted"),
+        pytest.param(None, "foreign", None, Kind.FORGET, id="in the way of what is no longer generated"),
     ],
 )
-def test_decision_table(base: str | None, mine: OnDisk, generated: str | None, kind: Kind) -> None:
+def test_decision_table(base: str | None, mine: str | None, generated: str | None, kind: Kind) -> None:
     assert decide_file(base, mine, generated) is kind
-
-
-hashes = st.sampled_from("abc")
-found = st.one_of(st.just(ABSENT), st.just(FOLDER), hashes.map(on_disk))
 
 
 # Files whose element has another name
@@ -71,7 +60,7 @@ def targets(*names: str) -> dict[str, DesiredFile]:
     ("moves", "names"), [({"b": "a", "c": "b"}, "ab"), ({"a": "c", "b": "a", "c": "b"}, "abc")], ids=["chain", "cycle"]
 )
 def test_names_that_follow_each_other_take_every_edit_along(moves: dict[str, str], names: str) -> None:
-    found = {name: OnDisk(f"mine {name}") for name in names}
+    found = {name: f"mine {name}" for name in names}
     actions = decide(written(*names), targets(*moves), found, moves)
     moved = {one.path: (one.origin, one.base, one.mine) for one in actions if one.kind is Kind.MOVE}
     assert moved == {new: (old, f"{old}0", f"mine {old}") for new, old in moves.items()}
@@ -81,14 +70,14 @@ def test_names_that_follow_each_other_take_every_edit_along(moves: dict[str, str
 
 
 bases = st.none() | st.sampled_from("uvw")
-hands = st.one_of(st.just(ABSENT), st.just(FOLDER), st.sampled_from("uvwxy").map(on_disk))
+hands = st.sampled_from([None, CLASS_FOLDER, *"uvwxy"])
 paths = st.sampled_from("abcde")
 
 
 @st.composite
 def situations(
     draw: st.DrawFn,
-) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], dict[str, str]]:
+) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, str | None], dict[str, str]]:
     """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
     recorded = {path: FileRecord("", Role.MODEL, base) for path, base in draw(st.dictionaries(paths, bases)).items()}
     hashes = st.sampled_from("uvw12")
@@ -101,7 +90,7 @@ def situations(
 
 @given(situations())
 def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
-    situation: tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], Mapping[str, str]],
+    situation: tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, str | None], Mapping[str, str]],
 ) -> None:
     recorded, _, found, _ = situation
     actions = decide(*situation)
@@ -112,15 +101,15 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
     for action in actions:
         if action.kind is Kind.MOVE:
             assert kinds[action.origin or ""] in (Kind.LEAVE, Kind.CREATE, Kind.MOVE)
-            assert action.mine == found[action.origin or ""].hash != action.base
+            assert action.mine == found[action.origin or ""] != action.base
         if action.kind is Kind.LEAVE:
             assert action.path in moved
-        mine = found.get(action.path, ABSENT).hash
+        mine = found.get(action.path)
         base = recorded[action.path].base if action.path in recorded else None
         if action.kind in WRITES and mine not in (None, base, action.generated):
             others = {old.base for old in recorded.values()}
             assert action.path in moved or (action.kind is Kind.UPDATE and mine in others), "moved by hand, unedited"
-        if found.get(action.path) == FOLDER:
+        if mine == CLASS_FOLDER:
             assert action.kind not in WRITES
 
 
@@ -128,7 +117,7 @@ def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place; the same while that waits."""
     recorded = {f"{name}.mo": FileRecord(f"part {name}", Role.MODEL, name) for name in "AB"}
     wanted = {f"{name}.mo": DesiredFile(Role.MODEL, f"part {name}", f"new {name}") for name in "BC"}
-    found = {"A.mo": OnDisk("mine"), "B.mo": OnDisk("B")}
+    found = {"A.mo": "mine", "B.mo": "B"}
     moves = {"B.mo": "A.mo", "C.mo": "B.mo"}
     for _ in range(2):
         actions = decide(recorded, wanted, found, moves)
@@ -143,7 +132,7 @@ def test_places_that_are_handed_on() -> None:
 def test_a_text_of_the_users_is_never_taken_for_ours() -> None:
     """Two edited files swap names and wait; then one of the elements is gone: the other stays where it is."""
     recorded = {name: FileRecord(f"part {name}", Role.MODEL, name) for name in ("A.mo", "B.mo")}
-    found = {"A.mo": OnDisk("mine A"), "B.mo": OnDisk("mine B")}
+    found = {"A.mo": "mine A", "B.mo": "mine B"}
     wanted = {"A.mo": DesiredFile(Role.MODEL, "part A", "new A"), "B.mo": DesiredFile(Role.MODEL, "part B", "new B")}
     actions = decide(recorded, wanted, found, {"A.mo": "B.mo", "B.mo": "A.mo"})
     assert {action.kind for action in actions} == {Kind.MOVE}
@@ -156,7 +145,7 @@ def test_a_place_remembers_what_was_written_there_while_another_file_is_to_come(
     """Pan is renamed to One and back to Pan, with One's file edited meanwhile, and to One again; all of it waits."""
     recorded = {"Pan.mo": FileRecord("joint pan", Role.MODEL, "pan", RecordState.WAITING)}
     recorded["One.mo"] = FileRecord("joint one", Role.MODEL, "one", RecordState.GENERATED)
-    found = {"Pan.mo": OnDisk("pan"), "One.mo": OnDisk("mine")}
+    found = {"Pan.mo": "pan", "One.mo": "mine"}
     back = decide(recorded, {"Pan.mo": DesiredFile(Role.MODEL, "joint pan", "new pan")}, found, {"Pan.mo": "One.mo"})
     assert [action.kind for action in back] == [Kind.LEAVE, Kind.MOVE]
     waiting = records_after(msgspec.structs.replace(action, held=True) for action in back)

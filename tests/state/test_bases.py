@@ -84,7 +84,7 @@ def test_no_link_is_followed(folder: Path, tmp_path: Path, place: str) -> None:
     outside = tmp_path / "outside"
     (tmp_path / place).rename(outside)
     (tmp_path / place).symlink_to(outside)
-    store, before = BaseStore(folder, lambda path: path.name), tree(outside)
+    store, before = BaseStore(folder), tree(outside)
     assert HASH not in store
     with pytest.raises(OutputError, match="arm: error: it can't be written: a symbolic link"):
         store.add(by_hash("other"))

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Role
 from urdfsync.engine.actions import Kind
-from urdfsync.engine.rules import OnDisk, decide_file
+from urdfsync.engine.rules import decide_file
 from urdfsync.state import modelfile
 from urdfsync.state.manifest import DependencyRecord, Generator, Manifest, Source, dumps, text_hash
 from urdfsync.state.modelfile import ConversionFacts
@@ -200,7 +200,7 @@ hashes = st.sampled_from("abcd")
 def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, generated: str | None) -> None:
     base = chosen(candidates, mine, generated)
     assert (base in candidates) if candidates else base is None
-    kind = decide_file(base, OnDisk(mine), generated)
+    kind = decide_file(base, mine, generated)
     if mine not in candidates:
         assert kind not in (Kind.UPDATE, Kind.DELETE)
         if set(candidates) - {generated}:

@@ -17,8 +17,9 @@ from urdfsync.state.transaction import Change, Transactions, UnfinishedError
 
 
 @pytest.fixture
-def transactions(tmp_path: Path) -> Transactions:
-    return Transactions(tmp_path, tmp_path / "state", lambda path: path.relative_to(tmp_path).as_posix())
+def transactions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Transactions:
+    monkeypatch.chdir(tmp_path)
+    return Transactions(tmp_path, tmp_path / "state")
 
 
 @pytest.fixture

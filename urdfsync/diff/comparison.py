@@ -285,7 +285,7 @@ def _read(
         {key: record for key, record in known.records.items() if key in known.imports},
         {key: ConversionFacts(one.source_hash, one.converter, dict(one.facts)) for key, one in known.imports.items()},
         known.contents.get,
-        lambda _target: None,
+        bases={},
     )
 
     def progress(done: int, total: int) -> None:

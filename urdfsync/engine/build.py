@@ -39,7 +39,7 @@ _ATTEMPTS = 5
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
     with contextlib.ExitStack() as stack:
-        lock = stack.enter_context(build_lock(config.root, config.root / STATE_FOLDER, options.wait, shown))
+        lock = stack.enter_context(build_lock(config.root, config.root / STATE_FOLDER, options.wait))
         pool = None
         if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
@@ -61,7 +61,7 @@ class _Builder:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
         self._state_folder = config.root / STATE_FOLDER
         outputs = list(dict.fromkeys(robot.output for robot in config.robots))
-        self._transactions = Transactions(config.root, self._state_folder, shown, outputs)
+        self._transactions = Transactions(config.root, self._state_folder, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
@@ -119,7 +119,7 @@ class _Builder:
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
-        files, store = PackageFiles(self._config, robot), Store(self._config.root, shown)
+        files, store = PackageFiles(self._config, robot), Store(self._config.root)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
         changes = [*shared, *store.ignoring(), *plan.writes]
         bases = store.bases(robot.name)
@@ -147,7 +147,7 @@ class _Builder:
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}
-        store = Store(self._config.root, shown)
+        store = Store(self._config.root)
         return not self._transactions.pending() and store.is_unchanged(plan.witness, targets)
 
     def _recover(self) -> None:
@@ -158,7 +158,7 @@ class _Builder:
             self._lock.acquire(waiting=self._wait)
             self.notes += self._transactions.recover(self._options.repair)
             return
-        with build_lock(self._config.root, self._state_folder, self._options.wait, shown) as lock:
+        with build_lock(self._config.root, self._state_folder, self._options.wait) as lock:
             lock.acquire(shared=True, waiting=self._wait)
         if self._transactions.pending():
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"

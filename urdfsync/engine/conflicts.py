@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.engine.package_files import encode
+from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
@@ -39,27 +41,19 @@ class Conflict(msgspec.Struct, frozen=True):
         return self.origin or self.path
 
 
-class ConflictFiles(NamedTuple):
-    """Paths of the versions of a file in conflict, below the robot's folder in `.urdfsync/conflicts`."""
+def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]]:
+    """Return the versions that are put aside of a file in conflict: `base`, `generated` and `merge`, if there are such.
 
-    generated: str
-    base: str | None
-    merge: str | None
-
-
-def conflict_files(conflict: Conflict, folder: str) -> ConflictFiles:
-    """Return where the versions of a file in conflict are put; `folder` is the package's.
-
-    A proposed merge with markers in it is no Modelica, so it gets the suffix `.txt`.
+    Each has its path below the robot's folder in `.urdfsync/conflicts`, and its text; `folder` is the package's. A
+    proposed merge with markers in it is no Modelica, so it gets the suffix `.txt`.
     """
-    path = PurePosixPath(conflict.path).relative_to(folder)
+    path, merge = PurePosixPath(conflict.path).relative_to(folder), conflict.merge
     stem, suffix = path.with_suffix("").as_posix(), path.suffix
-    merged = conflict.merge
-    return ConflictFiles(
-        generated=f"{stem}.generated{suffix}",
-        base=None if conflict.base is None else f"{stem}.base{suffix}",
-        merge=None if merged is None else f"{stem}.merge{'.txt' if merged.text is None else suffix}",
-    )
+    found = {} if conflict.base is None else {"base": (f"{stem}.base{suffix}", conflict.base)}
+    found["generated"] = f"{stem}.generated{suffix}", conflict.generated
+    if merge is not None:
+        found["merge"] = f"{stem}.merge{'.txt' if merge.text is None else suffix}", merge.proposal
+    return found
 
 
 def find_conflict(action: Action, base: str | None, mine: str, generated: str) -> Conflict:
@@ -82,33 +76,37 @@ def resolve(
     """
     found, texts = [], {}
     for action in actions:
-        conflict, choice = conflicts.get(action.path), choices.get(action.path)
-        merged = conflict.merge.text if conflict and conflict.merge else None
-        kind, base, text = action.kind, action.base, None
-        if kind is Kind.ORPHAN:
-            if choice is Choice.TAKE and action.mine is not None:
-                kind = Kind.DELETE
-            elif choice is Choice.KEEP:
-                kind = Kind.FORGET
-            else:
-                choice = None
-        elif kind is Kind.MOVE and conflict:
-            text = None if choice is Choice.TAKE else conflict.mine if choice is Choice.KEEP else merged
-            if text is None and choice is not Choice.TAKE:
-                kind = Kind.CONFLICT
-        elif kind not in CONFLICTS:
-            choice = action.choice
-        elif conflict and merged == conflict.mine:
-            kind, choice = Kind.INCLUDED, None
-        elif choice is Choice.KEEP:
-            kind, base = Kind.KEEP, action.generated
-        elif choice is Choice.TAKE and action.replaceable:
-            kind = Kind.UPDATE
-        elif merged is not None and (choice is Choice.MERGE or merging):
-            kind, text = Kind.MERGE, merged
-        if (kind, base, choice) != (action.kind, action.base, action.choice):
-            action = msgspec.structs.replace(action, kind=kind, base=base, choice=choice)
-        found.append(action)
+        kind, choice, text = _outcome(action, conflicts.get(action.path), choices.get(action.path), merging)
         if text is not None:
             texts[action.path] = text
+        if (kind, choice, text) != (action.kind, action.choice, None):
+            result = None if text is None else text_digest(encode(text))
+            base = action.generated if kind is Kind.KEEP else action.base
+            action = msgspec.structs.replace(action, kind=kind, base=base, choice=choice, result=result)
+        found.append(action)
     return tuple(found), texts
+
+
+def _outcome(
+    action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
+) -> tuple[Kind, Choice | None, str | None]:
+    """Return what happens to a file, the choice that counts, and the text that it gets if that is not the generated."""
+    merged = conflict.merge.text if conflict and conflict.merge else None
+    if action.kind is Kind.ORPHAN:
+        if choice is Choice.TAKE and action.mine is not None:
+            return Kind.DELETE, choice, None
+        return (Kind.FORGET, choice, None) if choice is Choice.KEEP else (Kind.ORPHAN, None, None)
+    if action.kind is Kind.MOVE and conflict:
+        text = None if choice is Choice.TAKE else conflict.mine if choice is Choice.KEEP else merged
+        return Kind.CONFLICT if text is None and choice is not Choice.TAKE else Kind.MOVE, choice, text
+    if action.kind not in CONFLICTS:
+        return action.kind, action.choice, None
+    if conflict and merged == conflict.mine:
+        return Kind.INCLUDED, None, None
+    if choice is Choice.KEEP:
+        return Kind.KEEP, choice, None
+    if choice is Choice.TAKE and action.replaceable:
+        return Kind.UPDATE, choice, None
+    if merged is not None and (choice is Choice.MERGE or merging):
+        return Kind.MERGE, choice, merged
+    return action.kind, choice, None

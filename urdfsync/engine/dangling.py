@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from urdfsync.config import library_folder, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Target
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Actions, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.modelica.files import ClassName, StoredClasses
@@ -31,11 +31,12 @@ _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 
 
 class DanglingNames:
-    """The names that a package loses with a build, and their uses."""
+    """The names that a package loses with a build which rewrites files of the last one, and their uses."""
 
     def __init__(self, generation: Generation) -> None:
         self._generation, self._inputs, self._files = generation, generation.inputs, generation.inputs.files
-        self._package = generation.inputs.robot.target.package
+        self._last = self._inputs.recorded or self._inputs.heading("")
+        self._package = self._inputs.robot.target.package
 
     @functools.cached_property
     def lost(self) -> dict[str, str]:
@@ -44,11 +45,9 @@ class DanglingNames:
         A name is lost if an old text declares it, and no new one, also not in the class around it. What a class
         inherits now is not lost.
         """
-        generation, inputs, recorded = self._generation, self._inputs, self._inputs.recorded
+        generation, inputs = self._generation, self._inputs
         before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
-        if recorded is None or not before:
-            return {}
-        states = {inputs.old_path(key): record.state for key, record in recorded.files.items()}
+        states = {inputs.old_path(key): record.state for key, record in self._last.files.items()}
         now = {
             path: generation.content(inputs.key(path)).decode()
             for path in generation.package.artifacts
@@ -59,20 +58,19 @@ class DanglingNames:
         names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
         known, renamed = {path[-1] for path in new}, self._renamed_identifiers()
         found = {name: _new_name(name, renamed, known) for name in sorted(names)}
-        if recorded.package != self._package:
-            found[recorded.package.rpartition(".")[2]] = self._package
+        if self._last.package != self._package:
+            found[self._last.package.rpartition(".")[2]] = self._package
         return found
 
     def _renamed_identifiers(self) -> dict[str, str]:
         """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
-        inputs, changes = self._inputs, self._generation.changes_since_complete
-        complete, recorded, found = inputs.last_complete, inputs.recorded, {}
-        if complete is None or recorded is None:
+        inputs, changes, old = self._inputs, self._generation.changes_since_complete, self._last.names
+        complete, found = inputs.last_complete, {}
+        if complete is None:
             return {}
-        old = recorded.names
         if complete is not inputs.last:
             try:
-                old = inputs.domain.names(complete.snapshot, Target(recorded.package, recorded.class_))
+                old = inputs.domain.names(complete.snapshot, Target(self._last.package, self._last.class_))
             except NO_MODEL:
                 return {}
         new = inputs.domain.names(self._generation.now.snapshot, inputs.robot.target)
@@ -93,70 +91,67 @@ class DanglingNames:
         node = self._generated.node((*self._package.split("."), *path[:-1]))
         return node is not None and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
-    def first_use(self, key: str, text: str) -> tuple[str, int] | None:
-        """Return the first lost name in a text for a file of the package, with its line; None if there is none."""
+    def first_use(self, key: str, text: str) -> Unresolved | None:
+        """Return the first use of a lost name in a text for a file of the package; None if there is none."""
         if self.lost.keys().isdisjoint(code_words(text)):
             return None
         uses = self._uses(self._class_name(key), text, Scopes(self._planned({key: text}, {})), self.lost)
-        return (uses[0].part, uses[0].line) if uses else None
+        return uses[0] if uses else None
 
-    def find(self, actions: Iterable[Action], written: Mapping[str, str]) -> list[Diagnostic]:
+    def find(self, actions: Actions, written: Mapping[str, str]) -> list[Diagnostic]:
         """Return warnings about texts of the user's that use names which the package loses with these actions.
 
         `written` are texts that files are about to get.
         """
-        inputs, files, recorded = self._inputs, self._files, self._inputs.recorded
-        if recorded is None:
-            return []
-        known = {action.path: action for action in actions}
-        edited = {path for path, action in known.items() if action.kind in _EDITED and not action.held}
-        own = files.classes(inputs.folder) - known.keys()
-        mine = {key: written.get(key) or files.any_text(key) for key in sorted(edited | own)}
-        around = files.users_files({inputs.folder, recorded.folder})
-        found = list(self._left_out(known, mine, around))
+        inputs, files = self._inputs, self._files
+        edited = [action for action in actions if action.kind in _EDITED and not action.held]
+        mine = inputs.users_classes(edited, actions, written)
+        around = files.users_files({inputs.folder, inputs.old_folder})
+        others = {file: content.decode(errors="replace") for file, content in around.items()}
+        found = self._left_out(actions, {**{files.path(key): text for key, text in mine.items()}, **others})
         if not self.lost or not (mine or around):
             return found
-        staying = {path: files.any_text(path) for path, action in known.items() if action.kind in _STAYING}
-        doubtful = self.lost.keys() - {_class_of(path) for path in staying}
+        staying = {action.path: files.any_text(action.path) for action in actions if action.kind in _STAYING}
+        doubtful = self.lost.keys() - set(map(class_of, staying))
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
         classes = [(self._class_name(key), files.path(key), text) for key, text in mine.items()]
         classes += [(name, Path(one.file), "") for name, one in sources.users.items()]
-        classes += [((), file, around[file].decode(errors="replace")) for file in sources.unread]
+        classes += [((), file, others[file]) for file in sources.unread]
         for name, file, text in classes:
-            uses = self._uses(name, text, scopes, doubtful)
-            for part in dict.fromkeys(use.part for use in uses):
-                first, *others = [use for use in uses if use.part == part]
+            uses: dict[str, list[Unresolved]] = {}
+            for use in self._uses(name, text, scopes, doubtful):
+                uses.setdefault(use.part, []).append(use)
+            for part, (first, *more) in uses.items():
                 message = f"`{first.name}` is used here, but the package has no `{part}` any more"
-                new, lines = self.lost[part], sorted({use.line for use in others} - {first.line})
+                new, lines = self.lost[part], sorted({use.line for use in more} - {first.line})
                 hint = f"it is `{new}` now" if new else "adapt your text to what the package is now"
                 if lines:
                     hint += f"; also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}"
                 found.append(Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first.line, hint=hint))
         return found
 
-    def _left_out(
-        self, actions: Mapping[str, Action], mine: Mapping[str, str], around: Mapping[Path, bytes]
-    ) -> Iterator[Diagnostic]:
-        """Yield files that an option leaves out now, where the user edited or uses them."""
-        inputs, recorded = self._inputs, self._inputs.recorded
-        target = Target(recorded.package, recorded.class_) if recorded else inputs.robot.target
-        texts = {self._files.path(key): text for key, text in mine.items()}
-        texts |= {file: content.decode(errors="replace") for file, content in around.items()}
+    def _left_out(self, actions: Actions, texts: Mapping[Path, str]) -> list[Diagnostic]:
+        """Return warnings about files that an option leaves out now, where the user edited or uses them."""
+        inputs, target, found = self._inputs, Target(self._last.package, self._last.class_), []
+        orphans = {action.path for action in actions if action.kind is Kind.ORPHAN}
         for path in sorted(self._generation.rewritten.keys() - self._generation.package.artifacts.keys()):
             option = inputs.domain.option_for(path, target, inputs.robot.options)
             if not option:
                 continue
-            hint = f"`{option}` in the configuration keeps it up to date"
-            action = actions.get(inputs.old_key(path))
-            if action and action.kind is Kind.ORPHAN:
-                place, message = shown(self._files.path(action.path)), "the file is no longer generated"
-                yield Diagnostic(Severity.WARNING, "left-out", message, place, hint=hint)
+            key, name, places = inputs.old_key(path), class_of(path), []
+            if key in orphans:
+                places.append((self._files.path(key), 0, "the file is no longer generated"))
             for file, text in texts.items():
-                line = next((token.line for token in lex(text)[0] if token.text == _class_of(path)), 0)
+                line = next((token.line for token in lex(text)[0] if token.text == name), 0) if name in text else 0
                 if line:
-                    message = f"`{_class_of(path)}` is used here, and no longer generated"
-                    yield Diagnostic(Severity.WARNING, "left-out", message, shown(file), line, hint=hint)
+                    places.append((file, line, f"`{name}` is used here, and no longer generated"))
+            hint = f"`{option}` in the configuration keeps it up to date"
+            found += [
+                Diagnostic(Severity.WARNING, "left-out", said, shown(file), line, hint=hint)
+                for file, line, said in places
+            ]
+        return found
 
     def _uses(self, name: ClassName, text: str, scopes: Scopes, doubtful: Collection[str]) -> list[Unresolved]:
         """Return the places in a stored class that use lost names and mean nothing, in their order.
@@ -176,12 +171,13 @@ class DanglingNames:
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
-        inputs, recorded, robot = self._inputs, self._inputs.recorded, self._inputs.robot
-        paths = {inputs.key(path): path for path in self._generation.package.artifacts}
-        files = recorded.files if recorded else {}
-        old = {key for key, record in files.items() if record.state is not RecordState.ORPHAN}
-        found = {path: self._generation.content(key) for key, path in paths.items()}
-        own = {key: self._files.any_text(key) for key in self._files.classes(inputs.folder) - old - paths.keys()}
+        inputs, last, robot = self._inputs, self._last, self._inputs.robot
+        generated = {inputs.key(path): path for path in self._generation.package.artifacts}
+        recorded = {key for key, record in last.files.items() if record.state is not RecordState.ORPHAN}
+        found = {path: self._generation.content(key) for key, path in generated.items()}
+        own = {
+            key: self._files.any_text(key) for key in self._files.classes(inputs.folder) - recorded - generated.keys()
+        }
         for key, text in {**own, **texts}.items():
             found[inputs.path(key)] = text.encode(errors="replace")
 
@@ -191,7 +187,7 @@ class DanglingNames:
             places = (robot.output / name, robot.output / f"{name}.mo")
             return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
 
-        gone = recorded.package if recorded and recorded.package != self._package else ""
+        gone = last.package if last.package != self._package else ""
         return StoredClasses(self._package, robot.folder, found, others, find, gone)
 
     def _class_name(self, key: str) -> ClassName:
@@ -199,7 +195,8 @@ class DanglingNames:
         return (*self._package.split("."), *folders, *([] if file == "package" else [file]))
 
 
-def _class_of(path: str) -> str:
+def class_of(path: str) -> str:
+    """Return the name of the class that a file is for, by its key or path."""
     return path.rpartition("/")[2].removesuffix(".mo")
 
 

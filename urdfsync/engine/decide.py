@@ -16,13 +16,11 @@ from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action,
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.package_files import encode
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
-from urdfsync.files import text_digest
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state.manifest import Manifest
-from urdfsync.state.record import FileRecord
+from urdfsync.state.record import FileRecord, RecordState
 
 if TYPE_CHECKING:
     from urdfsync.engine.dangling import DanglingNames
@@ -31,16 +29,6 @@ _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
-
-
-class DesiredPackage(msgspec.Struct, frozen=True):
-    """What a robot's package should have, by key."""
-
-    files: Mapping[str, DesiredFile]
-    orders: Mapping[str, tuple[str, ...]]
-    """urdfsync's lines of each `package.order`, the parent's included."""
-    moves: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """New and old key of files whose element was renamed, or whose package moved."""
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -63,58 +51,68 @@ class Decision(msgspec.Struct, frozen=True):
 
 
 @profiling.stage("deciding")
-def decide_package(
-    inputs: Inputs,
-    manifest: Manifest | None,
-    desired: DesiredPackage,
-    generation: Generation | None,
-    names: DanglingNames | None = None,
-) -> Decision:
-    """Decide on every file of a robot; without a generation, files that both sides changed stay in conflict.
+def decide_package(inputs: Inputs, generation: Generation | None, names: DanglingNames | None = None) -> Decision:
+    """Decide on every file of a robot; without a generation, what the last build recorded is wanted again.
 
     No merge may use `names` that the package loses. Raises OutputError for what can't be worked with, such as links or
     merge markers.
     """
-    files = inputs.files
-    recorded = inputs.own_files(manifest) if manifest else {}
-    owned = inputs.own_orders(manifest) if manifest else {}
-    roles = {key: record.role for key, record in recorded.items()} | {key: d.role for key, d in desired.files.items()}
+    files, moves = inputs.files, dict[str, str]()
+    desired_orders: Mapping[str, tuple[str, ...]]
+    if generation is None:
+        recorded = inputs.recorded or inputs.heading("")
+        desired, desired_orders = _recorded_files(recorded), recorded.orders
+    else:
+        desired, desired_orders = generation.desired_files(), generation.desired_orders()
+        recorded, moves = inputs.rebuilt_manifest(desired), generation.renamed_files()
+    records, owned = inputs.own(recorded)
+    roles = {key: record.role for key, record in records.items()} | {key: one.role for key, one in desired.items()}
     with profiling.stage("looking at files"):
         on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
-    actions = decide(recorded, desired.files, on_disk, desired.moves)
+    actions = decide(records, desired, on_disk, moves)
 
     conflicts: dict[str, Conflict] = {}
     merged: dict[str, str] = {}
     if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
-        choices = {**remembered_choices(recorded, actions), **inputs.options.choices}
         disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
         conflicts = {action.path: _conflict(generation, names, action) for action in disputed}
+        choices = {**remembered_choices(records, actions), **inputs.options.choices}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-        results = {path: text_digest(encode(text)) for path, text in merged.items()}
-        actions = tuple(msgspec.structs.replace(a, result=results[a.path]) if a.path in results else a for a in actions)
-    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, desired, merged))
+    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, moves, merged))
 
-    old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired.orders.keys())}
+    old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
     _refuse_markers(inputs, actions, old_orders)
     removable = _removable_lines(owned, actions)
-    order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired.orders)
-    numbers = set()  # records of which only numbers change
-    if generation is not None and any(action.kind in CONFLICTS for action in actions):
-        updated = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
-        new_texts = {path: merged.get(path) or generation.content(path).decode() for path in updated}
-        numbers = {path for path, text in new_texts.items() if numbers_only(files.text(path) or "", text)}
-    held = hold((*actions, *order_actions), numbers)
+    order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
+    held = hold((*actions, *order_actions), _renumbered(generation, actions, merged))
     waiting = {action.path for action in held if action.held}
-    orders = {key: (owned if key in waiting else desired.orders).get(key, ()) for key in old_orders}
-    in_conflict = {action.path for action in held if action.kind in CONFLICTS}
+    orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
     return Decision(
         Actions(held),
         {**texts, **merged},
         records_after(held[: len(actions)]),
         {key: names for key, names in orders.items() if names},
-        tuple(conflict for path, conflict in sorted(conflicts.items()) if path in in_conflict),
+        tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
+
+
+def _recorded_files(recorded: Manifest) -> dict[str, DesiredFile]:
+    """Return the files that the last build generated."""
+    return {
+        key: DesiredFile(record.role, record.owner, record.base)
+        for key, record in recorded.files.items()
+        if record.base is not None and record.state is not RecordState.ORPHAN
+    }
+
+
+def _renumbered(generation: Generation | None, actions: Sequence[Action], merged: Mapping[str, str]) -> set[str]:
+    """Return the records of which only numbers change; none if there is no conflict, since nothing waits then."""
+    if generation is None or not any(action.kind in CONFLICTS for action in actions):
+        return set()
+    updated = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
+    texts = {path: merged.get(path) or generation.content(path).decode() for path in updated}
+    return {path for path, text in texts.items() if numbers_only(generation.inputs.files.text(path) or "", text)}
 
 
 def _conflict(generation: Generation, names: DanglingNames | None, action: Action) -> Conflict:
@@ -132,30 +130,29 @@ def _conflict(generation: Generation, names: DanglingNames | None, action: Actio
     use = names.first_use(action.path, merged) if names and merged is not None and merged != mine else None
     if use is None or conflict.merge is None:
         return conflict
-    reason = f"the merge mentions `{use[0]}`, which the package has no more (line {use[1]})"
+    reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
     return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
 
 
 def _mentioned_records(
-    inputs: Inputs, actions: Sequence[Action], desired: DesiredPackage, merged: Mapping[str, str]
+    inputs: Inputs, actions: Sequence[Action], moves: Mapping[str, str], merged: Mapping[str, str]
 ) -> frozenset[str]:
     """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
 
     The record of a renamed element is not needed: the user is told the new name.
     """
-    files, moved = inputs.files, set(desired.moves.values())
+    files, moved = inputs.files, set(moves.values())
     leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
     if not leaving:
         return frozenset()
-    from urdfsync.engine.dangling import code_words
+    from urdfsync.engine.dangling import class_of, code_words
 
-    edited = [action.path for action in actions if action.kind in USERS]
-    own = files.classes(inputs.folder) - {action.path for action in actions}
-    texts = [merged.get(key) or files.any_text(key) for key in (*edited, *sorted(own))]
+    edited = (action for action in actions if action.kind in USERS)
+    texts = list(inputs.users_classes(edited, actions, merged).values())
     around = files.users_files({inputs.folder, inputs.old_folder})
     texts += [content.decode(errors="replace") for content in around.values()]
     used = {word for text in texts for word in code_words(text)}
-    return frozenset(path for path in leaving if path.rpartition("/")[2].removesuffix(".mo") in used)
+    return frozenset(path for path in leaving if class_of(path) in used)
 
 
 def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:

@@ -40,23 +40,23 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if inputs.old_folder == inputs.folder or any(action.held for action in actions):
         return
     message = f"the package moved from {shown(old)} to {shown(new)}"
-    place = shown(inputs.config.file), inputs.robot.lines[""]
     if not files.is_inside(f"{inputs.old_folder}/package.mo"):
-        message += ", and the old folder is none of urdfsync's any more"
-        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint="delete it by hand")
-        return
-    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
-    below = sorted(path for path in old.rglob("*") if not path.is_dir())
-    rest = [path for path in below if path not in gone and new not in path.parents]
-    if rest and inputs.old_folder not in inputs.own_folders:
-        message += "; the old folder was not built in this checkout, so it stays as it is"
-        hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
-        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
-    elif rest:
-        named = [shown(path) for path in rest[:_FEW]] + ([f"{len(rest) - _FEW} more"] if len(rest) > _FEW else [])
-        message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
-        hint = "take over what you need, then delete the old folder"
-        yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+        message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
+    else:
+        gone = {files.path(action.path) for action in actions if action.kind in DELETES}
+        below = sorted(path for path in old.rglob("*") if not path.is_dir())
+        rest = [shown(path) for path in below if path not in gone and new not in path.parents]
+        if not rest:
+            return
+        if inputs.old_folder not in inputs.own_folders:
+            message += "; the old folder was not built in this checkout, so it stays as it is"
+            hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
+        else:
+            named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
+            message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
+            hint = "take over what you need, then delete the old folder"
+    place = shown(inputs.config.file), inputs.robot.lines[""]
+    yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
 
 
 def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:
@@ -99,7 +99,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
 def orphaned_state(config: Config) -> list[Diagnostic]:
     """A note if there is state of robots that are in the configuration no more."""
-    store = Store(config.root, shown)
+    store = Store(config.root)
     built = set(store.names())
     heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
     found = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]

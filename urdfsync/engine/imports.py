@@ -12,10 +12,10 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.dependencies import file_type, is_file, read_file
+from urdfsync.dependencies import file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
-from urdfsync.engine import ros_packages as packages
+from urdfsync.engine import ros_packages
 from urdfsync.files import digest
 from urdfsync.state.manifest import DependencyRecord
 from urdfsync.state.modelfile import ConversionFacts
@@ -41,8 +41,8 @@ class Recorded(msgspec.Struct, frozen=True):
     facts: Mapping[str, ConversionFacts]
     copy: Callable[[str], bytes | None]
     """Content of an imported file, by its target."""
-    base: Callable[[str], str | None]
-    """Hash of what was written last, by target."""
+    bases: Mapping[str, str | None]
+    """Hashes of what was written last, by target."""
     moved: bool = False
     """Whether the package has another folder now."""
 
@@ -56,6 +56,14 @@ class Imported(msgspec.Struct):
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
     hashes_only: set[str] = msgspec.field(default_factory=set)
     """Targets of which nobody has the bytes that should be there: the copy has others, and the source is gone."""
+
+    def add(self, dependency: Dependency, entry: Import, content: bytes | None = None) -> None:
+        """Add an import. `content` is what is to be written; None if the copy in the package serves."""
+        self.imports[dependency.key] = entry
+        hashes = entry.source_hash, entry.target_hash
+        self.records[dependency.key] = DependencyRecord(dependency.uri, entry.target, *hashes, entry.converter)
+        if content is not None:
+            self.contents[entry.target] = content
 
 
 def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
@@ -105,58 +113,28 @@ def bring_in(
     """
     result = Imported()
     known: list[Dependency] = []
-    missing: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
+    failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
-        key, target, noun = dependency.key, dependency.target, dependency.noun
-        place, name = (source, dependency.line), f"{noun} `{dependency.uri}`"
-        record, facts = recorded.records.get(key), recorded.facts.get(key)
-        found = _find(dependency)
-        if not isinstance(found, tuple):
-            trouble = _not_found([dependency], *place)
-            if found is not None:
-                message, hint = f"{name} can't be read: {found.strerror}", f"put a {noun} in its place that can be"
-                trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, *place, hint=hint)
-            trouble = _keep(dependency, recorded, result, trouble)
-            if record and record.target_hash is None and record.unreadable is None and not again:
-                known.append(dependency)
-            else:  # one warning for all files of a package, whose hint is the same
-                group = (trouble.code, trouble.hint, noun, key if found else "")
-                missing.setdefault(group, []).append((dependency, trouble))
-            continue
-        path, content = found
-        sha256 = digest(content)
-        if dependency.guessed:
+        key, noun, record = dependency.key, dependency.noun, recorded.records.get(dependency.key)
+        trouble, unreadable = _import(domain, dependency, recorded, source, again, result)
+        if dependency.guessed and (unreadable or trouble is None):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
-        made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
-        if record and facts and not again and made_from == {(sha256, domain.converter)}:
-            copy = recorded.copy(record.target)
-            if copy is not None and digest(copy) == record.target_hash:
-                if recorded.moved or record.target != target:
-                    result.contents[target] = copy
-                _add(dependency, Import(target, sha256, digest(copy), domain.converter, facts.facts), result)
-                continue
-        if content.startswith(_POINTER):
-            message, hint = f"{name} can't be read: it is a Git LFS pointer", "get the file itself with `git lfs pull`"
-            trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, *place, hint=hint)
-        else:
-            try:
-                conversion = domain.convert(dependency, path, content)
-            except SourceError as error:
-                found_ = error.diagnostics[0]
-                trouble = Diagnostic(Severity.WARNING, f"{noun}-unreadable", found_.message, *place, hint=found_.hint)
-            else:
-                result.contents[target] = conversion.content
-                hashes = sha256, digest(conversion.content)
-                _add(dependency, Import(target, *hashes, domain.converter, conversion.facts), result)
-                continue
-        result.diagnostics.append(_keep(dependency, recorded, result, trouble))
-        # remembered, so that it is tried again only if it changes
-        unreadable = {"unreadable": sha256, "unreadable_by": domain.converter}
-        result.records[key] = msgspec.structs.replace(result.records[key], **unreadable)
-    for troubles in missing.values():
+        if trouble is None:
+            continue
+        trouble = _keep_copy(dependency, recorded, result, trouble)
+        if unreadable:  # remembered, so that it is tried again only if it changes
+            facts = {"unreadable": unreadable, "unreadable_by": domain.converter}
+            result.records[key] = msgspec.structs.replace(result.records[key], **facts)
+        elif record and record.target_hash is None and record.unreadable is None and not again:
+            known.append(dependency)
+            continue
+        # one warning for all files of a package, whose hint is the same
+        own = key if trouble.code.startswith(f"{noun}-unreadable") else ""
+        failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
+    for troubles in failed.values():
         first = min((trouble for _, trouble in troubles), key=lambda trouble: trouble.line)
         if len(troubles) > 1:
             message = _not_found([dependency for dependency, _ in troubles], source).message
@@ -171,6 +149,43 @@ def bring_in(
         result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
     result.diagnostics += reminder(known, result.records, source)
     return result
+
+
+def _import(
+    domain: Domain, dependency: Dependency, recorded: Recorded, source: str, again: bool, result: Imported
+) -> tuple[Diagnostic | None, str]:
+    """Add one import to the result; else return what is wrong, and the hash of a file that is there but unreadable."""
+    target, noun, found = dependency.target, dependency.noun, _find(dependency)
+
+    def unreadable(message: str, hint: str) -> Diagnostic:
+        return Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, source, dependency.line, hint=hint)
+
+    if found is None:
+        return _not_found([dependency], source, dependency.line), ""
+    if isinstance(found, OSError):
+        message = f"{_named([dependency])} can't be read: {found.strerror}"
+        return unreadable(message, f"put a {noun} in its place that can be"), ""
+    path, content = found
+    sha256 = digest(content)
+    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
+    made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
+    if record and facts and not again and made_from == {(sha256, domain.converter)}:
+        copy = recorded.copy(record.target)
+        if copy is not None and digest(copy) == record.target_hash:
+            moves = recorded.moved or record.target != target
+            entry = Import(target, sha256, record.target_hash, domain.converter, facts.facts)
+            result.add(dependency, entry, copy if moves else None)
+            return None, ""
+    if content.startswith(_POINTER):
+        message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
+        return unreadable(message, "get the file itself with `git lfs pull`"), sha256
+    try:
+        conversion = domain.convert(dependency, path, content)
+    except SourceError as error:
+        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), sha256
+    entry = Import(target, sha256, digest(conversion.content), domain.converter, conversion.facts)
+    result.add(dependency, entry, conversion.content)
+    return None, ""
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
@@ -194,8 +209,8 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", message, source, line, hint=hint)
 
 
-def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
-    """Without the source, the copy that an earlier build made serves; without a copy there is nothing.
+def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
+    """Let the copy serve that an earlier build made, if there is one.
 
     `trouble` says what is wrong with the source. Returns it with what follows from it.
     """
@@ -209,21 +224,17 @@ def _keep(dependency: Dependency, recorded: Recorded, result: Imported, trouble:
         hint = "restore `.urdfsync/robots` from version control, or the file itself"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     copied = digest(copy)
-    written = copied if copied == recorded.base(record.target) else record.target_hash or copied
+    written = copied if copied == recorded.bases.get(record.target) else record.target_hash or copied
     converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
-    if recorded.moved or record.target != dependency.target:
-        result.contents[dependency.target], written = copy, copied
-    if written != copied:
+    moves = recorded.moved or record.target != dependency.target
+    if moves:
+        written = copied
+    elif written != copied:
         result.hashes_only.add(dependency.target)
-    _add(dependency, Import(dependency.target, record.source_hash, written, converter, facts.facts), result)
+    entry = Import(dependency.target, record.source_hash, written, converter, facts.facts)
+    result.add(dependency, entry, copy if moves else None)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
-
-
-def _add(dependency: Dependency, entry: Import, result: Imported) -> None:
-    result.imports[dependency.key] = entry
-    hashes = entry.source_hash, entry.target_hash
-    result.records[dependency.key] = DependencyRecord(dependency.uri, entry.target, *hashes, entry.converter)
 
 
 def find_dependencies(
@@ -236,11 +247,11 @@ def find_dependencies(
     """
     found = domain.dependencies(snapshot, lookup, options, lines)
     if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in found):
-        lookup = msgspec.structs.replace(lookup, libraries=packages.libraries(os.environ))
+        lookup = msgspec.structs.replace(lookup, libraries=ros_packages.libraries(os.environ))
         found = domain.dependencies(snapshot, lookup, options, lines)
     if all(map(_is_found, found)):
         return found
-    lookup = msgspec.structs.replace(lookup, packages=packages.find(lookup.package_paths, lookup.source))
+    lookup = msgspec.structs.replace(lookup, packages=ros_packages.find(lookup.package_paths, lookup.source))
     found = domain.dependencies(snapshot, lookup, options, lines)
     if all(map(_is_found, found)):
         return found
@@ -249,7 +260,7 @@ def find_dependencies(
 
 
 def _is_found(dependency: Dependency) -> bool:
-    return any(map(_is_file, dependency.candidates))
+    return any(map(ros_packages.is_visible_file, dependency.candidates))
 
 
 def _guessed(dependency: Dependency) -> Dependency:
@@ -269,11 +280,3 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
         except OSError as error:
             trouble = trouble or error
     return trouble
-
-
-def _is_file(path: Path) -> bool:
-    """Whether a file is there, as far as that can be told: a folder above it may not let us in."""
-    try:
-        return is_file(path)
-    except OSError:
-        return False

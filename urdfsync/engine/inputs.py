@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -14,9 +14,11 @@ from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
+from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
+from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import digest, text_digest
 from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
@@ -82,21 +84,13 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """Whether a build in this checkout noted the package's folder."""
         return self.folder in self.store.written_folders(self.robot.name)
 
-    def own_files(self, recorded: Manifest) -> dict[str, FileRecord]:
-        """Return the recorded files that a build may delete and move, by key."""
-        inside = tuple(f"{folder}/" for folder in self.own_folders)
-        is_inside = self.files.is_inside
-        return {key: record for key, record in recorded.files.items() if key.startswith(inside) and is_inside(key)}
-
-    def own_orders(self, recorded: Manifest) -> dict[str, tuple[str, ...]]:
-        """Return the recorded lines of `package.order` files that a build may take out, by key."""
-        inside = tuple(f"{folder}/" for folder in self.own_folders)
-        is_around = recorded.folder in self.own_folders
-        return {
-            key: names
-            for key, names in recorded.orders.items()
-            if (is_around or key.startswith(inside)) and self.files.is_inside(key)
-        }
+    def own(self, recorded: Manifest) -> tuple[dict[str, FileRecord], dict[str, tuple[str, ...]]]:
+        """Return the recorded files that a build may delete and move, and the lines that it may take out of orders."""
+        inside, is_inside = tuple(f"{folder}/" for folder in self.own_folders), self.files.is_inside
+        around = "" if recorded.folder in self.own_folders else inside  # the parent's `package.order`, too
+        files = {key: one for key, one in recorded.files.items() if key.startswith(inside) and is_inside(key)}
+        orders = {key: names for key, names in recorded.orders.items() if key.startswith(around) and is_inside(key)}
+        return files, orders
 
     def key(self, path: str) -> str:
         """Return the key of a file by its path below the package."""
@@ -113,6 +107,17 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     def old_path(self, key: str) -> str:
         """Return the path of a file of the last build below the package as it was, by its key."""
         return key.removeprefix(f"{self.old_folder}/")
+
+    def users_classes(
+        self, edited: Iterable[Action], actions: Iterable[Action], written: Mapping[str, str]
+    ) -> dict[str, str]:
+        """Return the texts of edited files, and of the user's own ones in the package, by key.
+
+        `actions` are those on all files of urdfsync's; `written` are texts that files are about to get.
+        """
+        own = self.files.classes(self.folder) - {action.path for action in actions}
+        keys = {action.path for action in edited} | own
+        return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
 
     @cached_property
     def bases(self) -> BaseStore:
@@ -188,18 +193,13 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     def recorded_imports(self) -> imports.Recorded:
         """Return the imports of the last build, and how their copies in the package are read."""
-        recorded, model = self.recorded, self.state.model if self.state else None
-        files = recorded.files if recorded else {}
-
-        def base(target: str) -> str | None:
-            record = files.get(self.old_key(target))
-            return record.base if record else None
-
+        recorded, model = self.recorded or self.heading(""), self.state.model if self.state else None
+        imported = (key for key, record in recorded.files.items() if record.role is Role.IMPORT)
         return imports.Recorded(
-            records=recorded.dependencies if recorded else {},
+            records=recorded.dependencies,
             facts=model.imports if model else {},
             copy=lambda target: self.files.read(self.old_key(target)),
-            base=base,
+            bases={self.old_path(key): recorded.files[key].base for key in imported},
             moved=self.old_folder != self.folder,
         )
 
@@ -214,13 +214,14 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         names = robot.options.__struct_fields__
         return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
 
-    def rebuilt_manifest(self, generated: Mapping[str, str]) -> Manifest | None:
-        """Return the manifest of the last build, rebuilt with `--repair`; `generated` has hashes of files by key."""
+    def rebuilt_manifest(self, desired: Mapping[str, DesiredFile]) -> Manifest:
+        """Return the manifest of the last build, rebuilt with `--repair`; an empty one if there was none."""
         if self.recovered is None:
-            return self.recorded
+            return self.recorded or self.heading("")
+        generated = {key: file.hash for key, file in desired.items()}
         roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
-        mine = {key: self.files.on_disk(key, role).hash for key, role in roles.items()}
-        return repair.rebuilt(self.recovered, mine, generated)
+        mine = {key: self.files.on_disk(key, role) for key, role in roles.items()}
+        return repair.rebuilt(self.recovered, mine, generated) or self.heading("")
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
@@ -229,7 +230,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     cache = options.cache
     files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
     around = parents.check(config, robot, domain.uses(robot.options))
-    store, folder = Store(config.root, shown), files.key(robot.folder)
+    store, folder = Store(config.root), files.key(robot.folder)
     state, recovered = _load(store, files, robot.name, options)
     former = None
     if state is None:  # was it built into this folder by another name, which is no longer configured?
@@ -262,7 +263,7 @@ def _load(
             raise
     manifest_file, model_file = map(shown, store.paths(robot))
     recovered = repair.recover(*store.texts(robot), manifest_file, model_file)
-    mine = {key: files.on_disk(key, role).hash for key, role in recovered.roles.items()}
+    mine = {key: files.on_disk(key, role) for key, role in recovered.roles.items()}
     recorded = repair.rebuilt(recovered, mine, {})
     if recorded is None:
         return None, recovered

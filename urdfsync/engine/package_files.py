@@ -12,7 +12,7 @@ from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.engine.rules import OnDisk
+from urdfsync.engine.rules import CLASS_FOLDER
 from urdfsync.files import Tree, digest, placed, text_digest
 
 
@@ -57,21 +57,16 @@ class PackageFiles:
 
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        return self.read_path(self.path(key))
-
-    def read_path(self, path: Path) -> bytes | None:
-        """Return a file's content by its absolute path, see `read`."""
-        tree = self._tree(str(path.parent))
+        path = self._place(key)
+        tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
         """Return a file as text; bytes that are not UTF-8 survive `encode`."""
         content = self.read(key)
-        if content is None:
-            self.states.setdefault(self._place(key), None)
-            return None
-        self.states.setdefault(self._place(key), state_of(dependencies.NO_STAT, content))
-        return content.decode(errors="surrogateescape")
+        state = None if content is None else state_of(dependencies.NO_STAT, content)
+        self.states.setdefault(self._place(key), state)
+        return None if content is None else content.decode(errors="surrogateescape")
 
     def any_text(self, key: str) -> str:
         """Return the text of a file that is only searched: empty if it can't be read, since it may be the user's."""
@@ -80,8 +75,9 @@ class PackageFiles:
         except OutputError:
             return ""
 
-    def state(self, path: str) -> FileState | None:
-        """Return the state of the file at an absolute path, None if there is none. Raises OutputError as `read`."""
+    def state(self, key: str) -> FileState | None:
+        """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
+        path = self._place(key)
         if path in self.states:
             return self.states[path]
         folder = path.rpartition(os.sep)[0]
@@ -94,22 +90,12 @@ class PackageFiles:
         self.states[path] = state
         return state
 
-    def on_disk(self, key: str, role: Role) -> OnDisk:
-        """Return what is at a path: imported files count by their bytes, others by their text."""
-        state = self.state(self._place(key))
+    def on_disk(self, key: str, role: Role) -> str | None:
+        """Return the hash of a file: of an imported one of its bytes, of others of their text; or CLASS_FOLDER."""
+        state = self.state(key)
         if state is not None:
-            return OnDisk(state.sha256 if role is Role.IMPORT else state.text_sha256)
-        return OnDisk(is_folder=self._is_class_folder(key))
-
-    def old_hash(self, key: str) -> str | None:
-        """Return the SHA-256 (hex) of the bytes that were first seen at a path; None if that was no file."""
-        state = self.state(self._place(key))
-        return state.sha256 if state else None
-
-    def has_carriage_returns(self, key: str) -> bool:
-        """Return whether the file that was first seen at a path has carriage returns."""
-        state = self.state(self._place(key))
-        return state is not None and state.sha256 != state.text_sha256
+            return state.sha256 if role is Role.IMPORT else state.text_sha256
+        return CLASS_FOLDER if self._is_class_folder(key) else None
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""

@@ -37,7 +37,7 @@ class SharedFile(msgspec.Struct, frozen=True):
 
     def change(self, files: PackageFiles) -> Change | None:
         """Return what is left to do, from what is on disk now; None if nothing is."""
-        found = files.read_path(self.path)
+        found = files.read(files.key(self.path))
         if self.content is not None:
             return Change(self.path, self.content, None) if found is None else None
         old = None if found is None else found.decode(errors="surrogateescape")
@@ -62,61 +62,77 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
 
     Raises OutputError, at the line of the configuration that says so, if the package can't be there.
     """
-
-    def refuse(code: str, message: str, hint: str, key: str = "package") -> OutputError:
-        place, message = (shown(config.file), robot.lines.get(key, robot.lines[""])), f"robot `{robot.name}`: {message}"
-        return OutputError(Diagnostic(Severity.ERROR, code, message, *place, hint=hint))
-
-    output, parts = robot.output, robot.target.package.split(".")
-    if is_folder(output):
-        if is_file(output / "package.mo"):
-            message = f"the output folder {shown(output)} is a Modelica package itself"
-            hint = "name the folder above it as output, and the package with its full name"
-            raise refuse("output-is-package", message, hint, "output")
-    else:
-        existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
-        if not existing.is_dir():
-            message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
-            raise refuse("output-is-file", message, "name another folder", "output")
-        if config.root not in output.parents:
-            hint = "create it: urdfsync makes folders only beside or below its configuration"
-            raise refuse("no-output", f"the output folder {shown(output)} does not exist", hint, "output")
+    _check_output(config, robot)
+    output, parts, missing = robot.output, robot.target.package.split("."), list[Path]()
     if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # tools would not find the library itself
         message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
-        raise refuse("modelica-name", message, f"choose another top-level package than `{LIBRARY}`")
-    shared: list[SharedFile] = []
-
-    def is_ordered(package: Path) -> bool:
-        """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
-        is_made = any(one.path == package / "package.mo" for one in shared)
-        return is_made or is_file(package / "package.order")
-
-    for depth, last in enumerate(parts, start=1):
+        raise _refusal(config, robot, "modelica-name", message, f"choose another top-level package than `{LIBRARY}`")
+    for depth in range(1, len(parts) + 1):
         folder, name = output.joinpath(*parts[:depth]), ".".join(parts[:depth])
         single = folder.with_name(f"{folder.name}.mo")
         if is_file(single):
             message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
-            raise refuse("package-is-file", message, "convert it, or move it")
-        if depth == len(parts) or is_file(folder / "package.mo"):
-            continue
-        if not robot.create_parents:
-            message = f"the parent package `{name}` does not exist in {shown(output)}"
-            raise refuse("no-parent", message, "create it, or set `create_parents = true`")
-        annotation = f"  annotation ({_uses(uses)});\n" if depth == 1 else ""
-        text = f'{within(name)}\npackage {last} "{last}"\n{annotation}end {last};\n'
-        shared.append(SharedFile(folder / "package.mo", text.encode()))
-        if depth > 1 and is_ordered(folder.parent):
-            shared.append(SharedFile(folder.parent / "package.order", None, (last,)))
+            raise _refusal(config, robot, "package-is-file", message, "convert it, or move it")
+        if depth < len(parts) and not is_file(folder / "package.mo"):
+            missing.append(folder)
+            if not robot.create_parents:
+                message = f"the parent package `{name}` does not exist in {shown(output)}"
+                hint = "create it, or set `create_parents = true`"
+                raise _refusal(config, robot, "no-parent", message, hint)
 
-    top, found = output / parts[0] / "package.mo", tuple[Diagnostic, ...]()
-    if len(parts) > 1 and is_file(top):  # does the user's top-level package say which libraries it needs now?
-        text = read_file(top).decode(errors="replace")
-        missing = [use for use in uses if use[0] != parts[0] and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
-        if missing:
-            message = f"package `{parts[0]}` does not say that it needs {' and '.join(name for name, _ in missing)}"
-            hint = f"add `{_uses(missing)}` to its annotation"
-            found = (Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint),)
+    def is_ordered(package: Path) -> bool:
+        """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
+        return package in missing or is_file(package / "package.order")
+
+    shared = []
+    for folder in missing:
+        annotation = f"  annotation ({_uses(uses)});\n" if folder.parent == output else ""
+        clause = within(".".join(folder.relative_to(output).parts))
+        text = f'{clause}\npackage {folder.name} "{folder.name}"\n{annotation}end {folder.name};\n'
+        shared.append(SharedFile(folder / "package.mo", text.encode()))
+        if folder.parent != output and is_ordered(folder.parent):
+            shared.append(SharedFile(folder.parent / "package.order", None, (folder.name,)))
+    found = _find_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
     return Parents(tuple(shared), is_ordered(robot.folder.parent), found)
+
+
+def _check_output(config: Config, robot: RobotConfig) -> None:
+    """Refuse an output folder that can't be made, or is a package. Raises OutputError."""
+    output = robot.output
+    if is_folder(output):
+        if is_file(output / "package.mo"):
+            message = f"the output folder {shown(output)} is a Modelica package itself"
+            hint = "name the folder above it as output, and the package with its full name"
+            raise _refusal(config, robot, "output-is-package", message, hint, "output")
+        return
+    existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
+    if not existing.is_dir():
+        message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
+        raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
+    if config.root not in output.parents:
+        message = f"the output folder {shown(output)} does not exist"
+        hint = "create it: urdfsync makes folders only beside or below its configuration"
+        raise _refusal(config, robot, "no-output", message, hint, "output")
+
+
+def _refusal(
+    config: Config, robot: RobotConfig, code: str, message: str, hint: str, key: str = "package"
+) -> OutputError:
+    line, message = robot.lines.get(key, robot.lines[""]), f"robot `{robot.name}`: {message}"
+    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(config.file), line, hint=hint))
+
+
+def _find_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
+    """Return a warning if the user's top-level `package.mo` does not say which libraries it needs now."""
+    name, text = top.parent.name, read_file(top).decode(errors="replace") if is_file(top) else None
+    if text is None:
+        return ()
+    missing = [use for use in uses if use[0] != name and not re.search(rf"\b{use[0]}\s*\(\s*version", text)]
+    if not missing:
+        return ()
+    message = f"package `{name}` does not say that it needs {' and '.join(library for library, _ in missing)}"
+    hint = f"add `{_uses(missing)}` to its annotation"
+    return (Diagnostic(Severity.WARNING, "no-uses", message, shown(top), hint=hint),)
 
 
 def _uses(uses: Sequence[tuple[str, str]]) -> str:
@@ -155,13 +171,11 @@ def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] =
         ours = iter(ordered)
         lines = [next(ours) if _order_name(line) in kept else line for line in lines]
     for index, name in enumerate(names):
-        if name in kept:
-            continue
-        places = {_order_name(line): place for place, line in enumerate(lines)}
-        before = next((places[other] + 1 for other in reversed(names[:index]) if other in places), None)
-        after = next((places[other] for other in names[index + 1 :] if other in places), None)
-        last = max((place + 1 for other, place in places.items() if other), default=0)
-        lines.insert(before if before is not None else after if after is not None else last, name)
+        if name not in kept:
+            places = {_order_name(line): place for place, line in enumerate(lines)}
+            last = max((place + 1 for other, place in places.items() if other), default=0)
+            first = next((places[other] for other in names if other in places), last)
+            lines.insert(places[names[index - 1]] + 1 if index else first, name)
     if lines == found:
         return text
     ending = "\r\n" if "\r\n" in text else "\n"

@@ -10,13 +10,12 @@ import msgspec
 from urdfsync import dependencies, profiling, uptodate
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.engine import imports
-from urdfsync.engine.decide import DesiredPackage, decide_package
+from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import NO_MODEL, Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import FileState
-from urdfsync.engine.rules import DesiredFile
 from urdfsync.engine.stage import Plan, stage
 from urdfsync.state import manifest
 from urdfsync.state.record import RecordState
@@ -30,7 +29,15 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         plan = _plan_if_current(inputs)
     if plan is None:
         dependencies.mark_incomplete()  # what is read from here on is not recorded as a dependency of the answer
-        plan = _plan_generation(inputs)
+        generation = generate_robot(inputs)
+        names = None
+        if generation.rewritten:  # else no name goes; the parser takes a tenth of a small build to load
+            from urdfsync.engine.dangling import DanglingNames
+
+            names = DanglingNames(generation)
+        decision = decide_package(inputs, generation, names)
+        lost = names.find(decision.actions, decision.texts) if names else []
+        plan = stage(generation, decision, find_all(generation, decision.actions, lost))
     _note_states(inputs, plan, begin)
     return plan
 
@@ -68,12 +75,7 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
         return None  # the recorded model is not the domain's
     if not imports.unchanged(found, recorded.dependencies, inputs.domain.converter):
         return None
-    as_recorded = {
-        key: DesiredFile(record.role, record.owner, record.base)
-        for key, record in recorded.files.items()
-        if record.base is not None and record.state is not RecordState.ORPHAN
-    }
-    decision = decide_package(inputs, recorded, DesiredPackage(as_recorded, recorded.orders), None)
+    decision = decide_package(inputs, None)
     if decision.has_work or not {inputs.key(path) for path in state.model.bases} <= decision.files.keys():
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
@@ -83,26 +85,6 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
     left_out = imports.reminder(found, recorded.dependencies, shown(inputs.robot.source))
     plan = Plan(decision.actions, store.witness(), (), decision.shared, left_out, writes=tuple(writes))
     return plan if options.dry else msgspec.structs.replace(plan, is_noted=inputs.is_noted)
-
-
-def _plan_generation(inputs: Inputs) -> Plan:
-    generation = generate_robot(inputs)
-    names = None
-    if generation.rewritten:  # else no name goes; the parser, which this needs, takes a tenth of a small build to load
-        from urdfsync.engine.dangling import DanglingNames
-
-        names = DanglingNames(generation)
-    moves = generation.renamed_files()
-    desired = DesiredPackage(generation.desired_files(), generation.desired_orders(), moves)
-    hashes = {key: file.hash for key, file in desired.files.items()} if inputs.recovered else {}
-    decision = decide_package(inputs, inputs.rebuilt_manifest(hashes), desired, generation, names)
-    lost = names.find(decision.actions, decision.texts) if names else []
-    found = find_all(generation, decision.actions, lost)
-    changes = generation.changes_since_complete
-    if changes and not (changes.changes or changes.generator):
-        changes = None
-    plan = Plan(decision.actions, inputs.store.witness(), decision.conflicts, decision.shared, found, changes)
-    return plan if inputs.options.dry and not inputs.options.compares_state else stage(plan, generation, decision)
 
 
 def _note_states(inputs: Inputs, plan: Plan, begin: tuple[int, int]) -> None:

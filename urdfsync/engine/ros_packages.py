@@ -45,7 +45,7 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
         except OSError:  # it is not there, or can't be read: that may change
             continue
         for name in sorted(names, key=_precedence):
-            if _is_file(folder / name / "package.mo"):
+            if is_visible_file(folder / name / "package.mo"):
                 found.setdefault(name.partition(" ")[0], folder / name)
     return found
 
@@ -56,11 +56,12 @@ def _precedence(name: str) -> tuple[bool, list[int], str]:
     return bool(version), [-int(number) for number in re.findall("[0-9]+", version)], name
 
 
-def _is_file(path: Path) -> bool:
+def is_visible_file(path: Path) -> bool:
+    """Return whether a file is there, as far as that can be told: a folder above it may not let us in."""
     try:
         return is_file(path)
     except OSError:
-        return False  # a folder above it may not let us in
+        return False
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:

@@ -26,29 +26,23 @@ class DesiredFile(msgspec.Struct, frozen=True):
     """Whether its content is available; otherwise only the hash is known."""
 
 
-class OnDisk(msgspec.Struct, frozen=True):
-    """What is on disk at a path: the hash of a file, or None; then whether the class is a folder (`X/package.mo`)."""
-
-    hash: str | None = None
-    is_folder: bool = False
+CLASS_FOLDER = "folder"
+"""Stands for the hash of a missing file whose class the user has made a folder of (`X/package.mo`)."""
 
 
-NO_FILE = OnDisk()
-
-
-def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
+def decide_file(base: str | None, mine: str | None, generated: str | None) -> Kind:
     """Decide on one file by the table of the design; a hash is None where there is no such text."""
     if generated is None:
-        if base is None or mine == NO_FILE:
+        if base is None or mine is None:
             return Kind.FORGET
-        return Kind.DELETE if mine.hash == base else Kind.ORPHAN
-    if mine == NO_FILE:
+        return Kind.DELETE if mine == base else Kind.ORPHAN
+    if mine is None:
         return Kind.CREATE if base is None else Kind.RESTORE
-    if mine.hash == generated:
+    if mine == generated:
         return Kind.UNCHANGED if base == generated else Kind.ADOPT
     if base is None:
         return Kind.UNOWNED
-    if mine.hash == base:
+    if mine == base:
         return Kind.UPDATE
     return Kind.KEEP if generated == base else Kind.CONFLICT
 
@@ -74,69 +68,68 @@ def renamed_files(
 def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
-    on_disk: Mapping[str, OnDisk],
+    on_disk: Mapping[str, str | None],
     moves: Mapping[str, str] | None = None,
 ) -> tuple[Action, ...]:
-    """Decide on every file of a robot; `on_disk` may leave out what is not there.
+    """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
 
     `moves` has new and old path of files whose element was renamed, see `renamed_files`. A file that the user edited
     goes to its new path (MOVE, and LEAVE at the old one), unless something else of the user's is there. A file that the
     user moved there by hand is compared with what was written at the old path.
     """
-    waiting = {record.origin: record for record in recorded.values() if record.origin}
-    moves, bases = moves or {}, {}
-    for new, old in moves.items():  # a file that moves may have waited before, to move here or elsewhere
-        there = recorded.get(new)
-        record = there if there and there.origin == old else waiting.get(old)
-        bases[new] = record.base if record else recorded[old].written_hash if old in recorded else None
-
-    def hash_at(path: str) -> str | None:
-        return on_disk.get(path, NO_FILE).hash
-
-    def replaced_hash(path: str) -> str | None:
-        """Return the hash of the file at a path, if it is as urdfsync wrote it there; None otherwise."""
-        return hash_at(path) if path in recorded and hash_at(path) == recorded[path].written_hash else None
-
-    def is_free(path: str) -> bool:
-        return path not in on_disk or on_disk[path] == NO_FILE or replaced_hash(path) is not None
-
-    edited = {new: old for new, old in moves.items() if bases[new] and hash_at(old) not in (None, bases[new])}
+    moves = moves or {}
+    bases = _bases_of_moves(recorded, moves)
+    ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
+    hashes = {path: mine for path, mine in ends.items() if mine != CLASS_FOLDER}
+    ours = {path: hash_ for path, hash_ in hashes.items() if path in recorded and recorded[path].written_hash == hash_}
+    taken = ends.keys() - ours.keys()
+    edited = {new: old for new, old in moves.items() if bases[new] and hashes.get(old) not in (None, bases[new])}
     # a file that can't move blocks the one that would take its place, and so on
-    while True:
-        moved_away = set(edited.values())
-        blocked = [path for path in edited if path not in moved_away and not is_free(path)]
-        if not blocked:
-            break
-        for path in blocked:
-            del edited[path]
+    while blocked := edited.keys() & taken - set(edited.values()):
+        edited = {new: old for new, old in edited.items() if new not in blocked}
+    moved_away = set(edited.values())
 
     actions = []
     for path in sorted(recorded.keys() | desired.keys()):
-        record, target, mine = recorded.get(path), desired.get(path), on_disk.get(path, NO_FILE)
-        role, owner = (target.role, target.owner) if target else (recorded[path].role, recorded[path].owner)
-        generated, base = target.hash if target else None, record.written_hash if record else None
-        old_path = moves.get(path) if target else None
-        is_unedited = old_path and bases[path] and hash_at(old_path) == bases[path] and is_free(path)
-        if old_path and (path in edited or (is_unedited and mine.hash != generated)):
-            # The file comes from another place. What is here is remembered in case that it has to wait.
-            kind = Kind.MOVE if path in edited else Kind.CREATE if mine == NO_FILE else Kind.UPDATE
-            hash_ = hash_at(old_path) if path in edited else mine.hash
-            one = Action(path, kind, role, owner, bases[path], generated, old_path, mine=hash_)
-            actions.append(msgspec.structs.replace(one, replaced_hash=replaced_hash(path)))
-            continue
-        if path in moved_away and target is None:
-            actions.append(Action(path, Kind.LEAVE, role, owner, base))
-            continue
-        if path in moved_away:
-            base, mine = None, NO_FILE
-        elif old_path and hash_at(old_path) is None and (record is None or record.origin == old_path):
-            is_moved_by_hand = mine.hash is not None and replaced_hash(path) is None
-            base = bases[path] if is_moved_by_hand and bases[path] else base
-        kind = decide_file(base, mine, generated)
-        if kind is not Kind.FORGET or base is not None:  # else it was never written, and is not wanted any more
-            at_hand = target is None or target.at_hand
-            actions.append(Action(path, kind, role, owner, base, generated, mine=mine.hash, at_hand=at_hand))
+        record, target, mine = recorded.get(path), desired.get(path), on_disk.get(path)
+        base, generated = record.written_hash if record else None, target.hash if target else None
+        old, origin = moves.get(path) if target else None, None
+        if old and path in edited:
+            kind, origin, base, mine = Kind.MOVE, old, bases[path], hashes[old]
+        elif old and bases[path] and hashes.get(old) == bases[path] and path not in taken and mine != generated:
+            kind, origin, base = Kind.CREATE if mine is None else Kind.UPDATE, old, bases[path]
+        elif path in moved_away and target is None:
+            kind, mine = Kind.LEAVE, None
+        else:
+            if path in moved_away:
+                base, mine = None, None
+            elif old and old not in hashes and path in taken & hashes.keys() and (not record or record.origin == old):
+                base = bases[path] or base  # the user moved it by hand
+            kind = decide_file(base, mine, generated)
+            if kind is Kind.FORGET and base is None:
+                continue  # it was never written, and is not wanted any more
+        file, at_hand = target or recorded[path], target is None or target.at_hand
+        mine = None if mine == CLASS_FOLDER else mine
+        action = Action(path, kind, file.role, file.owner, base, generated, origin, mine=mine, at_hand=at_hand)
+        if origin and path in ours:  # remembered in case that the file has to wait
+            action = msgspec.structs.replace(action, replaced_hash=ours[path])
+        actions.append(action)
     return tuple(actions)
+
+
+def _bases_of_moves(recorded: Mapping[str, FileRecord], moves: Mapping[str, str]) -> dict[str, str | None]:
+    """Return what urdfsync wrote last of each file that moves, by its new path.
+
+    The file may have waited before, to move to the same place or to another one.
+    """
+    waiting = {record.origin: record for record in recorded.values() if record.origin}
+    found = {}
+    for new, old in moves.items():
+        record = recorded.get(new)
+        if record is None or record.origin != old:
+            record = waiting.get(old)
+        found[new] = record.base if record else recorded[old].written_hash if old in recorded else None
+    return found
 
 
 def keep_needed(
@@ -153,24 +146,17 @@ def keep_needed(
     orphans = {action.owner for action in models if action.kind is Kind.ORPHAN}
     released = {action.owner for action in models if action.released} - orphans
     gone = {action.path: action for action in actions if action.kind in DELETES}
-    needed = {
-        path
-        for path, action in gone.items()
-        if action.kind is Kind.DELETE and action.role is Role.RECORD and (action.owner in orphans or path in used)
-    }
-    free = {path for path, action in gone.items() if action.role is Role.RECORD and action.owner in released}
+    kept = {}
+    for path, action in gone.items():
+        if action.role is Role.RECORD and action.owner in released:
+            kept[path] = msgspec.structs.replace(action, kind=Kind.FORGET, choice=Choice.KEEP)
+        elif action.role is Role.RECORD and action.kind is Kind.DELETE and (action.owner in orphans or path in used):
+            kept[path] = msgspec.structs.replace(action, kind=Kind.NEEDED)
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
-        if has_classes(path, gone.keys() - needed - free):
-            needed.add(path)
-    found = []
-    for action in actions:
-        if action.path in free:
-            action = msgspec.structs.replace(action, kind=Kind.FORGET, choice=Choice.KEEP)
-        elif action.path in needed:
-            action = msgspec.structs.replace(action, kind=Kind.NEEDED)
-        found.append(action)
-    return tuple(found)
+        if has_classes(path, gone.keys() - kept.keys()):
+            kept[path] = msgspec.structs.replace(gone[path], kind=Kind.NEEDED)
+    return tuple(kept.get(action.path, action) for action in actions)
 
 
 def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Action, ...]:
@@ -185,16 +171,13 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
     origins = {action.origin for action in actions}
 
     def waits(action: Action) -> bool:
-        if not action.writes:
-            return False
-        if action.origin is not None or action.path in origins:
-            return True
+        if not action.writes or action.origin is not None or action.path in origins:
+            return action.writes
         if action.role is Role.IMPORT:
             return action.kind is Kind.DELETE
         if action.kind is Kind.RESTORE:
             return action.role is Role.ORDER or action.base != action.generated
-        is_record = action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD
-        return not (is_record and action.path in numbers_only)
+        return action.kind not in (Kind.UPDATE, Kind.MERGE) or action.path not in numbers_only
 
     return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
 
@@ -212,9 +195,7 @@ def records_after(actions: Iterable[Action]) -> dict[str, FileRecord]:
             waits = action.origin, action.replaced_hash, action.choice, chosen_for
             records[action.path] = FileRecord(action.owner, action.role, action.base, state, *waits)
             continue
-        if action.kind is Kind.KEEP:
-            base, state = action.base, RecordState.EDITED
-        elif action.kind is Kind.INCLUDED or (action.result or base) != base:
+        if action.kind in (Kind.KEEP, Kind.INCLUDED) or (action.result or base) != base:
             state = RecordState.EDITED
         elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
             base, state = action.base, RecordState.ORPHAN

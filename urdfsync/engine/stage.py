@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -59,32 +59,23 @@ class Plan(msgspec.Struct, frozen=True):
 
 
 @profiling.stage("recording")
-def stage(plan: Plan, generation: Generation, decision: Decision) -> Plan:
-    """Return the plan with all that is to be written."""
+def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
+    """Return the plan, with all that is to be written unless the run is dry."""
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
-    store, former, imports = inputs.store, inputs.former_name, generation.imported.imports
-    # while something waits, the package can't move: its record stays, with the choices that the user made meanwhile
-    must_stay = inputs.old_folder != inputs.folder and any(action.held for action in decision.actions)
-
-    shared, changes = {files.key(file.path) for file in decision.shared}, []
-    for action in decision.actions:
-        if action.writes and action.path not in shared:
-            content = None if action.kind in DELETES else _content(generation, decision, action)
-            is_moved = action.origin is not None and action.path in decision.texts
-            changes.append(Change(files.path(action.path), content, files.old_hash(action.path), is_moved))
-
-    versions: dict[str, bytes] = {}
-    for conflict in decision.conflicts:
-        generated, base, merge = conflict_files(conflict, inputs.folder)
-        versions[generated] = encode(conflict.generated)
-        if base is not None and conflict.base is not None:
-            versions[base] = encode(conflict.base)
-        if merge is not None and conflict.merge is not None:
-            versions[merge] = encode(conflict.merge.proposal)
-    changes += store.conflicts(robot.name, versions, former)
+    store, former, news = inputs.store, inputs.former_name, generation.changes_since_complete
+    if news and not (news.changes or news.generator):
+        news = None
+    plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
+    if inputs.options.dry and not inputs.options.compares_state:
+        return plan
+    changes = _file_changes(generation, decision)
+    versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
+    aside = {path: encode(text) for version in versions for path, text in version}
+    changes += store.conflicts(robot.name, aside, former)
 
     drawing = None
     if inputs.options.draw:
+        imports = generation.imported.imports
         picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
         if picture is not None:
             drawing, more = store.drawing(robot.name, picture)
@@ -92,19 +83,16 @@ def stage(plan: Plan, generation: Generation, decision: Decision) -> Plan:
 
     bases: dict[str, str] = {}
     mentioned: frozenset[str] | None = None
-    if must_stay:
+    if inputs.old_folder != inputs.folder and any(action.held for action in decision.actions):
+        # while something waits, the package can't move: its record stays, with the choices that the user made meanwhile
         text = manifest.dumps(_with_choices(inputs.recorded or inputs.heading(""), decision.files))
         changes += store.changes(robot.name, text, None, None)
     else:
         changes += store.changes(robot.name, *_recorded_texts(generation, decision), former)
-        kept = inputs.store.bases(robot.name)
-        written = {k: r for k, r in decision.files.items() if r.role is not Role.IMPORT and r.base is not None}
-        mentioned = frozenset(record.base for record in written.values() if record.base)
-        for key, record in written.items():
-            if record.base and record.base not in kept and record.base not in bases:
-                base_text = _base(generation, record.origin or key, record.base)
-                if base_text is not None:
-                    bases[record.base] = base_text
+        kept = store.bases(robot.name)
+        mentioned = frozenset(r.base for r in decision.files.values() if r.role is not Role.IMPORT and r.base)
+        new = {key: record for key, record in decision.files.items() if record.base not in kept}
+        bases = {base: text for _, base, text in _base_texts(generation, new)}
 
     above, conflicts = files.path(inputs.old_folder).parent, store.folder / "conflicts"
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
@@ -121,6 +109,19 @@ def stage(plan: Plan, generation: Generation, decision: Decision) -> Plan:
         former_name=former,
         drawing=drawing,
     )
+
+
+def _file_changes(generation: Generation, decision: Decision) -> list[Change]:
+    """Return the changes of the package's files, but for those in which other robots may have a part."""
+    files, found = generation.inputs.files, []
+    shared = {files.key(file.path) for file in decision.shared}
+    for action in decision.actions:
+        if action.writes and action.path not in shared:
+            content = None if action.kind in DELETES else _content(generation, decision, action)
+            is_moved = action.origin is not None and action.path in decision.texts
+            state = files.state(action.path)
+            found.append(Change(files.path(action.path), content, state.sha256 if state else None, is_moved))
+    return found
 
 
 def partly_done(plan: Plan, robot: str, not_done: Collection[Path], store: Store, files: PackageFiles) -> list[Change]:
@@ -158,7 +159,8 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
             raise OutputError(Diagnostic(Severity.ERROR, "restless", message, file, hint="build again"))
         return content
     generated = generation.content(key)
-    mine = (files.read(key) or b"") if files.has_carriage_returns(key) else b""
+    state = files.state(key)
+    mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
     return generated.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else generated
 
 
@@ -169,14 +171,10 @@ def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, st
     since = inputs.last_complete.snapshot if waits and inputs.last_complete else None
     before = inputs.complete_revision if since else None
     revision = msgspec.UNSET if before in (None, inputs.domain.revision) else before
-    older = {}
-    for key, record in decision.files.items():  # bases that can't be rendered from the recorded model
-        is_older = record.state in _OLDER_BASE and record.role is not Role.IMPORT and key.startswith(inputs.key(""))
-        if is_older and record.base is not None:
-            text = _base(generation, record.origin or key, record.base)
-            if text is not None:
-                older[inputs.path(key)] = text
-    model = modelfile.of(snapshot, generation.imported.imports, older, since, revision)
+    below = inputs.key("")
+    older = {k: r for k, r in decision.files.items() if r.state in _OLDER_BASE and k.startswith(below)}
+    bases = {inputs.path(key): text for key, _, text in _base_texts(generation, older)}
+    model = modelfile.of(snapshot, generation.imported.imports, bases, since, revision)
     model_text = modelfile.dumps(model)
     whole = msgspec.structs.replace(
         inputs.heading(manifest.text_hash(model_text)),
@@ -203,8 +201,13 @@ def _with_choices(recorded: Manifest, files: Mapping[str, FileRecord]) -> Manife
     return msgspec.structs.replace(recorded, files={**recorded.files, **renewed})
 
 
-def _base(generation: Generation, key: str, sha256: str) -> str | None:
-    path = generation.inputs.path(key)
-    if path in generation.package.artifacts and generation.hash(path) == sha256:
-        return generation.content(key).decode()
-    return generation.base(key, sha256)
+def _base_texts(generation: Generation, records: Mapping[str, FileRecord]) -> Iterator[tuple[str, str, str]]:
+    """Yield key, hash and text of the base of each recorded text file, as far as they are not lost."""
+    for key, record in records.items():
+        if record.role is not Role.IMPORT and record.base is not None:
+            origin = record.origin or key
+            path = generation.inputs.path(origin)
+            is_generated = path in generation.package.artifacts and generation.hash(path) == record.base
+            text = generation.content(origin).decode() if is_generated else generation.base(origin, record.base)
+            if text is not None:
+                yield key, record.base, text

@@ -92,9 +92,8 @@ def saved_texts(target: Target) -> dict[str, str]:
     if target.texts is None:
         return {}
     folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
-    found = conflict_files(target.texts, folder)
-    paths = {"base": found.base, "generated": found.generated, "merge": found.merge}
-    return {name: f".urdfsync/conflicts/{target.result.robot}/{path}" for name, path in paths.items() if path}
+    aside = f".urdfsync/conflicts/{target.result.robot}"
+    return {name: f"{aside}/{path}" for name, (path, _) in conflict_files(target.texts, folder).items()}
 
 
 def shown_path(result: Result, path: str) -> str:

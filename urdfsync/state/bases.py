@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import contextlib
 import errno
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 import msgspec
 
+from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
@@ -22,8 +23,8 @@ from urdfsync.state import file_operations
 class BaseStore:
     """The kept texts of one robot; `folder` need not exist."""
 
-    def __init__(self, folder: Path, shown: Callable[[Path], str] = str) -> None:
-        self._folder, self._shown = folder, shown
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._file = folder / "texts"
         self._texts: dict[str, bytes] | None = None
 
@@ -53,7 +54,7 @@ class BaseStore:
                 file_operations.make_folder(folder)
             file_operations.append(self._file, b"\n" + _lines(new))  # the last line may have been cut off
         except OSError as error:
-            raise failure(error, self._shown(self._folder)) from None
+            raise failure(error, shown(self._folder)) from None
         self._read().update(new)
 
     def prune(self, wanted: Collection[str]) -> None:

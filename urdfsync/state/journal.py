@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import contextlib
 import enum
-from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
 import msgspec
 
+from urdfsync.config import shown
 from urdfsync.dependencies import list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree
@@ -71,9 +71,9 @@ class _Formatted(msgspec.Struct):
 class JournalFolder:
     """The folder of journals below a configuration's folder; it need not exist."""
 
-    def __init__(self, root: Path, folder: Path, shown: Callable[[Path], str] = str) -> None:
+    def __init__(self, root: Path, folder: Path) -> None:
         self.folder = folder
-        self._root, self._shown = root, shown
+        self._root = root
         self._new = folder / f"new{TEMPORARY}"
 
     def file(self, phase: Phase | None) -> Path:
@@ -124,7 +124,7 @@ class JournalFolder:
         Raises StateError, and changes nothing, for a journal that another urdfsync wrote or that was not written in
         this checkout, OutputError for what is no regular file, and for a folder that is a link.
         """
-        tree = Tree(self._root, self._shown)
+        tree = Tree(self._root, shown)
         tree.check_folder(self.folder)  # whatever its files are called: they are not ours to set aside at a link's end
         file = self.file(self.phase())
         content = tree.read(file) if file != self.folder else b'{"format": 0}'
@@ -149,4 +149,4 @@ class JournalFolder:
         return []
 
     def _refuse(self, file: Path, message: str, code: str = "broken-journal", hint: str = _HINT) -> NoReturn:
-        raise StateError(Diagnostic(Severity.ERROR, code, message, self._shown(file), hint=hint))
+        raise StateError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))

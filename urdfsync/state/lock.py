@@ -12,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.files import failure
 
@@ -43,9 +44,9 @@ class LockedError(UrdfsyncError):
 class Lock:
     """A lock on a file, which then holds the number of the process that had the lock last."""
 
-    def __init__(self, path: Path, wait: float, shown: Callable[[Path], str] = str, folder: Path | None = None) -> None:
+    def __init__(self, path: Path, wait: float, folder: Path | None = None) -> None:
         """`wait` is in seconds. With a `folder`, that is locked, and the file only says by whom: see `build_lock`."""
-        self._path, self._wait, self._shown, self._folder = path, wait, shown, folder
+        self._path, self._wait, self._folder = path, wait, folder
         self._descriptor: int | None = None
         self._expired = False
 
@@ -64,30 +65,22 @@ class Lock:
         """
         if self.held:
             return
-        descriptor, place = None, self._path
         try:
-            if self._folder is not None:
-                descriptor = os.open(self._folder, os.O_RDONLY)
-            elif shared:
-                descriptor = self._open(os.O_RDONLY)
-            else:
-                self._path.parent.mkdir(exist_ok=True)
-                descriptor = self._open(os.O_RDWR | os.O_CREAT)
-            place = self._folder or self._path
+            descriptor = self._open_target(shared)
+        except OSError as error:
+            if shared and isinstance(error, FileNotFoundError):
+                return
+            raise failure(error, shown(self._path)) from None
+        try:
             self._wait_for(descriptor, shared, waiting)
         except OSError as error:
-            if descriptor is None:
-                if shared and isinstance(error, FileNotFoundError):
-                    return
-                raise failure(error, self._shown(place)) from None
             os.close(descriptor)
             if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
-                raise failure(error, self._shown(place), "it can't be locked") from None
+                raise failure(error, shown(self._folder or self._path), "it can't be locked") from None
             self._folder = None  # the same for all processes here
             self.acquire(shared, waiting)
         except BaseException:
-            if descriptor is not None:
-                os.close(descriptor)
+            os.close(descriptor)
             raise
         else:
             self._descriptor = descriptor
@@ -107,6 +100,15 @@ class Lock:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.release()
+
+    def _open_target(self, shared: bool) -> int:
+        """Open what is locked. Raises OSError."""
+        if self._folder is not None:
+            return os.open(self._folder, os.O_RDONLY)
+        if shared:
+            return self._open(os.O_RDONLY)
+        self._path.parent.mkdir(exist_ok=True)
+        return self._open(os.O_RDWR | os.O_CREAT)
 
     def _wait_for(self, descriptor: int, shared: bool, waiting: Callable[[], None]) -> None:
         end = time.monotonic() + (0 if self._expired else self._wait)
@@ -143,7 +145,7 @@ class Lock:
         who = f"process {holder}" if holder.isdecimal() else "another process"
         message = f"{who} is building here, and did not finish within {self._wait:g} s"
         hint = "wait for it or end it, then build again"
-        return LockedError(Diagnostic(Severity.ERROR, "locked", message, self._shown(self._path), hint=hint))
+        return LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._path), hint=hint))
 
     def _open(self, flags: int) -> int:
         """Open the file itself: a link is not followed, and a pipe in its place is not waited for."""
@@ -152,10 +154,10 @@ class Lock:
         return os.open(self._path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
 
 
-def build_lock(root: Path, folder: Path, wait: float, shown: Callable[[Path], str] = str) -> Lock:
+def build_lock(root: Path, folder: Path, wait: float) -> Lock:
     """The lock of all who write below a configuration's folder, `root`; `folder` is the state folder.
 
     The root itself is locked. A file in the state folder is lost to `git clean -fdX` while it is held, and the next
     process would lock a new one. Windows has no locks of folders, but does not delete a file that is open.
     """
-    return Lock(folder / "lock", wait, shown, None if sys.platform == "win32" else root)
+    return Lock(folder / "lock", wait, None if sys.platform == "win32" else root)

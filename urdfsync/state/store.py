@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.config import STATE_FOLDER, is_robot_name
+from urdfsync.config import STATE_FOLDER, is_robot_name, shown
 from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure
@@ -54,12 +54,11 @@ class State(msgspec.Struct, frozen=True):
 class Store:
     """The state folder of one configuration, as one build sees it."""
 
-    def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
+    def __init__(self, root: Path) -> None:
         self.folder = root / STATE_FOLDER
-        self._shown = shown
         self._tree = Tree(root, shown)
-        self._seen: dict[Path, bytes | None] = {}
-        self._hashes: dict[Path, str | None] = {}
+        self._seen: dict[Path, tuple[bytes | None, str | None]] = {}
+        """Content and hash of each file that was loaded; None for no file."""
 
     def names(self) -> list[str]:
         """The robots that have a state, by their names."""
@@ -76,11 +75,11 @@ class Store:
         text = self._read(path)
         if text is None:
             return None
-        recorded = manifest.loads(text, self._shown(path))
+        recorded = manifest.loads(text, shown(path))
         content = self._read(beside)
         if content is None:
             return State(recorded, None, intact=False)
-        model = modelfile.loads(content, self._shown(beside))
+        model = modelfile.loads(content, shown(beside))
         return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
 
     def texts(self, robot: str) -> tuple[str | None, str | None]:
@@ -91,11 +90,11 @@ class Store:
 
     def witness(self) -> Witness:
         """What all files were when they were loaded."""
-        return {path: self._hash(path) for path in self._seen}
+        return {path: sha256 for path, (_, sha256) in self._seen.items()}
 
     def is_unchanged(self, witness: Witness, but: Collection[Path] = ()) -> bool:
         """Whether all files still are as they were then, but for some that somebody else looks at."""
-        tree = Tree(self._tree.root, self._shown)  # which finds folders that have come since
+        tree = Tree(self._tree.root, shown)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
@@ -122,20 +121,20 @@ class Store:
         def encode(inode: int, written: int) -> bytes:
             return msgspec.json.encode(_WrittenFolders(new, inode, written))
 
-        Tree(self._tree.root, self._shown).check_folder(self.folder)
+        Tree(self._tree.root, shown).check_folder(self.folder)
         try:
             file_operations.make_folder(self.folder)
             file_operations.remove(temporary)  # of a build that was killed here
             file_operations.write_bound(temporary, encode)
             file_operations.replace(temporary, file)
         except OSError as error:
-            raise failure(error, self._shown(file)) from None
+            raise failure(error, shown(file)) from None
 
     def _noted_folders(self) -> Mapping[str, tuple[str, ...]]:
         """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
         file = self.folder / _FOLDERS
         try:
-            content = Tree(self._tree.root, self._shown).read(file)  # finds a folder that this build has made
+            content = Tree(self._tree.root, shown).read(file)  # finds a folder that this build has made
             noted = msgspec.json.decode(content or b"", type=_WrittenFolders)
             return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
         except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
@@ -147,7 +146,7 @@ class Store:
 
     def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
-        return BaseStore(self._base_folder(robot), self._shown)
+        return BaseStore(self._base_folder(robot))
 
     def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[Change]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
@@ -192,19 +191,13 @@ class Store:
         return self.folder / "base" / robot
 
     def _change(self, path: Path, content: bytes | None) -> Change:
-        return Change(path, content, self._hash(path) if path in self._seen else None)
-
-    def _hash(self, path: Path) -> str | None:
-        """SHA-256 (hex) of a file as it was loaded; None if there was none."""
-        if path not in self._hashes:
-            content = self._seen[path]
-            self._hashes[path] = None if content is None else digest(content)
-        return self._hashes[path]
+        return Change(path, content, self._seen[path][1] if path in self._seen else None)
 
     def _bytes(self, path: Path) -> bytes | None:
         if path not in self._seen:
-            self._seen[path] = self._tree.read(path)
-        return self._seen[path]
+            content = self._tree.read(path)
+            self._seen[path] = content, None if content is None else digest(content)
+        return self._seen[path][0]
 
     def _read(self, path: Path) -> str | None:
         content = self._bytes(path)
@@ -212,5 +205,5 @@ class Store:
             return None if content is None else content.decode().replace("\r\n", "\n")
         except UnicodeDecodeError:
             message, hint = "the recorded state can't be read: it is not UTF-8", "restore it from version control"
-            found = Diagnostic(Severity.ERROR, "broken-state", message, self._shown(path), hint=hint)
+            found = Diagnostic(Severity.ERROR, "broken-state", message, shown(path), hint=hint)
             raise StateError(found) from None

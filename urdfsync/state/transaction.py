@@ -21,13 +21,14 @@ from __future__ import annotations
 import contextlib
 import itertools
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
 import msgspec
 
 from urdfsync import profiling
+from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
 from urdfsync.state import file_operations
@@ -67,13 +68,11 @@ class Applied(msgspec.Struct, frozen=True):
 class Transactions:
     """The writer of one configuration, with its journal in the state folder; for the holder of the build lock only."""
 
-    def __init__(
-        self, root: Path, folder: Path, shown: Callable[[Path], str] = str, outputs: Sequence[Path] = ()
-    ) -> None:
+    def __init__(self, root: Path, folder: Path, outputs: Sequence[Path] = ()) -> None:
         """`root` is the configuration's folder, `folder` the state folder; `outputs` may be written to as well."""
-        self._root, self._folder, self._shown, self._outputs = root, folder, shown, outputs
+        self._root, self._folder, self._outputs = root, folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
-        self._journals = JournalFolder(root, folder / "journal", shown)
+        self._journals = JournalFolder(root, folder / "journal")
 
     def pending(self) -> bool:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
@@ -155,7 +154,7 @@ class Transactions:
             self._journals.enter(Phase.APPLY)
             file_operations.sync([self._journals.folder])
         except OSError as error:
-            raise failure(error, self._shown(place)) from None
+            raise failure(error, shown(place)) from None
 
     def _discard(self, journal: Journal, files: Sequence[_File], known: Sequence[Diagnostic] = ()) -> None:
         """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
@@ -188,7 +187,7 @@ class Transactions:
         return Applied(
             tuple(not_done),
             tuple(
-                Diagnostic(Severity.WARNING, "kept-save", f"{message} {self._shown(name)}", self._shown(file.path))
+                Diagnostic(Severity.WARNING, "kept-save", f"{message} {shown(name)}", shown(file.path))
                 for file, name in saved
             ),
         )
@@ -212,7 +211,7 @@ class Transactions:
 
         `source` is the file of a journal that was found; None for a build that is about to write.
         """
-        trees = [Tree(self._root, self._shown), *(Tree(output, self._shown) for output in self._outputs)]
+        trees = [Tree(self._root, shown), *(Tree(output, shown) for output in self._outputs)]
         paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
         paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
         for path, is_folder in paths:
@@ -221,8 +220,8 @@ class Transactions:
                 code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
                 if source and tree is None:
                     hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
-                message = f"{self._shown(Path(path))} is no file that a build writes"
-                file = self._shown(source or Path(path))
+                message = f"{shown(Path(path))} is no file that a build writes"
+                file = shown(source or Path(path))
                 raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
             tree.check_folder(os.path.dirname(path))  # noqa: PTH120 - strings: there are thousands of files
 
@@ -247,13 +246,13 @@ class Transactions:
             self._refuse_to_finish(error)
         message = "the journal of an interrupted build was set aside, and nothing was done of it"
         hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
-        return Diagnostic(Severity.WARNING, "refused-journal", message, self._shown(aside), hint=hint)
+        return Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint)
 
     def _refuse_to_finish(self, error: OSError, known: Sequence[Diagnostic] = ()) -> NoReturn:
         place = Path(error.filename) if isinstance(error.filename, str) else self._folder
         message = f"an interrupted build can't be brought to an end: {error.strerror or error}"
         hint = "repair that, then build again"
-        found = Diagnostic(Severity.ERROR, "unfinished", message, self._shown(place), hint=hint)
+        found = Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint=hint)
         raise UnfinishedError(*known, found) from error
 
     def _files(self, journal: Journal) -> list[_File]:

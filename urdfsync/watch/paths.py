@@ -13,7 +13,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
@@ -41,7 +41,7 @@ class RobotPaths(msgspec.Struct, frozen=True):
 
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
-    store, state = Store(config.root, shown), None
+    store, state = Store(config.root), None
     inputs = {str(config.file), str(robot.source)}
     outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build

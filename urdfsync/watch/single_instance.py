@@ -20,7 +20,7 @@ class InstanceLock(Lock):
     """Released at the end of its context."""
 
     def __init__(self, config: Config) -> None:
-        super().__init__(config.root / STATE_FOLDER / "watch.lock", 0, shown)
+        super().__init__(config.root / STATE_FOLDER / "watch.lock", 0)
         self._config_file = config.file
 
     def hold(self) -> None:
