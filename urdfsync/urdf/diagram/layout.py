@@ -33,6 +33,7 @@ from urdfsync.urdf.robot import MOTION_KINDS
 Point: TypeAlias = tuple[int, int]
 Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
+_Cell: TypeAlias = tuple[int, int]
 _Spans: TypeAlias = dict[str, list[int]]
 """Per leader, the places from the first to the last of which its lines run."""
 
@@ -130,15 +131,8 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
 
 
 def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
-    # Cells are (row, column): a joint stands in its parent's column and in its child's row.
-    links, joints = {tree.links[0].name: (0, 0)}, {}
-    last, parents = 0, set()
-    for joint in tree.joints:
-        row, column = links[joint.parent]
-        if joint.parent in parents:
-            row = last = last + 1
-        parents.add(joint.parent)
-        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
+    links, joints = _cells(tree)
+    last_row, last_column = (max(places) for places in zip(*links.values(), strict=True))
 
     # Tracks for lines to leaders, above each row and left of each column. A leader that does not move has no line.
     moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
@@ -148,11 +142,12 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         (row, column), (follower_row, follower_column) = joints[leader], joints[follower]
         above[row][leader] += column, follower_column
         left[follower_column][leader] += row, follower_row
-    tracks_above = [_tracks(above[row]) for row in range(last + 1)]
-    tracks_left = [_tracks(left[column]) for column in range(1 + max(column for _, column in links.values()))]
+    tracks_above = [_tracks(above[row]) for row in range(last_row + 1)]
+    tracks_left = [_tracks(left[column]) for column in range(last_column + 1)]
 
     with_axes = {joints[name][0] for name in names.axes}
     with_couplings = {joints[name][0] for name in names.couplings}
+    parents = {joint.parent for joint in tree.joints}
     with_frames = {links[name][0] for name in names.frames if name in parents}
     tops, spines, y = list[int](), list[int](), 0
     for row, tracks in enumerate(tracks_above):
@@ -175,14 +170,27 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
             track_above, track_left = tracks_above[row][leaders[name]], tracks_left[column][leaders[name]]
             detours[name] = trunks[column] - _TRACK * (track_left + 1), tops[row] - _TRACK * (track_above + 1)
     return _Grid(
-        {name: (trunks[column], spines[row]) for name, (row, column) in links.items()},
-        {name: (trunks[column], spines[row]) for name, (row, column) in joints.items()},
-        couplings,
-        detours,
-        tops[0],
-        trunks[-1] + _MARGIN + _SIZE,
-        y,
+        links={name: (trunks[column], spines[row]) for name, (row, column) in links.items()},
+        joints={name: (trunks[column], spines[row]) for name, (row, column) in joints.items()},
+        couplings=couplings,
+        detours=detours,
+        top=tops[0],
+        right=trunks[-1] + _MARGIN + _SIZE,
+        bottom=y,
     )
+
+
+def _cells(tree: KinematicTree) -> tuple[Mapping[str, _Cell], Mapping[str, _Cell]]:
+    """Return row and column of each link and joint: a joint stands in its parent's column and in its child's row."""
+    links, joints = {tree.links[0].name: (0, 0)}, {}
+    last, parents = 0, set()
+    for joint in tree.joints:
+        row, column = links[joint.parent]
+        if joint.parent in parents:
+            row = last = last + 1
+        parents.add(joint.parent)
+        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
+    return links, joints
 
 
 def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
