@@ -119,6 +119,6 @@ def _values(skeleton: KinematicTree, instant: Instant) -> dict[str, float]:
     for link in skeleton.links:
         frame, (linear, angular) = instant.frame(link.name), instant.acceleration(link.name)
         pairs += [(names.axes[link.name], frame.axes.T.ravel()), (names.places[link.name], frame.place)]
-        parts = {"v_0": frame.velocity, "w_a": frame.turning, "a_0": linear, "z_a": angular}
+        parts = {"v_0": frame.velocity, "w_a": frame.axes.T @ frame.turning, "a_0": linear, "z_a": angular}
         pairs += [(names.of_body(link.name, part), values) for part, values in parts.items()]
     return {name: value for called, values in pairs for name, value in zip(called, values, strict=True)}

@@ -13,9 +13,9 @@ from support.urdfs import dynamics, joint, limit, link, mimic, robot
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import free_joints, motion
-from urdfsync.urdf.physics.free_joints import FreeJointState
+from urdfsync.urdf.physics.free_joints import FrameMotion
 from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
+from urdfsync.urdf.physics.reference import Configuration, Instant, Reference
 from urdfsync.urdf.robot import Joint
 
 Array = NDArray[np.float64]
@@ -128,12 +128,12 @@ def test_velocities_are_derivatives_of_places(urdf: str) -> None:
         velocity = (frames[1][name].place - frames[0][name].place) / (2 * step)
         turning = pin.log3(frames[0][name].axes.T @ frames[1][name].axes) / (2 * step)
         assert frame.velocity == pytest.approx(velocity, abs=1e-8)
-        assert frame.turning == pytest.approx(turning, abs=1e-8)
+        assert frame.axes.T @ frame.turning == pytest.approx(turning, abs=1e-8)
 
 
-def moved(start: FreeJointState, time: float) -> FreeJointState:
+def moved(start: FrameMotion, time: float) -> FrameMotion:
     axes = pin.exp3(start.turning * time) @ start.axes
-    return FreeJointState(start.place + start.velocity * time, axes, start.velocity, start.turning)
+    return FrameMotion(start.place + start.velocity * time, axes, start.velocity, start.turning)
 
 
 def links_of(bot: Bot) -> list[str]:
@@ -143,8 +143,8 @@ def links_of(bot: Bot) -> list[str]:
 def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     bot = Bot(FREE)
     state, instant = bot.state(), bot.instant()
-    frames: dict[str, FreeJointState | FrameMotion] = {joint.name: instant.frame(joint.child) for joint in bot.free}
-    again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames)
+    frames = {joint.name: instant.frame(joint.child) for joint in bot.free}
+    again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames, in_world=True)
     assert again.q == pytest.approx(state.q, abs=1e-12)
     assert again.v == pytest.approx(state.v, abs=1e-12)
 

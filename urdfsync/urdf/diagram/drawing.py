@@ -12,19 +12,19 @@ from typing import Literal, NamedTuple, TypeAlias
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram.layout import Diagram, LineKind, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names
+from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Motion, Robot
 
 Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling"]
-_Interval: TypeAlias = tuple[int, int]
+_Segment: TypeAlias = tuple[int, int, int]  # the line that it is on, start and end
 
 # Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
 # a viewer scrolls over a wide robot.
 _PIXELS = 4
 _MARGIN = 10
 _HEADER = 24  # room for the title and the names of the connectors at the top
-_FOOTER, _LEGEND = 8, 10  # room for the legend: in any case, and per row
+_FOOTER, _LEGEND = 8, 10  # above the legend, and height of each of its rows
 _FONT, _SMALLEST = 3.6, 2.5
 _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
@@ -105,24 +105,13 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
     """Return the robot model's diagram as SVG, in the layout of the generated model, with masses and ratios."""
     tree = KinematicTree.of(robot, taken=(target.name,))
     names = connector_names(tree, options)
-    # Kind of each component, and the text inside its icon: mass or ratio.
-    labels: dict[str, tuple[Kind, str]] = {}
-    for link in tree.links:
-        mass = f"{_rounded(link.inertial.mass)} kg" if link.inertial else ""
-        labels[tree.link(link.name).component] = "link", mass
-    types = {joint.name: joint.type for joint in tree.joints}
-    for joint in tree.joints:
-        free: Kind = "fixed" if joint.type == "fixed" else "free"
-        labels[tree.joint(joint.name).component] = MOTION_KINDS.get(joint.type) or free, ""
-        if joint.name in names.couplings and joint.mimic:
-            ratio = f"× {_rounded(joint.mimic.multiplier)}" if types[joint.mimic.joint] in MOTION_KINDS else "held"
-            labels[names.couplings[joint.name]] = "coupling", ratio
     diagram = layout(tree, names)
+    parts = _parts(tree, names)
+    kinds = {kind for kind, _ in parts.values()}
     x1, y1, x2, y2 = diagram.extent
-    kinds = {kind for kind, _ in labels.values()}
-    legend = _legend_rows([kind for kind in _ICONS if kind in kinds], x2 - x1 + _MARGIN)
-    left, top = x1 - _MARGIN, -y2 - _HEADER
-    width, height = x2 - x1 + 2 * _MARGIN, y2 - y1 + _HEADER + _FOOTER + _LEGEND * len(legend)
+    legend, bottom = _legend([kind for kind in _ICONS if kind in kinds], (x1, -y1 + _FOOTER), x2 + _MARGIN)
+    left, top, width = x1 - _MARGIN, -y2 - _HEADER, x2 - x1 + 2 * _MARGIN
+    height = bottom - top
     body = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * _PIXELS}" height="{height * _PIXELS}" '
         f'viewBox="{left} {top} {width} {height}">',
@@ -135,19 +124,35 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
         *_lines(diagram),
         *(f'<circle class="dot-{kind}" cx="{x}" cy="{-y}" r="1.2"/>' for kind, (x, y) in _junctions(diagram)),
     ]
-    flanges: dict[str, tuple[LineKind, bool]] = {}  # their motion, and whether they are supports
-    for joints, is_support in ((names.axes, False), (names.supports, True)):
-        flanges |= {connector: (MOTION_KINDS[types[joint]], is_support) for joint, connector in joints.items()}
+    motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.name in names.axes}
+    axes = {connector: motions[name] for name, connector in names.axes.items()}
+    supports = {connector: motions[name] for name, connector in names.supports.items()}
     driven = {tree.joint(name).component for name in names.axes}
     for name, placement in diagram.placements.items():
-        if name in flanges:
-            body += _flange(placement, *flanges[name])
-        elif name in labels:
-            body += _component(name, *labels[name], placement, driven=name in driven)
+        if name in parts:
+            body += _component(name, *parts[name], placement, is_driven=name in driven)
+        elif name in axes:
+            body.append(_flange(placement, axes[name], is_filled=True))
+        elif name in supports:
+            body.append(_flange(placement, supports[name], is_filled=False))
         else:
-            body += _frame(name, placement, is_root=name == "frame_a")
-    body += _legend(legend, (x1, -y1 + _FOOTER))
-    return "\n".join([*filter(None, body), "</svg>", ""])
+            body += _frame(name, placement)
+    return "\n".join([*filter(None, [*body, *legend]), "</svg>", ""])
+
+
+def _parts(tree: KinematicTree, names: Connectors) -> dict[str, tuple[Kind, str]]:
+    """Return the kind of each component, and the text inside its icon: mass or ratio."""
+    parts: dict[str, tuple[Kind, str]] = {}
+    for link in tree.links:
+        parts[tree.link(link.name).component] = "link", f"{_rounded(link.inertial.mass)} kg" if link.inertial else ""
+    types = {joint.name: joint.type for joint in tree.joints}
+    for joint in tree.joints:
+        kind: Kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
+        parts[tree.joint(joint.name).component] = kind, ""
+    for joint, mimic in tree.followers():
+        ratio = f"× {_rounded(mimic.multiplier)}" if types[mimic.joint] in MOTION_KINDS else "held"
+        parts[names.couplings[joint.name]] = "coupling", ratio
+    return parts
 
 
 def _rounded(value: float) -> str:
@@ -155,62 +160,54 @@ def _rounded(value: float) -> str:
     return f"{float(f'{value:.3g}'):g}"
 
 
-def _component(name: str, kind: Kind, detail: str, placement: Placement, *, driven: bool) -> Iterator[str]:
+def _component(name: str, kind: Kind, detail: str, placement: Placement, *, is_driven: bool) -> Iterator[str]:
     x, y = placement.centre
     yield "<g>"
     yield f"<title>{_escaped(name)}</title>"
-    yield from _icon(kind, (x, -y), 1.0, glyph=kind != "link" or bool(detail))
+    yield from _icon(kind, (x, -y), has_glyph=kind != "link" or bool(detail))
     yield _text((x, -y + _ICONS[kind].detail + 1.3), detail, "middle", _FONT, 17)
     if kind == "link":
         yield _text((placement.x1, -placement.y1 + 4), name, "", _FONT, 40)
-    elif driven:  # above the connectors, since the next joint's stand right of them
-        yield from _haloed((placement.x1, -placement.y2 - 16.5), name, 42)
+    elif is_driven:  # above the connectors, since the next joint's stand right of them
+        yield from _over_lines((placement.x1, -placement.y2 - 16.5), name, 42)
     elif kind in ("rotational", "translational"):
-        yield from _haloed((x + 1.5, -placement.y2 - 2.4), name, 34)
+        yield from _over_lines((x + 1.5, -placement.y2 - 2.4), name, 34)
     else:
-        yield from _haloed((placement.x1, -placement.y2 - 2.4), name, 42)
+        yield from _over_lines((placement.x1, -placement.y2 - 2.4), name, 42)
     yield "</g>"
 
 
-def _haloed(at: tuple[float, float], text: str, room: float, style: str = "") -> Iterator[str]:
-    """Draw a name over lines, with a white border, so that the lines stop short of its letters."""
-    yield _text(at, text, f"{style} halo".strip(), _FONT, room)
-    yield _text(at, text, style, _FONT, room)
-
-
-def _icon(kind: Kind, centre: tuple[float, float], scale: float, glyph: bool = True) -> Iterator[str]:
+def _icon(kind: Kind, centre: tuple[float, float], *, zoom: str = "", has_glyph: bool = True) -> Iterator[str]:
     icon = _ICONS[kind]
-    zoom = "" if scale == 1 else f" scale({scale:.9g})"
     yield f'<g transform="translate({centre[0]:.9g} {centre[1]:.9g}){zoom}" stroke="{icon.stroke}">'
     yield f'<rect x="-10" y="-10" width="20" height="20" rx="{icon.rounding}" fill="{icon.fill}" stroke-width="0.6"/>'
-    if glyph:
+    if has_glyph:
         yield f'<path class="glyph" d="{icon.glyph}"/>'
     yield "</g>"
 
 
-def _frame(name: str, placement: Placement, *, is_root: bool) -> Iterator[str]:
+def _frame(name: str, placement: Placement) -> Iterator[str]:
     x, y = placement.centre
     half = (placement.y2 - placement.y1) // 2
     yield _rectangle((x, y), (half // 3, half), 'fill="#ffffff" stroke="#5f5f5f"')
-    yield f'<rect x="{x - 1.5}" y="{-y - 1.5}" width="3" height="3" fill="#5f5f5f"/>'
-    if is_root:
+    yield _rectangle((x, y), (1.5, 1.5), 'fill="#5f5f5f"')
+    if name == "frame_a":
         yield _text((x, -placement.y1 + 4.5), name, "port middle", _FONT, 40)
     else:
-        yield from _haloed((placement.x2 - 2, -placement.y1 + 4.5), name, 58, "port end")
+        yield from _over_lines((placement.x2 - 2, -placement.y1 + 4.5), name, 58, "port end")
 
 
-def _flange(placement: Placement, motion: LineKind, is_support: bool) -> Iterator[str]:
+def _flange(placement: Placement, motion: Motion, *, is_filled: bool) -> str:
     """Draw a connector of a joint. It has no name in the picture: the joint's stands above it."""
     half = (placement.y2 - placement.y1) // 3
-    colour = "#000000" if motion == "rotational" else "#007f00"
-    fill = "#ffffff" if is_support else colour
-    rounding = half if motion == "rotational" else 0
-    yield _rectangle(placement.centre, (half, half), f'rx="{rounding}" fill="{fill}" stroke="{colour}"')
+    colour, rounding = ("#000000", half) if motion == "rotational" else ("#007f00", 0)
+    fill = colour if is_filled else "#ffffff"
+    return _rectangle(placement.centre, (half, half), f'rx="{rounding}" fill="{fill}" stroke="{colour}"')
 
 
-def _rectangle(centre: Point, half: Point, style: str) -> str:
+def _rectangle(centre: Point, half: tuple[float, float], style: str) -> str:
     (x, y), (across, up) = centre, half
-    return f'<rect x="{x - across}" y="{-y - up}" width="{2 * across}" height="{2 * up}" {style}/>'
+    return f'<rect x="{x - across:.9g}" y="{-y - up:.9g}" width="{2 * across:.9g}" height="{2 * up:.9g}" {style}/>'
 
 
 def _lines(diagram: Diagram) -> Iterator[str]:
@@ -245,65 +242,46 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
         nets[kind, max(ends, key=uses.__getitem__)].append(points)
     found = set[tuple[LineKind, Point]]()
     for (kind, _), paths in nets.items():
-        across, upright = defaultdict[int, list[_Interval]](list), defaultdict[int, list[_Interval]](list)
-        for path in paths:
-            for one, other in itertools.pairwise(path):
-                (x1, y1), (x2, y2) = sorted((one, other))
-                if y1 == y2:
-                    across[y1].append((x1, x2))
-                else:
-                    upright[x1].append((y1, y2))
-        runs = {y: _united(intervals) for y, intervals in across.items()}
-        falls = {x: _united(intervals) for x, intervals in upright.items()}
+        segments = [sorted(pair) for path in paths for pair in itertools.pairwise(path)]
+        across = _united((y1, x1, x2) for (x1, y1), (x2, y2) in segments if y1 == y2)
+        upright = _united((x1, y1, y2) for (x1, y1), (x2, y2) in segments if x1 == x2)
         for x, y in {point for path in paths for point in path}:
-            run, fall = runs.get(y, []), falls.get(x, [])
             # Coordinates are even: one step beside a point lies inside a segment or outside of all.
-            ways = [_is_inside(x + step, run) for step in (-1, 1)] + [_is_inside(y + step, fall) for step in (-1, 1)]
+            ways = [_has_inside(across, y, x + step) + _has_inside(upright, x, y + step) for step in (-1, 1)]
             if sum(ways) > 2:
                 found.add((kind, (x, y)))
     return sorted(found)
 
 
-def _united(intervals: Iterable[_Interval]) -> list[_Interval]:
-    """Join intervals that touch or overlap; the result is sorted."""
-    united: list[_Interval] = []
-    for start, end in sorted(intervals):
-        if united and start <= united[-1][1]:
-            united[-1] = united[-1][0], max(end, united[-1][1])
+def _united(segments: Iterable[_Segment]) -> list[_Segment]:
+    """Join segments of one line that touch or overlap; the result is sorted."""
+    united: list[_Segment] = []
+    for line, start, end in sorted(segments):
+        if united and united[-1][0] == line and start <= united[-1][2]:
+            united[-1] = line, united[-1][1], max(end, united[-1][2])
         else:
-            united.append((start, end))
+            united.append((line, start, end))
     return united
 
 
-def _is_inside(value: int, intervals: list[_Interval]) -> bool:
-    index = bisect.bisect_left(intervals, (value, value)) - 1
-    return index >= 0 and value < intervals[index][1]
+def _has_inside(segments: list[_Segment], line: int, value: int) -> bool:
+    index = bisect.bisect_left(segments, (line, value)) - 1
+    return index >= 0 and segments[index][0] == line and value < segments[index][2]
 
 
-def _legend_rows(kinds: Iterable[Kind], width: float) -> list[list[Kind]]:
-    """Arrange the legend's kinds in rows, each as long as `width` allows."""
-    rows: list[list[Kind]] = []
-    used = width
+def _legend(kinds: Iterable[Kind], start: Point, right: float) -> tuple[list[str], int]:
+    """Return the legend, in as many rows as it takes, and where it ends below."""
+    body: list[str] = []
+    x, y = float(start[0]), start[1]
     for kind in kinds:
-        used += _legend_width(kind)
-        if used > width:
-            rows.append([])
-            used = _legend_width(kind)
-        rows[-1].append(kind)
-    return rows
-
-
-def _legend_width(kind: Kind) -> float:
-    return 15 + _width(_ICONS[kind].legend, _FONT)
-
-
-def _legend(rows: list[list[Kind]], start: Point) -> Iterator[str]:
-    for index, row in enumerate(rows):
-        x, y = float(start[0]), start[1] + _LEGEND * index
-        for kind in row:
-            yield from _icon(kind, (x + 4, y), 0.35)
-            yield _text((x + 9, y + 1.3), _ICONS[kind].legend, "legend", _FONT, _legend_width(kind))
-            x += _legend_width(kind)
+        text = _ICONS[kind].legend
+        room = 15 + _width(text, _FONT)
+        if x > start[0] and x + room > right:
+            x, y = float(start[0]), y + _LEGEND
+        body += _icon(kind, (x + 4, y), zoom=" scale(0.35)")
+        body.append(_text((x + 9, y + 1.3), text, "legend", _FONT, room))
+        x += room
+    return body, y + _LEGEND
 
 
 def _text(at: tuple[float, float], text: str, style: str, size: float, room: float) -> str:
@@ -316,6 +294,12 @@ def _text(at: tuple[float, float], text: str, style: str, size: float, room: flo
         text = f"{text[: most // 2]}…{text[len(text) - (most - 1) // 2 :]}"
     style = f' class="{style}"' if style else ""
     return f'<text{style} x="{at[0]:.9g}" y="{at[1]:.9g}" font-size="{fitting:.3g}">{_escaped(text)}</text>'
+
+
+def _over_lines(at: tuple[float, float], text: str, room: float, style: str = "") -> Iterator[str]:
+    """Draw a name over lines, with a white border, so that the lines stop short of its letters."""
+    yield _text(at, text, f"{style} halo".strip(), _FONT, room)
+    yield _text(at, text, style, _FONT, room)
 
 
 def _width(text: str, size: float) -> float:

@@ -23,8 +23,8 @@ from __future__ import annotations
 
 import heapq
 from collections import defaultdict
-from collections.abc import Hashable, Iterable, Mapping
-from typing import Literal, NamedTuple, TypeAlias, TypeVar
+from collections.abc import Iterable, Mapping
+from typing import Literal, NamedTuple, TypeAlias
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import Connectors
@@ -33,7 +33,9 @@ from urdfsync.urdf.robot import MOTION_KINDS
 Point: TypeAlias = tuple[int, int]
 Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
-Key = TypeVar("Key", bound=Hashable)
+_Cell: TypeAlias = tuple[int, int]
+_Spans: TypeAlias = dict[str, list[int]]
+"""Per leader, the places from the first to the last of which its lines run."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -101,13 +103,19 @@ class Diagram(NamedTuple):
     lines: dict[tuple[str, str], tuple[LineKind, Path]]
 
 
-class _Row(NamedTuple):
-    """Heights of a row."""
+class _Grid(NamedTuple):
+    """Points of the diagram by URDF names, and its edges."""
 
-    spine: int
-    band: int
-    """Middle of its couplings."""
-    tracks: list[int]
+    links: Mapping[str, Point]
+    """Where a link's trunk meets the spine of its row."""
+    joints: Mapping[str, Point]
+    """Where the trunk of a joint's parent meets the spine of the joint's row."""
+    couplings: Mapping[str, Point]
+    """Their middles, by follower."""
+    detours: Mapping[str, Point]
+    """By follower: where the line to its leader leaves the gap between columns for the leader's row."""
+    top: int
+    right: int
     bottom: int
 
 
@@ -116,153 +124,157 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
 
     No two components overlap and no line crosses a component.
     """
-    # Cells, as (row, column): a joint stands in its parent's column and in its child's row.
-    links, joints = {tree.links[0].name: (0, 0)}, {}
-    last, continued = 0, set()
-    for joint in tree.joints:
-        row, column = links[joint.parent]
-        if joint.parent in continued:
-            row = last = last + 1
-        continued.add(joint.parent)
-        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
-    columns = 1 + max(column for _, column in links.values())
-    # A leader that does not move has no line to its coupling.
-    motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
-    leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if motions[mimic.joint]}
-    across, along = _detours(leaders, joints)
-
-    # Heights of rows from the top, and the columns' trunks from the left.
-    banded = {joints[name][0] for name in names.couplings}
-    driven = {joints[name][0] for name in names.axes}
-    framed = {links[name][0] for name in names.frames if name in continued}
-    top, rows = 0, list[_Row]()
-    for _ in range(2):  # the second time with `frame_a`, which is on the first spine, at its height
-        top, rows = FRAME_A[1] - (rows[0].spine if rows else 0), []
-        below = top
-        for row in range(last + 1):
-            lanes = [below - _TRACK * (track + 1) for track in range(_count(across.get(row, {})))]
-            below -= _TRACK * len(lanes)
-            band = below - _NAME - _SIZE // 2
-            below -= (_NAME + _SIZE) * (row in banded) + (_CONNECTOR + _TRACK) * (row in driven)
-            spine = below - _NAME - _SIZE // 2
-            below = spine - _BELOW - (_CONNECTOR + _TRACK) * (row in framed)
-            rows.append(_Row(spine, band, lanes, below))
-    left = FRAME_A[0] - _FRAME // 2
-    trunks = [left + _FRAME + _TRUNK // 2 + _TRACK * (_count(along.get(0, {})) + 1)]
-    for column in range(1, columns):
-        trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(along.get(column, {})) - 1))
-    right = trunks[-1] + _MARGIN + _SIZE
-
-    # Places of components, in the order in which they are drawn.
-    link_boxes, joint_boxes = {}, {}
-    for name, (row, column) in links.items():
-        link_boxes[name] = Placement.around((trunks[column] + _LINK_X, rows[row].spine - _LINK_Y))
-    for name, (row, column) in joints.items():
-        joint_boxes[name] = Placement.around((trunks[column] + _JOINT_X, rows[row].spine))
-    placements = {"frame_a": Placement.around(FRAME_A, _FRAME)}
-    for name, axis in names.axes.items():
-        (x, _), y = joint_boxes[name].centre, joint_boxes[name].centre[1] + _ABOVE
-        placements[axis] = Placement.around((x, y), _CONNECTOR)
-        aside = joint_boxes[name].port("support")[0] - _ASIDE
-        placements[names.supports[name]] = Placement.around((aside, y), _CONNECTOR)
-    for name, frame in names.frames.items():
-        if name in continued:
-            below_link = link_boxes[name].centre[0], link_boxes[name].y1 - _CONNECTOR
-            placements[frame] = Placement.around(below_link, _CONNECTOR)
-        else:
-            placements[frame] = Placement.around((right - _SIZE // 2, rows[links[name][0]].spine))
-    placements |= {tree.link(name).component: box for name, box in link_boxes.items()}
-    placements |= {tree.joint(name).component: box for name, box in joint_boxes.items()}
-    for name, coupling in names.couplings.items():
-        row, column = joints[name]
-        placements[coupling] = Placement.around((trunks[column] + _LINK_X, rows[row].band))
-
-    # Lines: of frames link by link, then of flanges, then of couplings.
-    lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
-    children = tree.children()
-    for name, (row, column) in links.items():
-        component, trunk, port = tree.link(name).component, trunks[column], link_boxes[name].port("frame_a")
-        own, foot = f"{component}.frame_a", (trunk, port[1])
-        if name == tree.links[0].name:
-            lines["frame_a", own] = "frame", _path([FRAME_A, (trunk, rows[row].spine), foot, port])
-        if name in names.frames:
-            end = placements[names.frames[name]].centre
-            lines[own, names.frames[name]] = "frame", _path([port, foot, (trunk, end[1]), end])
-        for joint in children.get(name, ()):
-            joint_name, box = tree.joint(joint.name).component, joint_boxes[joint.name]
-            start, end = box.port("frame_a"), box.port("frame_b")
-            lines[own, f"{joint_name}.frame_a"] = "frame", _path([port, foot, (trunk, start[1]), start])
-            child, turn = link_boxes[joint.child].port("frame_a"), trunks[column + 1]
-            ends = f"{joint_name}.frame_b", f"{tree.link(joint.child).component}.frame_a"
-            lines[ends] = "frame", _path([end, (turn, end[1]), (turn, child[1]), child])
-    for name, axis in names.axes.items():
-        component, box = tree.joint(name).component, joint_boxes[name]
-        kind, start, support = motions[name] or "frame", box.port("axis"), box.port("support")
-        lines[f"{component}.axis", axis] = kind, _path([start, placements[axis].centre])
-        end, bend = placements[names.supports[name]].centre, support[1] + 2
-        points = [support, (support[0], bend), (end[0], bend), end]
-        lines[f"{component}.support", names.supports[name]] = kind, _path(points)
-    for name, coupling in names.couplings.items():
-        follower, box, end = tree.joint(name).component, placements[coupling], joint_boxes[name].port("axis")
-        start = box.port("follower")
-        points = [start, (end[0], start[1]), end]
-        lines[f"{coupling}.follower", f"{follower}.axis"] = motions[name] or "frame", _path(points)
-        if name in leaders:
-            leader = leaders[name]
-            row, column = joints[leader][0], joints[name][1]
-            start, end = box.port("leader"), joint_boxes[leader].port("axis")
-            x = trunks[column] - _TRACK * (along[column][leader] + 1)
-            y = rows[row].tracks[across[row][leader]]
-            points = [start, (x, start[1]), (x, y), (end[0], y), end]
-            if leader in names.axes:  # its connector stands above the axis: pass it
-                aside, bend = end[0] + _ASIDE, end[1] + 2
-                points = [start, (x, start[1]), (x, y), (aside, y), (aside, bend), (end[0], bend), end]
-            ends = f"{coupling}.leader", f"{tree.joint(leader).component}.axis"
-            lines[ends] = motions[leader] or "frame", _path(points)
-    return Diagram((left, rows[-1].bottom, right, top), placements, lines)
+    grid = _grid(tree, names)
+    placements = _placements(tree, names, grid)
+    extent = placements["frame_a"].x1, grid.bottom, grid.right, grid.top
+    return Diagram(extent, placements, _lines(tree, names, grid, placements))
 
 
-_Tracks: TypeAlias = Mapping[int, Mapping[str, int]]
+def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
+    links, joints = _cells(tree)
+    last_row, last_column = (max(places) for places in zip(*links.values(), strict=True))
 
-
-def _detours(leaders: Mapping[str, str], joints: Mapping[str, tuple[int, int]]) -> tuple[_Tracks, _Tracks]:
-    """Return the track of each leader's lines: above each row, and in the gap left of each column.
-
-    `leaders` has the leader of each follower, `joints` the cells of joints.
-    """
-    followers = defaultdict[str, list[tuple[int, int]]](list)
+    # Tracks for lines to leaders, above each row and left of each column. A leader that does not move has no line.
+    moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
+    leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if mimic.joint in moving}
+    above, left = (defaultdict[int, _Spans](lambda: defaultdict(list)) for _ in range(2))
     for follower, leader in leaders.items():
-        followers[leader].append(joints[follower])
-    across, along = (defaultdict[int, dict[str, tuple[int, int]]](dict) for _ in range(2))
-    for leader, cells in followers.items():
-        row, column = joints[leader]
-        passed = [column, *(cell[1] for cell in cells)]
-        across[row][leader] = min(passed), max(passed)
-        for cell in cells:
-            low, high = along[cell[1]].get(leader, (row, row))
-            along[cell[1]][leader] = min(low, cell[0]), max(high, cell[0])
-    return (
-        {row: tracks(intervals) for row, intervals in across.items()},
-        {column: tracks(intervals) for column, intervals in along.items()},
+        (row, column), (follower_row, follower_column) = joints[leader], joints[follower]
+        above[row][leader] += column, follower_column
+        left[follower_column][leader] += row, follower_row
+    tracks_above = [_tracks(above[row]) for row in range(last_row + 1)]
+    tracks_left = [_tracks(left[column]) for column in range(last_column + 1)]
+
+    with_axes = {joints[name][0] for name in names.axes}
+    with_couplings = {joints[name][0] for name in names.couplings}
+    parents = {joint.parent for joint in tree.joints}
+    with_frames = {links[name][0] for name in names.frames if name in parents}
+    tops, spines, y = list[int](), list[int](), 0
+    for row, tracks in enumerate(tracks_above):
+        height = _TRACK * _count(tracks) + _NAME + _SIZE // 2
+        height += (_CONNECTOR + _TRACK) * (row in with_axes) + (_NAME + _SIZE) * (row in with_couplings)
+        tops.append(y if row else FRAME_A[1] + height)
+        spines.append(tops[row] - height)
+        y = spines[row] - _BELOW - (_CONNECTOR + _TRACK) * (row in with_frames)
+    trunks = [FRAME_A[0] + _FRAME // 2 + _TRUNK // 2 + _TRACK * (_count(tracks_left[0]) + 1)]
+    for tracks in tracks_left[1:]:
+        trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(tracks) - 1))
+
+    couplings, detours = {}, {}
+    for name in names.couplings:
+        row, column = joints[name]
+        y_coupling = tops[row] - _TRACK * _count(tracks_above[row]) - _NAME - _SIZE // 2
+        couplings[name] = trunks[column] + _LINK_X, y_coupling
+        if name in leaders:
+            row = joints[leaders[name]][0]
+            track_above, track_left = tracks_above[row][leaders[name]], tracks_left[column][leaders[name]]
+            detours[name] = trunks[column] - _TRACK * (track_left + 1), tops[row] - _TRACK * (track_above + 1)
+    return _Grid(
+        links={name: (trunks[column], spines[row]) for name, (row, column) in links.items()},
+        joints={name: (trunks[column], spines[row]) for name, (row, column) in joints.items()},
+        couplings=couplings,
+        detours=detours,
+        top=tops[0],
+        right=trunks[-1] + _MARGIN + _SIZE,
+        bottom=y,
     )
 
 
-def tracks(intervals: Mapping[Key, tuple[int, int]]) -> dict[Key, int]:
-    """Number the tracks of a channel, from 0, so that closed intervals on one track don't touch.
+def _cells(tree: KinematicTree) -> tuple[Mapping[str, _Cell], Mapping[str, _Cell]]:
+    """Return row and column of each link and joint: a joint stands in its parent's column and in its child's row."""
+    links, joints = {tree.links[0].name: (0, 0)}, {}
+    last, parents = 0, set()
+    for joint in tree.joints:
+        row, column = links[joint.parent]
+        if joint.parent in parents:
+            row = last = last + 1
+        parents.add(joint.parent)
+        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
+    return links, joints
+
+
+def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
+    """Return the places of all components, in the order in which they are drawn."""
+    links = {name: Placement.around((x + _LINK_X, y - _LINK_Y)) for name, (x, y) in grid.links.items()}
+    joints = {name: Placement.around((x + _JOINT_X, y)) for name, (x, y) in grid.joints.items()}
+    placements = {"frame_a": Placement.around(FRAME_A, _FRAME)}
+    for name, axis in names.axes.items():
+        (x, y), (support_x, _) = joints[name].centre, joints[name].port("support")
+        placements[axis] = Placement.around((x, y + _ABOVE), _CONNECTOR)
+        placements[names.supports[name]] = Placement.around((support_x - _ASIDE, y + _ABOVE), _CONNECTOR)
+    leaves = {leaf.name for leaf in tree.leaves()}
+    for name, frame in names.frames.items():
+        if name in leaves:
+            placements[frame] = Placement.around((grid.right - _SIZE // 2, grid.links[name][1]))
+        else:
+            placements[frame] = Placement.around((links[name].centre[0], links[name].y1 - _CONNECTOR), _CONNECTOR)
+    placements |= {tree.link(name).component: place for name, place in links.items()}
+    placements |= {tree.joint(name).component: place for name, place in joints.items()}
+    return placements | {names.couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
+
+
+def _lines(
+    tree: KinematicTree, names: Connectors, grid: _Grid, placements: Mapping[str, Placement]
+) -> dict[tuple[str, str], tuple[LineKind, Path]]:
+    """Return the lines: of frames link by link, then of flanges, then of couplings."""
+    lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
+    children = tree.children()
+    motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.type in MOTION_KINDS}
+
+    def place(end: str) -> Point:
+        component, _, port = end.partition(".")
+        return placements[component].port(port) if port else placements[component].centre
+
+    def connect_frames(start: str, end: str, link: str) -> None:
+        one, other, (trunk, _) = place(start), place(end), grid.links[link]
+        lines[start, end] = "frame", _path([one, (trunk, one[1]), (trunk, other[1]), other])
+
+    for name in grid.links:
+        own = f"{tree.link(name).component}.frame_a"
+        if name == tree.links[0].name:
+            connect_frames("frame_a", own, name)
+        if name in names.frames:
+            connect_frames(own, names.frames[name], name)
+        for joint in children.get(name, ()):
+            component = tree.joint(joint.name).component
+            connect_frames(own, f"{component}.frame_a", name)
+            connect_frames(f"{component}.frame_b", f"{tree.link(joint.child).component}.frame_a", joint.child)
+    for name, connector in names.axes.items():
+        axis, support = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support"))
+        lines[axis, connector] = motions[name], (place(axis), place(connector))
+        (x, y), end = place(support), place(names.supports[name])
+        lines[support, names.supports[name]] = motions[name], _path([(x, y), (x, y + 2), (end[0], y + 2), end])
+    for joint, mimic in tree.followers():
+        name, coupling = joint.name, names.couplings[joint.name]
+        start, axis = f"{coupling}.follower", f"{tree.joint(name).component}.axis"
+        one, other = place(start), place(axis)
+        lines[start, axis] = motions[name], _path([one, (other[0], one[1]), other])
+        if name in grid.detours:
+            leader = mimic.joint
+            start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[name]
+            one, other = place(start), place(axis)
+            bends = [(other[0], y)]
+            if leader in names.axes:  # its connector stands above the axis: pass it
+                bends = [(other[0] + _ASIDE, y), (other[0] + _ASIDE, other[1] + 2), (other[0], other[1] + 2)]
+            lines[start, axis] = motions[leader], _path([one, (x, one[1]), (x, y), *bends, other])
+    return lines
+
+
+def _tracks(spans: _Spans) -> dict[str, int]:
+    """Number the tracks of a channel, from 0, so that spans on one track don't touch.
 
     The left-edge method: as few tracks as the densest place of the channel needs.
     """
-    assigned: dict[Key, int] = {}
-    busy: list[tuple[int, int]] = []
-    for key, (start, end) in sorted(intervals.items(), key=lambda item: item[1]):
-        track = heapq.heappop(busy)[1] if busy and busy[0][0] < start else len(busy)
-        assigned[key] = track
-        heapq.heappush(busy, (end, track))
+    assigned: dict[str, int] = {}
+    busy: list[tuple[int, int]] = []  # end, and track
+    for key, places in sorted(spans.items(), key=lambda item: (min(item[1]), max(item[1]))):
+        assigned[key] = heapq.heappop(busy)[1] if busy and busy[0][0] < min(places) else len(busy)
+        heapq.heappush(busy, (max(places), assigned[key]))
     return assigned
 
 
-def _count(assigned: Mapping[str, int]) -> int:
-    return 1 + max(assigned.values(), default=-1)
+def _count(tracks: Mapping[str, int]) -> int:
+    return 1 + max(tracks.values(), default=-1)
 
 
 def _path(points: Iterable[Point]) -> Path:

@@ -6,15 +6,16 @@ The classes follow from what the templates print: models hold structure and name
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, JointType, Mesh, Motion
 
-_ABSENT = object()
-_Group: TypeAlias = Literal["visuals", "collisions"]
+_Fields: TypeAlias = Sequence[str | int]
+_Shapes: TypeAlias = Sequence[tuple[str, Mapping[str, Any]]]
+"""Shapes, each with its group: `visuals` or `collisions`."""
 
 _STRUCTURE = frozenset({("type",), ("parent",), ("child",), ("dynamics",), ("mimic",), ("mimic", "joint")})
 """Parts of a joint that its model says, as far as they are modelled; records have the rest."""
@@ -54,11 +55,14 @@ def describe(
     for difference in differences:
         match difference.path:
             case ("imports", str(key)):
-                found.append(_of_import(key, shared.get(key, ()), versions, options))
+                found.append(_of_import(key, shared[key], versions, options) if key in shared else None)
             case ("links", str(name), *fields):
                 found.append(_of_link(name, fields, versions, options))
             case ("joints", str(name), "drive"):
-                found.append(_of_drive(name, difference.kind, options))
+                # A drive that comes or goes follows from type or mimic, one that is replaced may follow from an option.
+                by_source = options.driven is None and "package" in options.approach
+                is_change = by_source and difference.kind is ChangeKind.CHANGED
+                found.append(Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None)
             case ("joints", str(name), *fields):
                 found.append(_of_joint(name, fields, versions))
             case ("extensions", str(owner), *fields):
@@ -68,79 +72,78 @@ def describe(
     return found
 
 
+def _words(element: str, fields: _Fields) -> tuple[str, ...]:
+    """Return a path as people read it: an index goes with its list."""
+    words = [element]
+    for field in fields:
+        if isinstance(field, int):
+            words[-1] += f"[{field}]"
+        else:
+            words.append(field)
+    return tuple(words)
+
+
 # --- links --------------------------------------------------------------------------------------------------------
 
 
-class _Appearance(NamedTuple):
-    """What a model says of a shape."""
-
-    kind: str
-    has_contact: bool
-    """Whether it touches the ground."""
-
-
-def _of_link(name: str, fields: Sequence[str | int], versions: Sequence[Version], options: Options) -> Meaning:
-    words = _words(f"link {name}", fields)
-    unit = _UNITS.get(_innermost(fields), "")
+def _of_link(name: str, fields: _Fields, versions: Sequence[Version], options: Options) -> Meaning:
+    element = f"link {name}"
+    unit = next((_UNITS.get(field, "") for field in reversed(fields) if isinstance(field, str)), "")
     match fields:
         case []:
-            return Meaning(words, ChangeClass.STRUCTURAL)
+            return Meaning((element,), ChangeClass.STRUCTURAL)
         case ["visuals" | "collisions" as group, int(index), *inside]:
-            words = (words[0], f"{group[:-1]} {index + 1}", *_words("", inside)[1:])
-            return Meaning(words, _shape_class(name, group, index, inside, versions, options), unit)
+            words = element, *_words(f"{group[:-1]} {index + 1}", inside)
+            shapes = [version.snapshot["links"][name][group][index : index + 1] for version in versions]
+            return Meaning(words, _shape_class(group, shapes, inside, versions, options), unit)
         case _:
-            return Meaning(words, ChangeClass.PARAMETER, unit)
+            return Meaning(_words(element, fields), ChangeClass.PARAMETER, unit)
 
 
 def _shape_class(
-    link: str,
-    group: _Group,
-    index: int,
-    inside: Sequence[str | int],
+    group: str,
+    shapes: Sequence[Sequence[Mapping[str, Any]]],
+    inside: _Fields,
     versions: Sequence[Version],
     options: Options,
 ) -> ChangeClass:
-    """Return how far a change inside of a shape reaches."""
-    found = [version.snapshot["links"][link][group][index : index + 1] for version in versions]
+    """Return how far a change inside of a shape reaches; `shapes` has the shape of each version, if it has one."""
     old, new = (
-        _appearance(shapes[0], group, version.imports, options) if shapes else None
-        for shapes, version in zip(found, versions, strict=True)
+        _in_model(group, found[0], version.imports, options) if found else None
+        for found, version in zip(shapes, versions, strict=True)
     )
     if old is None and new is None:
-        # the standing height in the record follows from collisions, even if no model shows them
-        stands = options.base == "floating" and not options.collisions
-        is_used = group == "collisions" and stands and inside[:1] != ["name"]
-        return ChangeClass.PARAMETER if is_used else ChangeClass.UNMODELLED
+        # The standing height in the record follows from collisions, even if no model shows them.
+        has_height = group == "collisions" and options.base == "floating" and not options.collisions
+        return ChangeClass.PARAMETER if has_height and inside[:1] != ["name"] else ChangeClass.UNMODELLED
     match inside:
         case [] | ["geometry", *_] if old != new:
             return ChangeClass.STRUCTURAL
         case ["material", "name" | "texture"]:
             return ChangeClass.UNMODELLED
-        case ["material"] if not any("rgba" in shape.get("material", {}) for shapes in found for shape in shapes):
+        case ["material"] if not any("rgba" in shape.get("material", {}) for found in shapes for shape in found):
             return ChangeClass.UNMODELLED
         case _:
             return ChangeClass.PARAMETER
 
 
-def _appearance(
-    shape: Mapping[str, Any], group: _Group, imports: Mapping[str, Import] | None, options: Options
-) -> _Appearance | None:
-    """Return what a model says of a shape; None if it is left out, as shapes without their mesh are.
+def _in_model(
+    group: str, shape: Mapping[str, Any], imports: Mapping[str, Import] | None, options: Options
+) -> tuple[str, bool] | None:
+    """Return the kind of a shape, and whether it touches the ground; None if models leave it out.
 
-    `imports` are None if nobody looked for the meshes.
+    Shapes without their mesh are left out. `imports` are None if nobody looked for the meshes.
     """
+    key, touches = _mesh_key(shape), group == "collisions" and options.base == "floating"
     if group == "collisions" and not options.collisions:
         return None
-    has_contact = options.base == "floating" and group == "collisions"
-    kind, key = shape["geometry"]["kind"], _mesh_key(shape)
-    if key is None:
-        return _Appearance(kind, has_contact)
-    if options.meshes != "import":
+    if key is not None and options.meshes != "import":
         return None
-    if imports is None:
-        return _Appearance(kind, has_contact)
-    found = imports.get(key)
-    return None if found is None else _Appearance(kind, has_contact and bool(found.facts["hull"]))
+    if key is not None and imports is not None:
+        if key not in imports:
+            return None
+        touches = touches and bool(imports[key].facts["hull"])
+    return shape["geometry"]["kind"], touches
 
 
 def _mesh_key(shape: Mapping[str, Any]) -> str | None:
@@ -149,28 +152,21 @@ def _mesh_key(shape: Mapping[str, Any]) -> str | None:
     return lookup.key(Mesh(geometry["filename"], tuple(geometry["scale"]))) if geometry["kind"] == "mesh" else None
 
 
-_Shapes: TypeAlias = Sequence[tuple[Mapping[str, Any], _Group]]
-
-
 def _shared_meshes(old: Version, new: Version) -> Mapping[str, _Shapes]:
-    """Return per mesh the shapes that have it in both versions, each with its group."""
-    result: dict[str, list[tuple[Mapping[str, Any], _Group]]] = {}
-    groups: tuple[_Group, ...] = ("visuals", "collisions")
-    for name, link in new.snapshot["links"].items():
-        before = old.snapshot["links"].get(name)
-        for group in groups if before is not None else ():
-            for one, two in zip(before[group], link[group], strict=False):
-                key = _mesh_key(two)
-                if key is not None and _mesh_key(one) == key:
-                    result.setdefault(key, []).append((two, group))
-    return result
+    """Return per mesh the shapes that have it in both versions."""
+    shapes: dict[str, list[tuple[str, Mapping[str, Any]]]] = {}
+    for name in old.snapshot["links"].keys() & new.snapshot["links"].keys():
+        for group in ("visuals", "collisions"):
+            before, after = (version.snapshot["links"][name][group] for version in (old, new))
+            for one, two in zip(before, after, strict=False):
+                if (key := _mesh_key(two)) and _mesh_key(one) == key:
+                    shapes.setdefault(key, []).append((group, two))
+    return shapes
 
 
-def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning | None:
-    """Return the meaning of another content of a mesh; None if no shape shows it in both versions."""
-    if not shapes:
-        return None
-    old, new = ([_appearance(*shape, version.imports, options) for shape in shapes] for version in versions)
+def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning:
+    """Return the meaning of another content of a mesh."""
+    old, new = ([_in_model(*shape, version.imports, options) for shape in shapes] for version in versions)
     words = (f"mesh {key.removesuffix(_UNSCALED)}", "content")
     return Meaning(words, ChangeClass.PARAMETER if old == new else ChangeClass.STRUCTURAL)
 
@@ -178,22 +174,20 @@ def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: 
 # --- joints -------------------------------------------------------------------------------------------------------
 
 
-def _of_joint(name: str, fields: Sequence[str | int], versions: Sequence[Version]) -> Meaning:
+def _of_joint(name: str, fields: _Fields, versions: Sequence[Version]) -> Meaning:
     words = _words(f"joint {name}", fields)
     if not fields:
         return Meaning(words, ChangeClass.STRUCTURAL)
     place = tuple(field for field in fields if isinstance(field, str))
+    reaches = ChangeClass.STRUCTURAL if place in _STRUCTURE else ChangeClass.PARAMETER
     classes, units = [], []
     for joints in (version.snapshot["joints"] for version in versions):
-        value = joints[name]
-        if not _is_modelled(value["type"], place):
-            classes.append(ChangeClass.UNMODELLED)
-        else:
-            classes.append(ChangeClass.STRUCTURAL if place in _STRUCTURE else ChangeClass.PARAMETER)
+        value = joint = joints[name]
+        classes.append(reaches if _is_modelled(joint["type"], place) else ChangeClass.UNMODELLED)
         for field in place:
-            value = value[field] if isinstance(value, Mapping) and field in value else _ABSENT
-        if value is not _ABSENT:
-            units.append(_joint_unit(joints[name], joints, place[-1]))
+            value = value.get(field) if isinstance(value, Mapping) else None
+        if value is not None:
+            units.append(_joint_unit(joint, joints, place[-1]))
     unit = " → ".join(dict.fromkeys(filter(None, units)))
     return Meaning(words, max(classes, key=lambda c: c.rank), unit)
 
@@ -224,29 +218,3 @@ def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str)
     if motion is None or leader is None or motion == leader:
         return ""
     return f"{_POSITION[motion]}/{_POSITION[leader]}"
-
-
-def _of_drive(name: str, kind: ChangeKind, options: Options) -> Meaning | None:
-    """Return the meaning of a drive that comes or goes; None if type, mimic or an option of the joint decide on it."""
-    if kind is not ChangeKind.CHANGED or options.driven is not None or "package" not in options.approach:
-        return None
-    return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL)
-
-
-# --- paths --------------------------------------------------------------------------------------------------------
-
-
-def _words(element: str, fields: Sequence[str | int]) -> tuple[str, ...]:
-    """Return a path as people read it: an index goes with its list."""
-    words = [element]
-    for field in fields:
-        if isinstance(field, int):
-            words[-1] += f"[{field}]"
-        else:
-            words.append(field)
-    return tuple(words)
-
-
-def _innermost(fields: Sequence[str | int]) -> str:
-    """Return the innermost name."""
-    return next((field for field in reversed(fields) if isinstance(field, str)), "")

@@ -104,21 +104,19 @@ def _triangles(node: Any, pose: Array) -> Iterator[Triangles]:
         for child in node.children:
             yield from _triangles(child, pose)
     elif isinstance(node, scene.GeometryNode):
-        yield from (placed(part, pose) for part in _primitives(node.geometry))
+        yield from _primitives(node.geometry, pose)
     elif isinstance(node, scene.ControllerNode) and isinstance(node.controller, controller.Skin):
-        skin = node.controller
-        pose = _product(pose, skin.bind_shape_matrix)
-        yield from (placed(part, pose) for part in _primitives(skin.geometry))
+        yield from _primitives(node.controller.geometry, _product(pose, node.controller.bind_shape_matrix))
     elif isinstance(node, scene.ControllerNode):
-        yield from (placed(part, pose) for part in _primitives(node.controller.source_geometry))
+        yield from _primitives(node.controller.source_geometry, pose)
 
 
-def _primitives(geometry: Any) -> Iterator[Triangles]:
-    """The triangles of one geometry, as they stand in the file; lines are left out."""
+def _primitives(geometry: Any, pose: Array) -> Iterator[Triangles]:
+    """The triangles of one geometry at a pose; lines are left out."""
     for primitive in geometry.primitives:
         part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
         if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
-            yield Triangles(part.vertex.astype(np.float64), part.vertex_index)
+            yield placed(Triangles(part.vertex.astype(np.float64), part.vertex_index), pose)
 
 
 def _product(first: Array, second: Array) -> Array:

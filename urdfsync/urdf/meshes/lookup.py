@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from urdfsync.domain import Dependency, Lookup
-from urdfsync.urdf.robot import Collision, Mesh, Robot, Vector, Visual
+from urdfsync.urdf.robot import Geometry, Mesh, Robot, Vector
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 AS_IS = (".stl", ".obj")
@@ -72,16 +72,20 @@ def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tupl
     `lines` holds the line of each element by its path, for example `link wheel / visual 2`, as reading
     the source gave it.
     """
-    meshes: dict[str, Mesh] = {}
-    first: dict[str, int] = {}
-    for path, found in _meshes(robot):
-        name, line = key(found), _line(path, lines)
-        meshes[name] = found
-        if line:
-            first[name] = min(line, first.get(name, line))
+    found: dict[str, tuple[Mesh, list[int]]] = {}
+    for path, shape in _shapes(robot):
+        if isinstance(shape, Mesh):
+            found.setdefault(key(shape), (shape, []))[1].append(_line(f"{path} / geometry / mesh", lines))
     return tuple(
-        Dependency(name, found.filename, candidates(found.filename, lookup), target(found), "mesh", first.get(name, 0))
-        for name, found in sorted(meshes.items())
+        Dependency(
+            name,
+            mesh.filename,
+            candidates(mesh.filename, lookup),
+            target(mesh),
+            "mesh",
+            min(filter(None, at), default=0),
+        )
+        for name, (mesh, at) in sorted(found.items())
     )
 
 
@@ -168,16 +172,13 @@ def _possible(path: Path) -> bool:
     return max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES
 
 
-def _meshes(robot: Robot) -> Iterator[tuple[str, Mesh]]:
-    """Each mesh with the path of its element."""
+def _shapes(robot: Robot) -> Iterator[tuple[str, Geometry]]:
+    """Yield each shape with the path of its element."""
     for link in robot.links:
-        shapes: list[tuple[str, Visual | Collision]] = [
-            *((f"visual {number}", visual) for number, visual in enumerate(link.visuals, start=1)),
-            *((f"collision {number}", collision) for number, collision in enumerate(link.collisions, start=1)),
-        ]
-        for name, shape in shapes:
-            if isinstance(shape.geometry, Mesh):
-                yield f"link {link.name} / {name} / geometry / mesh", shape.geometry
+        for number, visual in enumerate(link.visuals, start=1):
+            yield f"link {link.name} / visual {number}", visual.geometry
+        for number, collision in enumerate(link.collisions, start=1):
+            yield f"link {link.name} / collision {number}", collision.geometry
 
 
 def _line(path: str, lines: Mapping[str, int]) -> int:

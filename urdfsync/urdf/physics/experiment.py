@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
 
+import msgspec
 import numpy as np
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
@@ -15,10 +16,10 @@ from urdfsync.urdf.model.tables import has_tables
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
-from urdfsync.urdf.physics.free_joints import Array, free_joints, free_start
+from urdfsync.urdf.physics.free_joints import Array, FrameMotion, free_joints, free_start
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, probe, robot_variables
 from urdfsync.urdf.physics.reading import pinocchio, read
-from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Instant, Reference
+from urdfsync.urdf.physics.reference import Configuration, Reference
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
@@ -77,78 +78,92 @@ class PinocchioExperiment:
             f"limits, shapes and contacts (they change no motion) and {benches} are not compared",
         )
 
+    @np.errstate(all="ignore")  # where the simulation gave no number, the reference may have none
     def compare(self, series: Series, baseline: Series | None = None) -> Sequence[Deviation]:
         """See `urdfsync.domain.Experiment`; the first and the last instant count."""
-        greatest: dict[_Key, tuple[float, float]] = {}  # difference, and value of the reference
+        pairs = []  # per instant: what was found, what was expected, and by how much they may differ
+        for instant in (_FIRST, _LAST):
+            found = _at(series, instant)
+            expected = self._expected(found, instant) if baseline is None else _at(baseline, instant)
+            free_later = baseline is not None and self._free and instant == _LAST
+            pairs.append((found, expected, _SOLVER_ERROR if free_later else 0.0))
+        deviations = []
+        for quantity, element, unit, names in self._compared():
+            greatest, value = 0.0, 0.0
+            for found, expected, tolerated in pairs:
+                reference = _vector(expected, names)
+                difference = float(np.max(np.abs(_vector(found, names) - reference)))
+                size = float(np.max(np.abs(reference)))
+                size = size if math.isfinite(size) else 0.0
+                if not difference <= tolerated * max(1.0, size):
+                    greatest = math.inf if math.isnan(difference) else max(greatest, difference)
+                value = max(value, size)
+            deviations.append(Deviation(quantity, element, greatest, value, 0.0, unit))
         sizes: dict[tuple[Quantity, str], float] = {}
-        with np.errstate(all="ignore"):  # where the simulation gave no number, the reference may have none
-            for instant in (_FIRST, _LAST):
-                found = _at(series, instant)
-                base = None if baseline is None else _at(baseline, instant)
-                solved = self._solve(found, instant) if base is None else None
-                tolerated = _SOLVER_ERROR if base is not None and self._free and instant == _LAST else 0.0
-                for key, names, values in self._compared(solved):
-                    expected = _vector(base, names) if base is not None else np.asarray(values)
-                    new, size = float(np.max(np.abs(_vector(found, names) - expected))), float(np.max(np.abs(expected)))
-                    new, size = math.inf if math.isnan(new) else new, size if math.isfinite(size) else 0.0
-                    difference, value = greatest.get(key, (0.0, 0.0))
-                    greatest[key] = max(difference, 0.0 if new <= tolerated * max(1.0, size) else new), max(value, size)
-                    sizes[key.quantity, key.unit] = max(sizes.get((key.quantity, key.unit), 0.0), size)
-        return [
-            Deviation(key.quantity, key.element, difference, value, sizes[key.quantity, key.unit], key.unit)
-            for key, (difference, value) in greatest.items()
-        ]
+        for deviation in deviations:
+            kind = deviation.quantity, deviation.unit
+            sizes[kind] = max(sizes.get(kind, 0.0), deviation.value)
+        return [msgspec.structs.replace(one, size=sizes[one.quantity, one.unit]) for one in deviations]
 
-    def _compared(self, solved: Instant | None) -> Iterator[tuple[_Key, Sequence[str], Any]]:
-        """All that is compared, from the root outwards: the variables that tell it, and what the reference says."""
+    def _compared(self) -> Iterator[tuple[Quantity, str, str, Sequence[str]]]:
+        """Yield all that is compared, from the root outwards: of which element, its unit, and its variables."""
         names, tree = self._variables, self._tree
         for link in tree.links:
-            frame = solved and solved.frame(link.name)
-            yield _Key(Quantity.POSITION, f"link {link.name}", "m"), names.places[link.name], frame and frame.place
-            axes = frame and frame.axes.T.ravel()
-            yield _Key(Quantity.ORIENTATION, f"link {link.name}", ""), names.axes[link.name], axes
-        efforts, columns = names.efforts(tree), {joint.name: k for k, joint in enumerate(self._axes)}
+            yield Quantity.POSITION, f"link {link.name}", "m", names.places[link.name]
+            yield Quantity.ORIENTATION, f"link {link.name}", "", names.axes[link.name]
+        efforts = names.efforts(tree)
         for joint in tree.joints:
             if joint.name in efforts:
                 unit = "N·m" if MOTION_KINDS[joint.type] == "rotational" else "N"
-                effort = solved and [solved.efforts[columns[joint.name]]]
-                yield _Key(Quantity.EFFORT, f"joint {joint.name}", unit), (efforts[joint.name],), effort
-        root = f"link {tree.links[0].name}"
-        yield _Key(Quantity.REACTION, root, "N"), FORCE, solved and -solved.force
-        yield _Key(Quantity.REACTION, root, "N·m"), TORQUE, solved and -solved.torque
+                yield Quantity.EFFORT, f"joint {joint.name}", unit, (efforts[joint.name],)
+        yield Quantity.REACTION, f"link {tree.links[0].name}", "N", FORCE
+        yield Quantity.REACTION, f"link {tree.links[0].name}", "N·m", TORQUE
         for joint in self._free:
-            accelerations = solved.acceleration(joint.child) if solved else (None, None)
-            for part, unit, values in zip(("a_0", "z_a"), ("m/s²", "rad/s²"), accelerations, strict=True):
-                yield _Key(Quantity.ACCELERATION, f"link {joint.child}", unit), names.of_body(joint.child, part), values
-        mass, centre = solved.mass_and_centre() if solved else (0.0, None)
-        yield _Key(Quantity.MASS, "robot", "kg"), MASS, [mass]
-        yield _Key(Quantity.CENTRE, "robot", "m"), _CENTRE, centre
+            for part, unit in (("a_0", "m/s²"), ("z_a", "rad/s²")):
+                yield Quantity.ACCELERATION, f"link {joint.child}", unit, names.of_body(joint.child, part)
+        yield Quantity.MASS, "robot", "kg", MASS
+        yield Quantity.CENTRE, "robot", "m", _CENTRE
 
-    def _solve(self, found: Values, instant: int) -> Instant:
-        """What the reference says. Where free joints are later on follows from the simulation, which is not tested."""
-        names, time = self._variables, found["time"]
-        if instant == _FIRST:
-            return self._reference.solve(self._start(time))
-        free = {}
+    def _expected(self, found: Values, instant: int) -> Values:
+        """Return what the reference says, by the names of the variables.
+
+        Where free joints are later on follows from the simulation, whose way there is not tested.
+        """
+        names, values = self._variables, dict[str, float]()
+        state = self._start(found["time"]) if instant == _FIRST else self._later(found)
+        solved = self._reference.solve(state)
+
+        def tell(variables: Iterable[str], numbers: Iterable[float]) -> None:
+            values.update(zip(variables, map(float, numbers), strict=True))
+
+        for link in self._tree.links:
+            frame = solved.frame(link.name)
+            tell(names.places[link.name], frame.place)
+            tell(names.axes[link.name], frame.axes.T.ravel())
+        for joint in self._free:
+            linear, angular = solved.acceleration(joint.child)
+            tell(names.of_body(joint.child, "a_0"), linear)
+            tell(names.of_body(joint.child, "z_a"), angular)
+        mass, centre = solved.mass_and_centre()
+        tell(names.efforts(self._tree).values(), solved.efforts)
+        tell((*FORCE, *TORQUE), (*-solved.force, *-solved.torque))
+        tell((*MASS, *_CENTRE), (mass, *centre))
+        return values
+
+    def _later(self, found: Values) -> Configuration:
+        """Return where the robot is, with its free joints where a simulation says."""
+        names, free = self._variables, {}
         for joint in self._free:
             link = joint.child
             axes = _vector(found, names.axes[link]).reshape(3, 3).T
-            moves = (_vector(found, names.of_body(link, part)) for part in ("v_0", "w_a"))
-            free[joint.name] = FrameMotion(_vector(found, names.places[link]), axes, *moves)
-        return self._reference.solve(self._reference.state(time, self._courses, free))
+            velocity, turning = (_vector(found, names.of_body(link, part)) for part in ("v_0", "w_a"))
+            free[joint.name] = FrameMotion(_vector(found, names.places[link]), axes, velocity, axes @ turning)
+        return self._reference.state(found["time"], self._courses, free, in_world=True)
 
     def _start(self, time: float) -> Configuration:
-        """How the robot begins."""
+        """Return how the robot begins."""
         free = {joint.name: self._reference.start(joint.name, free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
-
-
-class _Key(NamedTuple):
-    """What a deviation is of."""
-
-    quantity: Quantity
-    element: str
-    unit: str
 
 
 def _at(series: Series, instant: int) -> Values:

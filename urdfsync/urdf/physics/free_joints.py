@@ -6,10 +6,10 @@ and `Floating`, and move as the forces want. Pinocchio's reader knows floating j
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 from xml.etree.ElementTree import Element, SubElement
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,8 +22,6 @@ Array = NDArray[np.float64]
 
 _PARTS = ("prismatic", "prismatic", "continuous")
 """Types of the joints that stand for a planar one."""
-NOT_SPLIT = np.zeros((0, 3))
-"""The axes of a joint that Pinocchio has as it is."""
 _CLOSE_TO_X = 0.9  # cosine of the angle to x from which on a normal counts as close to it
 
 
@@ -58,12 +56,12 @@ class SplitJoint(NamedTuple):
     """Their axes as rows, resolved in the joint frame."""
 
 
-class FreeJointState(msgspec.Struct, frozen=True):
-    """State of a free joint: the child's frame in the joint frame, all resolved in the latter."""
+class FrameMotion(NamedTuple):
+    """How a frame moves in another one, such as the world or the frame of a joint; all resolved in the other one."""
 
     place: Array
     axes: Array
-    """The axes of the child's frame as columns."""
+    """The axes of the frame as columns."""
     velocity: Array
     turning: Array
     """Angular velocity."""
@@ -127,23 +125,24 @@ def split_planar(root: Element, joint: Element, unused: str) -> SplitJoint:
     return split
 
 
-def start_state(pin: Any, start: Start, split_axes: Array) -> FreeJointState:
-    """The state of a free joint from its start values; `pin` is Pinocchio."""
-    if isinstance(start, Floating):
-        axes = pin.rpy.rpyToMatrix(*start.rpy)
-        return FreeJointState(np.array(start.r), axes, np.array(start.v), np.array(start.w))
-    x, y, normal = split_axes
+def start_motion(pin: Any, start: Start, split: SplitJoint | None) -> FrameMotion:
+    """Return how the child of a free joint begins to move in the joint frame; `pin` is Pinocchio."""
+    if isinstance(start, Floating) or split is None:
+        r, rpy, v, w = map(np.array, start)
+        return FrameMotion(r, pin.rpy.rpyToMatrix(*rpy), v, w)
+    x, y, normal = split.axes
     place, velocity = (part[0] * x + part[1] * y for part in (start.s, start.v))
-    return FreeJointState(place, pin.exp3(start.phi * normal), velocity, start.w * normal)
+    return FrameMotion(place, pin.exp3(start.phi * normal), velocity, start.w * normal)
 
 
-def coordinates(pin: Any, at: FreeJointState, split_axes: Array) -> tuple[tuple[Array, Array], ...]:
-    """What Pinocchio has for a state in q and v, for each of its joints that stand for the free one."""
-    if not len(split_axes):
-        attitude = pin.Quaternion(at.axes).normalized().coeffs()
-        speeds = np.concatenate([at.axes.T @ at.velocity, at.axes.T @ at.turning])
-        return ((np.concatenate([at.place, attitude]), speeds),)
-    x, y, normal = split_axes
-    cosine, sine = x @ at.axes @ x, y @ at.axes @ x
+def coordinates(pin: Any, frame: FrameMotion, split: SplitJoint | None) -> Sequence[tuple[Sequence[float], ...]]:
+    """Return q and v of each joint of Pinocchio that stands for a free one; `frame` is its child in the joint frame."""
+    place, axes, velocity, turning = frame
+    if split is None:
+        attitude = pin.Quaternion(axes).normalized().coeffs()
+        return [((*place, *attitude), (*axes.T @ velocity, *axes.T @ turning))]
+    x, y, normal = split.axes
+    cosine, sine = x @ axes @ x, y @ axes @ x
     turn = np.array([cosine, sine]) / np.hypot(cosine, sine)
-    return (x @ at.place, x @ at.velocity), (y @ at.place, y @ at.velocity), (turn, normal @ at.turning)
+    slides = [((x @ place,), (x @ velocity,)), ((y @ place,), (y @ velocity,))]
+    return [*slides, (tuple(turn), (normal @ turning,))]

@@ -6,7 +6,7 @@ values of planar and floating joints.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
@@ -62,9 +62,9 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Of the robot, up to the modifiers that depend on the comparison."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
-    places: Mapping[str, tuple[str, ...]]
+    places: Mapping[str, Sequence[str]]
     """By link: the three coordinates of its frame, in the world."""
-    axes: Mapping[str, tuple[str, ...]]
+    axes: Mapping[str, Sequence[str]]
     """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
     """By joint that can be driven: the connector of its axis."""
@@ -84,51 +84,37 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
-    """The names for the approach that is compared: that of the package, if there is a choice."""
-    compare = _package_variables if "package" in options.approach else _record_variables
-    return compare(tree, target, options)
+    """Return the names for the approach that is compared: that of the package, if there is a choice.
 
-
-def _package_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
-    connectors = connector_names(tree, options)
-    links = {link.name: f"robot.{tree.link(link.name).component}" for link in tree.links}
-    resolve = "Modelica.Mechanics.MultiBody.Frames.resolve1"
-    moments = (
-        f"{link}.body.m*({link}.frame_a.r_0 + {resolve}({link}.frame_a.R, {link}.body.r_CM))" for link in links.values()
-    )
-    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
-    return RobotVariables(
-        declaration=f"{target.package}.{target.name} robot(animation = false, ",
-        moment=" + ".join(moments),
-        places={name: tuple(f"{link}.frame_a.r_0[{i}]" for i in (1, 2, 3)) for name, link in links.items()},
-        axes={name: tuple(f"{link}.frame_a.R.T[{i},{j}]" for i, j in nine) for name, link in links.items()},
-        flanges={name: f"robot.{axis}" for name, axis in connectors.axes.items()},
-        bodies={name: f"{link}.body" for name, link in links.items()},
-    )
-
-
-def _record_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:  # noqa: ARG001
-    """The generic robot with a generated record: links are numbers there, and only their poses are told."""
-    numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
-    motions: tuple[Motion, ...] = ("rotational", "translational")
-    moments = (
-        f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :])"
-        for k in numbers.values()
-    )
-    record = f"redeclare parameter {target.package}.{target.name}Parameters data"
-    nine = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3)]
-    return RobotVariables(
-        declaration=f"UrdfSync.Robots.GenericRobot robot({record}, ",
-        moment=" + ".join(moments),
-        places={name: tuple(f"robot.r_0[{k},{i}]" for i in (1, 2, 3)) for name, k in numbers.items()},
-        axes={name: tuple(f"robot.R_0[{k},{j},{i}]" for i, j in nine) for name, k in numbers.items()},
-        flanges={
-            joint.name: f"robot.{motion}Axis[{number}]"
-            for motion in motions
-            for number, joint in enumerate(tree.axes(motion), 1)
-        },
-        bodies={},
-    )
+    With the record, the generic robot is moved: links are numbers there, and only their poses are told.
+    """
+    places, axes, bodies = dict[str, list[str]](), dict[str, list[str]](), dict[str, str]()
+    moments, three = list[str](), (1, 2, 3)
+    if "package" in options.approach:
+        declaration = f"{target.package}.{target.name} robot(animation = false, "
+        flanges = {name: f"robot.{axis}" for name, axis in connector_names(tree, options).axes.items()}
+        for link in tree.links:
+            part = f"robot.{tree.link(link.name).component}"
+            places[link.name] = [f"{part}.frame_a.r_0[{i}]" for i in three]
+            axes[link.name] = [f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three]
+            bodies[link.name] = f"{part}.body"
+            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
+            moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
+    else:
+        record = f"redeclare parameter {target.package}.{target.name}Parameters data"
+        declaration = f"UrdfSync.Robots.GenericRobot robot({record}, "
+        kinds: tuple[Motion, ...] = ("rotational", "translational")
+        flanges = {
+            joint.name: f"robot.{kind}Axis[{number}]"
+            for kind in kinds
+            for number, joint in enumerate(tree.axes(kind), 1)
+        }
+        for k, link in enumerate(tree.links, 1):
+            places[link.name] = [f"robot.r_0[{k},{i}]" for i in three]
+            axes[link.name] = [f"robot.R_0[{k},{j},{i}]" for i in three for j in three]
+            centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
+            moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
+    return RobotVariables(declaration, " + ".join(moments), places, axes, flanges, bodies)
 
 
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:

@@ -16,7 +16,7 @@ import msgspec
 import numpy as np
 
 from urdfsync.urdf.physics import free_joints, motion
-from urdfsync.urdf.physics.free_joints import Array, FreeJointState, Start
+from urdfsync.urdf.physics.free_joints import Array, FrameMotion, Start
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reading import PinocchioRobot, pinocchio
 
@@ -26,18 +26,6 @@ TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 _SINGULAR = 1e-12  # ratio of the least to the greatest eigenvalue of an inertia
-
-
-class FrameMotion(msgspec.Struct, frozen=True):
-    """A link's frame as it moves in the world."""
-
-    place: Array
-    axes: Array
-    """The axes of the frame as columns."""
-    velocity: Array
-    """Resolved in the world."""
-    turning: Array
-    """Angular velocity, resolved in the link's frame."""
 
 
 class Configuration(msgspec.Struct, frozen=True):
@@ -55,13 +43,16 @@ class Reference:
     """
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], free: Sequence[str]) -> None:
-        self.pin = pinocchio()
-        self.model, self._split_joints = robot.model, robot.split_joints
+        self.pin, self.model, self._split = pinocchio(), robot.model, robot.split_joints
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
-        self.axes, self.free = tuple(axes), tuple(free)
-        self.projection, self._offset = self._mimic(robot)
-        loose = [np.arange(part.idx_v, part.idx_v + part.nv) for name in free for part in self._parts(name)]
-        self.loose = np.concatenate([np.zeros(0, dtype=int), *loose])
+        self.axes = tuple(axes)
+        self.projection, self._offset = self._mimic(robot, free)
+        self._parts: dict[str, list[Any]] = {}  # by free joint: those of Pinocchio's joints that stand for it
+        for name in free:
+            names = self._split[name].parts if name in self._split else (name,)
+            self._parts[name] = [self.model.joints[self.model.getJointId(part)] for part in names]
+        parts = [part for parts in self._parts.values() for part in parts]
+        self.loose = np.array([part.idx_v + k for part in parts for k in range(part.nv)], dtype=int)
         """Where free joints are in Pinocchio's velocity."""
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
         """Of the dry friction, for each coordinate of Pinocchio's velocity; in s/rad or s/m, as in the records."""
@@ -69,97 +60,93 @@ class Reference:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
-    def start(self, name: str, start: Start) -> FreeJointState:
-        """The state of a free joint from its start values."""
-        return free_joints.start_state(self.pin, start, self._split_axes(name))
+    def start(self, name: str, start: Start) -> FrameMotion:
+        """Return how a free joint begins, in the joint frame."""
+        return free_joints.start_motion(self.pin, start, self._split.get(name))
 
     def state(
-        self, time: float, courses: Sequence[Course], free: Mapping[str, FreeJointState | FrameMotion]
+        self, time: float, courses: Sequence[Course], free: Mapping[str, FrameMotion], *, in_world: bool = False
     ) -> Configuration:
-        """Where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0."""
-        p, v, a = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
+        """Return where the robot is, `courses` being those of the axes from time 0; accelerations of free joints are 0.
+
+        `free` has the frames of their children in the joint frames, or in the world.
+        """
+        pin, model = self.pin, self.model
+        p, speeds, gains = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         positions = self.projection @ p + self._offset
-        state = Configuration(self.pin.neutral(self.model), self.projection @ v, self.projection @ a)
-        for joint in self.model.joints[2:]:
+        state = Configuration(pin.neutral(model), self.projection @ speeds, self.projection @ gains)
+        for joint in model.joints[2:]:
             if joint.nv == 1:
                 position = positions[joint.idx_v]
                 turns = joint.nq == 2  # continuous: cosine and sine
-                state.q[_slice(joint)] = (np.cos(position), np.sin(position)) if turns else position
-        _place_base(self.pin, state, time)
-        for name in self.free:
-            known = free[name]
-            self._place(state, name, known if isinstance(known, FreeJointState) else self._relative(state, name, known))
+                _put(state.q, joint.idx_q, (np.cos(position), np.sin(position)) if turns else (position,))
+        # Pinocchio resolves velocity and acceleration of the root link in its own frame.
+        place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
+        angle, speed, gain = motion.TURN.at(time)
+        axis = np.array(motion.TURN_AXIS)
+        inward = pin.exp3(angle * axis).T
+        _put(state.q, 0, (*place, *pin.Quaternion(inward.T).coeffs()))
+        _put(state.v, 0, (*inward @ velocity, *speed * axis))
+        _put(state.a, 0, (*inward @ acceleration - np.cross(speed * axis, inward @ velocity), *gain * axis))
+        for name, parts in self._parts.items():
+            frame = self._in_joint(state, name, free[name]) if in_world else free[name]
+            found = free_joints.coordinates(pin, frame, self._split.get(name))
+            for part, (q, v) in zip(parts, found, strict=True):
+                _put(state.q, part.idx_q, q)
+                _put(state.v, part.idx_v, v)
         return state
 
     def solve(self, state: Configuration) -> Instant:
-        """Efforts of base and axes, and accelerations of free joints."""
-        data, a = self.model.createData(), state.a.copy()
-        load = self._load(data, state.q, state.v, a)
+        """Return efforts of base and axes, and accelerations of free joints."""
+        pin, data, a = self.pin, self.model.createData(), state.a.copy()
+        losses = self.losses(state.v)
+        load = pin.rnea(self.model, data, state.q, state.v, a) + losses
         if self.loose.size:
-            a[self.loose] = np.linalg.solve(self.free_inertia(state), -load[self.loose])
-            load = self._load(data, state.q, state.v, a)
-        self.pin.forwardKinematics(self.model, data, state.q, state.v, a)
-        self.pin.updateFramePlacements(self.model, data)
+            a[self.loose] = np.linalg.solve(self._free_inertia(state), -load[self.loose])
+            load = pin.rnea(self.model, data, state.q, state.v, a) + losses
+        pin.forwardKinematics(self.model, data, state.q, state.v, a)
+        pin.updateFramePlacements(self.model, data)
         return Instant(self, data, load[:3], load[3:6], self.projection.T @ load)
 
     def losses(self, v: Array) -> Array:
-        """Efforts of damping and dry friction at velocity v."""
+        """Return efforts of damping and dry friction at velocity v."""
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
     def is_singular(self, state: Configuration) -> bool:
-        """Whether free joints carry so little inertia that their accelerations have no solution."""
-        values = np.linalg.eigvalsh(self.free_inertia(state))
+        """Return whether free joints carry so little inertia that their accelerations have no solution."""
+        values = np.linalg.eigvalsh(self._free_inertia(state))
         return bool(values.size and values[0] <= _SINGULAR * values[-1])
 
-    def free_inertia(self, state: Configuration) -> Array:
-        """The part of the inertia matrix H that belongs to the free joints."""
+    def _free_inertia(self, state: Configuration) -> Array:
+        """Return the part of the inertia matrix H that belongs to the free joints."""
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), state.q))
         inertia = upper + np.triu(upper, 1).T
         return np.asarray(inertia[np.ix_(self.loose, self.loose)])
 
-    def _load(self, data: Any, q: Array, v: Array, a: Array) -> Array:
-        """Efforts in all joints, losses included."""
-        return np.asarray(self.pin.rnea(self.model, data, q, v, a) + self.losses(v))
-
-    def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
-        """B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
-        columns = {name: k for k, name in enumerate(self.axes)}
-        scalar = set(self.model.names) - set(self.free)
-        projection, offset = np.zeros((self.model.nv, len(columns))), np.zeros(self.model.nv)
+    def _mimic(self, robot: PinocchioRobot, free: Sequence[str]) -> tuple[Array, Array]:
+        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
+        scalar = set(self.model.names) - set(free)
+        projection, offset = np.zeros((self.model.nv, len(self.axes))), np.zeros(self.model.nv)
         for name, joint in zip(self.model.names, self.model.joints, strict=True):
             factor, leader = 1.0, name
             while leader in scalar and leader in robot.followers:
                 follower = robot.followers[leader]
                 offset[joint.idx_v] += factor * follower.offset
                 factor, leader = factor * follower.multiplier, follower.leader
-            if leader in columns:
-                projection[joint.idx_v, columns[leader]] = factor
+            if leader in self.axes:
+                projection[joint.idx_v, self.axes.index(leader)] = factor
         return projection, offset
 
-    def _parts(self, name: str) -> list[Any]:
-        """Those of Pinocchio's joints that stand for a joint of the robot."""
-        names = self._split_joints[name].parts if name in self._split_joints else (name,)
-        return [self.model.joints[self.model.getJointId(part)] for part in names]
-
-    def _split_axes(self, name: str) -> Array:
-        return self._split_joints[name].axes if name in self._split_joints else free_joints.NOT_SPLIT
-
-    def _relative(self, state: Configuration, name: str, frame: FrameMotion) -> FreeJointState:
-        """State of a free joint from the frame of its child; all joints before it are in place."""
-        first = self._parts(name)[0].id
+    def _in_joint(self, state: Configuration, name: str, frame: FrameMotion) -> FrameMotion:
+        """Return in the frame of a free joint how its child moves in the world; all joints before it are in place."""
+        first = self._parts[name][0].id
         data, parent, placement = self.model.createData(), self.model.parents[first], self.model.jointPlacements[first]
         self.pin.forwardKinematics(self.model, data, state.q, state.v)
         joint, moves = data.oMi[parent] * placement, placement.actInv(data.v[parent])
         inward = joint.rotation.T
-        place, axes = inward @ (frame.place - joint.translation), inward @ frame.axes
+        place = inward @ (frame.place - joint.translation)
         velocity = inward @ frame.velocity - moves.linear - np.cross(moves.angular, place)
-        return FreeJointState(place, axes, velocity, axes @ frame.turning - moves.angular)
-
-    def _place(self, state: Configuration, name: str, at: FreeJointState) -> None:
-        """Put a free joint into the configuration and velocity."""
-        found = free_joints.coordinates(self.pin, at, self._split_axes(name))
-        for part, (q, v) in zip(self._parts(name), found, strict=True):
-            state.q[_slice(part)], state.v[part.idx_v : part.idx_v + part.nv] = q, v
+        return FrameMotion(place, inward @ frame.axes, velocity, inward @ frame.turning - moves.angular)
 
 
 class Instant(msgspec.Struct, frozen=True):
@@ -175,47 +162,26 @@ class Instant(msgspec.Struct, frozen=True):
     """Of the driven axes."""
 
     def frame(self, link: str) -> FrameMotion:
-        """How the frame of a link moves."""
-        pin, number = self.reference.pin, self._number(link)
-        place = self.data.oMf[number]
-        velocity = self._velocity(number, pin.LOCAL_WORLD_ALIGNED).linear
-        turning = self._velocity(number, pin.LOCAL).angular
-        return FrameMotion(np.array(place.translation), np.array(place.rotation), velocity, turning)
+        """Return how the frame of a link moves in the world."""
+        pin, model = self.reference.pin, self.reference.model
+        number = model.getFrameId(link, pin.BODY)
+        place, moves = self.data.oMf[number], pin.getFrameVelocity(model, self.data, number, pin.LOCAL_WORLD_ALIGNED)
+        return FrameMotion(np.array(place.translation), np.array(place.rotation), moves.linear, moves.angular)
 
     def acceleration(self, link: str) -> tuple[Array, Array]:
-        """Of a link's frame: the linear one resolved in the world, the angular one in the frame."""
-        pin, number = self.reference.pin, self._number(link)
-        values = [
-            pin.getFrameClassicalAcceleration(self.reference.model, self.data, number, resolved)
-            for resolved in (pin.LOCAL_WORLD_ALIGNED, pin.LOCAL)
-        ]
-        return values[0].linear, values[1].angular
+        """Return that of a link's frame: the linear one resolved in the world, the angular one in the frame."""
+        pin, model = self.reference.pin, self.reference.model
+        number = model.getFrameId(link, pin.BODY)
+        found = pin.getFrameClassicalAcceleration(model, self.data, number, pin.LOCAL_WORLD_ALIGNED)
+        return found.linear, self.data.oMf[number].rotation.T @ found.angular
 
     def mass_and_centre(self) -> tuple[float, Array]:
-        """Mass of the whole robot and its centre in the world; zero without any mass."""
+        """Return mass of the whole robot and its centre in the world; zero without any mass."""
         bodies = list(zip(self.reference.model.inertias, self.data.oMi, strict=True))
         mass = sum(inertia.mass for inertia, _ in bodies)
         moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
         return mass, moment / mass if mass else moment
 
-    def _number(self, link: str) -> int:
-        return int(self.reference.model.getFrameId(link, self.reference.pin.BODY))
 
-    def _velocity(self, number: int, resolved: Any) -> Any:
-        return self.reference.pin.getFrameVelocity(self.reference.model, self.data, number, resolved)
-
-
-def _place_base(pin: Any, state: Configuration, time: float) -> None:
-    """Put the root link where `motion` says; Pinocchio resolves its velocity and acceleration in its own frame."""
-    place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
-    angle, speed, gain = motion.TURN.at(time)
-    axis = np.array(motion.TURN_AXIS)
-    inward = pin.exp3(angle * axis).T
-    state.q[:7] = np.concatenate([place, pin.Quaternion(inward.T).coeffs()])
-    state.v[:6] = np.concatenate([inward @ velocity, speed * axis])
-    state.a[:6] = np.concatenate([inward @ acceleration - np.cross(speed * axis, inward @ velocity), gain * axis])
-
-
-def _slice(joint: Any) -> slice:
-    """Where a joint is in Pinocchio's configuration."""
-    return slice(joint.idx_q, joint.idx_q + joint.nq)
+def _put(vector: Array, first: int, values: Sequence[float] | Array) -> None:
+    vector[first : first + len(values)] = values
