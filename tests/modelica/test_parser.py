@@ -143,7 +143,7 @@ def test_modifiers_are_nested_values() -> None:
                     name("elbow", 2),
                     (Modifier(name("c", 2), uses=(name("k", 2),)),),
                     is_redeclared=True,
-                    type=name("My.Elbow", 2),
+                    type=Extends(name("My.Elbow", 2)),
                 ),
                 Modifier(name("lower", 2), (Modifier(name("inertial", 2), (inner,)),)),
             ),

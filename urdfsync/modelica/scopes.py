@@ -329,7 +329,7 @@ class Scopes:
         for arguments, scope in modifiers:
             for one in arguments:
                 if one.name.parts == (name,) and one.type is not None:
-                    types += _modified(self.types_of(Extends(one.type), scope), nested)
+                    types += _modified(self.types_of(one.type, scope), nested)
                     types += self.types_of(one.constraint, scope) if one.constraint else ()
         types += _modified(self.types_in(component, node), nested)
         if "redeclare" in component.prefixes:

@@ -37,10 +37,8 @@ class Modifier(msgspec.Struct, frozen=True):
     uses: tuple[Name, ...] = ()
     """Names in its value."""
     is_redeclared: bool = False
-    type: Name | None = None
-    """The new type, if a component is declared anew (`redeclare`, `replaceable`)."""
-    definition: Class | None = None
-    """The new class, if a class is declared anew; its own name is `name`."""
+    type: Extends | None = None
+    """What an element that is declared anew (`redeclare`, `replaceable`) is: the type of a component, or a class."""
     constraint: Extends | None = None
     """The class after `constrainedby`."""
 

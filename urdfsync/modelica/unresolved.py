@@ -114,8 +114,7 @@ class _Walk:
                 if isinstance(found, Element):
                     found = self._scopes.part(found.types, part)
                     yield from self._missing(Name((part,), one.name.line), found, scope, UnresolvedKind.ELEMENT)
-            new_type = Extends(one.type) if one.type else one.definition.alias if one.definition else None
-            for used in filter(None, (new_type, one.constraint)):
+            for used in filter(None, (one.type, one.constraint)):
                 yield from self._used(used, scope)
             if isinstance(found, Element) and found is not ANYTHING:
                 text, line = str(one.name), one.name.line
