@@ -143,23 +143,22 @@ def _check(
                 text = to_text(msgspec.structs.replace(order, workspace=str(workspace)))
                 process.stdin.write(text.encode() + b"\n")
                 process.stdin.flush()
-            while fault is None and not stopped.is_set():
-                with contextlib.suppress(psutil.TimeoutExpired):
-                    process.wait(_INTERVAL)
-                    break
-                family = _family(process)
-                used = sum(map(_memory, family))
+            for used in _memory_used(process, family):
                 peak = max(peak, used)
+                if stopped.is_set():
+                    break
                 if time.monotonic() >= deadline:
                     hint = "allow more with `urdfsync check --timeout`"
                     fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
-                elif used > memory and not is_alone:
+                    break
+                if used > memory and not is_alone:
                     steps[name] = CheckStep(f"{name}: waits for more memory", 0.0)
                     return None
-                elif used > memory:
+                if used > memory:
                     message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
+                    break
         finally:
             for one in {*family, *_family(process)}:  # of a process that is dead, the system knows no children
                 with contextlib.suppress(psutil.Error):
@@ -187,11 +186,18 @@ def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrde
             steps[order.robot] = from_text(line, CheckStep)
 
 
-def _memory(process: psutil.Process) -> int:
-    """Resident bytes of a process; 0 if it has just ended."""
-    with contextlib.suppress(psutil.Error):
-        return int(process.memory_info().rss)
-    return 0
+def _memory_used(process: psutil.Popen, family: list[psutil.Process]) -> Iterator[int]:
+    """Yield the resident bytes of a process and of all that it started, which `family` gets, until it has ended."""
+    while True:
+        with contextlib.suppress(psutil.TimeoutExpired):
+            process.wait(_INTERVAL)
+            return
+        family[:] = _family(process)
+        used = 0
+        for one in family:
+            with contextlib.suppress(psutil.Error):  # it has just ended
+                used += one.memory_info().rss
+        yield used
 
 
 def _family(process: psutil.Popen) -> list[psutil.Process]:
