@@ -398,17 +398,19 @@ class _Parser:
         if self.following == "=":
             alias = self._identifier()
             self._step()
-        name = self._name()
-        members: list[tuple[str, str]] = []
-        is_everything = bool(self._accept(".")) and self.word != "{"
-        if is_everything:
+        name = self._name()._replace(is_global=True)
+        names: dict[str, Name] = {}
+        if not self._accept("."):
+            names[alias or name.parts[-1]] = name
+        elif self.word != "{":
             self._expect("*")
-        elif self.tokens[self.at - 1].text == ".":
+        else:
             for _ in self._list("{", "}"):
                 short = self._identifier()
-                members.append((short, self._identifier() if self._accept("=") else short))
+                member = self._identifier() if self._accept("=") else short
+                names[short] = name._replace(parts=(*name.parts, member))
         self._comment()
-        return Import(name, alias, tuple(members), is_everything)
+        return Import(name, names)
 
     def _external(self) -> None:
         self._description()

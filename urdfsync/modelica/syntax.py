@@ -6,7 +6,7 @@ left out; of an expression only the names in it remain.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -67,13 +67,9 @@ class Import(msgspec.Struct, frozen=True):
     """An import clause."""
 
     name: Name
-    """The class or package that is imported."""
-    alias: str = ""
-    """The short name, empty if none is given."""
-    members: tuple[tuple[str, str], ...] = ()
-    """Short name and name of what is taken out of the package: `import A.{b, c = d}`."""
-    is_everything: bool = False
-    """Whether it ends in `.*`."""
+    """The class or package behind `import`; like all names that are imported, it counts from the top."""
+    names: Mapping[str, Name] = {}
+    """What is imported, by the short names that it gets; empty for everything in the package (`import A.*`)."""
 
 
 class Class(msgspec.Struct, eq=False):

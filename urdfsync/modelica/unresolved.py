@@ -73,8 +73,7 @@ class _Walk:
             yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, UnresolvedKind.CLASS)
             yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
         for one in definition.imports:
-            found = scopes.lookup(one.name._replace(is_global=True), None)
-            yield from self._missing(one.name, found, None, UnresolvedKind.CLASS)
+            yield from self._missing(one.name, scopes.lookup(one.name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
         yield from self._uses(definition.uses, node)
@@ -109,7 +108,7 @@ class _Walk:
     ) -> Iterator[Unresolved]:
         """Yield what is wrong with modifiers of something that may have one of these types."""
         for one in arguments:
-            found: Element | Missing = Element(None, types)
+            found: Element | Missing = Element(types)
             for part in one.name.parts:
                 if isinstance(found, Element):
                     found = self._scopes.part(found.types, part)
