@@ -12,9 +12,9 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from typing import IO
+from typing import IO, TypeAlias
 
 import msgspec
 import psutil
@@ -35,6 +35,10 @@ _SHARE_OF_FREE_MEMORY = 0.9
 _PAUSE = 0.1  # s between two reports of progress
 _INTERVAL = 0.1  # s between two looks at memory and clock
 _PATIENCE = 10.0  # s to read what a process has told
+
+
+_Futures: TypeAlias = dict[str, Future[CheckResult | None]]
+"""The checks of robots, by the robots' names."""
 
 
 class RobotOrder(msgspec.Struct, frozen=True):
@@ -74,15 +78,7 @@ def check_robots(
     orders = [RobotOrder(str(config.file), one.name, one.target.package, folder, options) for one in robots]
     steps: dict[str, CheckStep] = {}
     stopped = threading.Event()
-    futures: dict[str, Future[CheckResult | None]] = {}
-
-    def await_all(waiting: Collection[Future[CheckResult | None]]) -> None:
-        while wait(waiting, _PAUSE).not_done:
-            begun = [step for name, step in list(steps.items()) if not futures[name].done()]
-            what = ", ".join(step.what for step in begun if step.what) or "checking"
-            percent = sum(100.0 * future.done() for future in futures.values()) + sum(100 * step.done for step in begun)
-            progress(what, int(percent), 100 * len(robots))
-
+    futures: _Futures = {}
     with cluster or ThreadPoolExecutor(count) as pool:
         try:
             for order in orders:
@@ -92,22 +88,31 @@ def check_robots(
                     limits = budget / count, steps, stopped
                     futures[order.robot] = pool.submit(_check, order, *limits, is_alone=count == 1)
             for order in orders:
-                await_all([futures[order.robot]])
+                _wait_for([order.robot], futures, steps, progress)
                 error = futures[order.robot].exception()
                 if cluster and error:  # a worker is lost in one of many ways
                     found = _failure(order, "check-crashed", f"the worker is lost: {error!r}", "try again")
                     yield CheckResult(order.robot, order.package, diagnostics=(found,))
                     continue
                 while (result := futures[order.robot].result()) is None:  # too little memory was left beside others
-                    await_all(futures.values())
+                    _wait_for(futures, futures, steps, progress)
                     futures[order.robot] = pool.submit(_check, order, budget, steps, stopped, is_alone=True)
-                    await_all([futures[order.robot]])
+                    _wait_for([order.robot], futures, steps, progress)
                 cache.trim()
                 yield result
         finally:
             stopped.set()
             for future in futures.values():
                 future.cancel()
+
+
+def _wait_for(names: Iterable[str], futures: _Futures, steps: Mapping[str, CheckStep], progress: Progress) -> None:
+    """Wait for the checks of some robots, and tell how far all are."""
+    while wait([futures[name] for name in names], _PAUSE).not_done:
+        begun = [step for name, step in list(steps.items()) if not futures[name].done()]
+        what = ", ".join(step.what for step in begun if step.what) or "checking"
+        percent = sum(100.0 * future.done() for future in futures.values()) + sum(100 * step.done for step in begun)
+        progress(what, int(percent), 100 * len(futures))
 
 
 def check_on_worker(order: RobotOrder) -> CheckResult | None:
