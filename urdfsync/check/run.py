@@ -129,9 +129,9 @@ def _check(
     `steps` gets each step under the robot's name. Once `stopped` is set, nobody wants to know any more. At the end
     nothing that the process started is left.
     """
-    name, limit = order.robot, order.options.timeout
+    name, deadline = order.robot, time.monotonic() + order.options.timeout
     steps[name] = CheckStep("", 0.0)
-    fault, peak, deadline, family = None, 0, time.monotonic() + limit, list[psutil.Process]()
+    fault, peak, family = None, 0, list[psutil.Process]()
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = psutil.Popen(
             COMMAND,
@@ -150,19 +150,17 @@ def _check(
                 process.stdin.flush()
             for used in _memory_used(process, family):
                 peak = max(peak, used)
-                if stopped.is_set():
-                    break
                 if time.monotonic() >= deadline:
-                    hint = "allow more with `urdfsync check --timeout`"
-                    fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
-                    break
-                if used > memory and not is_alone:
+                    message = f"it was not done after {order.options.timeout:g} s"
+                    fault = _failure(order, "check-out-of-time", message, "allow more with `urdfsync check --timeout`")
+                elif used > memory and not is_alone:
                     steps[name] = CheckStep(f"{name}: waits for more memory", 0.0)
                     return None
-                if used > memory:
+                elif used > memory:
                     message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
+                if fault or stopped.is_set():
                     break
         finally:
             for one in {*family, *_family(process)}:  # of a process that is dead, the system knows no children
