@@ -143,7 +143,7 @@ def test_modifiers_are_nested_values() -> None:
                     name("elbow", 2),
                     (Modifier(name("c", 2), uses=(name("k", 2),)),),
                     is_redeclared=True,
-                    type=name("My.Elbow", 2),
+                    type=Extends(name("My.Elbow", 2)),
                 ),
                 Modifier(name("lower", 2), (Modifier(name("inertial", 2), (inner,)),)),
             ),
@@ -183,10 +183,10 @@ def test_classes_come_in_several_forms() -> None:
 def test_imports() -> None:
     found = class_in("import A.B;\n import C = A.D;\n import A.*;\n import A.{x, y = z};")
     assert tuple(found.imports) == (
-        Import(name("A.B", 2)),
-        Import(name("A.D", 3), "C"),
-        Import(name("A", 4), is_everything=True),
-        Import(name("A", 5), members=(("x", "x"), ("y", "z"))),
+        Import(name(".A.B", 2), {"B": name(".A.B", 2)}),
+        Import(name(".A.D", 3), {"C": name(".A.D", 3)}),
+        Import(name(".A", 4)),
+        Import(name(".A", 5), {"x": name(".A.x", 5), "y": name(".A.z", 5)}),
     )
 
 

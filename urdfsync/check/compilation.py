@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 
@@ -41,6 +42,11 @@ from urdfsync.output.phrases import counted
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
+
+
+_Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
+"""The texts of a version of the package, and what is done with it."""
+_Series: TypeAlias = Mapping[str, Sequence[float]]
 
 
 class CheckProgress:
@@ -84,7 +90,8 @@ class Compilation:
 
     def compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
-        self._check(None, None)
+        jobs = self._model_jobs(max(1, min(self._options.compilers, len(self._package.models))))
+        self._note_models(jobs, self._run_all(jobs))
 
     def compare(self) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
@@ -100,59 +107,67 @@ class Compilation:
         result.unchecked += experiment.unchecked
         if package.on_disk and not package.in_step:
             result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
-        self._check(experiment, plain)
-
-    def _check(self, experiment: Experiment | None, plain: Experiment | None) -> None:
-        """Compile all models, and move the main one by the experiments.
-
-        `experiment` is for the package as it is generated from a completed source, `plain` for the edited one.
-        """
-        package, result, files = self._package, self._result, self._package.edits
-        models = [*package.models, *self._users_models]
-        count = 1 if experiment else max(1, min(self._options.compilers, len(package.models)))
-        parts = {f"models{k}": models[k::count] for k in range(count)}
-        top = package.robot.target.package
-        jobs: dict[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]] = {
-            label: (package.files.texts, [compile_task(f"{top}.{model}") for model in part])
-            for label, part in parts.items()
-        }
-        is_same = experiment is not None and experiment.content == package.rendering.content
-        if experiment:
-            texts = package.generated if is_same else package.rendering.package(experiment.content)
-            jobs["completed"] = (texts, [_moving_task(experiment)])
+        is_same = experiment.content == package.rendering.content
+        completed = package.generated if is_same else package.rendering.package(experiment.content)
+        models = self._model_jobs(1)
+        jobs = {**models, "completed": (completed, [_moving_task(experiment)])}
         if plain:
-            move = [_moving_task(plain)]
-            jobs["edited"] = (package.files.texts, move)
-            if not is_same:
-                jobs["generated"] = (package.generated, move)
-            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-            for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
-                jobs[file] = ({**package.generated, **own, file: package.on_disk[file]}, move)
-
+            jobs |= self._edit_jobs(_moving_task(plain))
+            if is_same:
+                del jobs["generated"]
         done = self._run_all(jobs)
-        for label, part in parts.items():
-            for model, one in zip(part, done[label], strict=False):
-                self._note(model, one)
-        if experiment is None:
-            return
-        completed, said = self._series(done["completed"])
+        self._note_models(models, done)
+        moved, said = self._series(done["completed"])
         result.add(said)
-        if completed is not None:
-            result.deviations = tuple(experiment.compare(completed))
-        whole: Sequence[Deviation] = ()
-        single: dict[str, Sequence[Deviation]] = {}
-        if plain is not None:
-            edited, faults = self._series(done["edited"])
-            generated, said = (completed, []) if is_same else self._series(done["generated"])
-            result.add(said)
-            if faults:  # no fault of an edited package
-                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
-            if edited is None or generated is None:
-                return
-            whole = plain.compare(edited, generated)
-            moved = {file: self._series(done[file])[0] for file in files if file in jobs}
-            single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
-        result.effects = tuple(edit_effects(files, package.files.owners, whole, single))
+        if moved is not None:
+            result.deviations = tuple(experiment.compare(moved))
+        if plain:
+            if not is_same:
+                moved, said = self._series(done["generated"])
+                result.add(said)
+            result.effects = self._edit_effects(plain, moved, done)
+
+    def _model_jobs(self, count: int) -> dict[str, _Job]:
+        """Jobs that compile all models, in `count` parts."""
+        models = [f"{self._package.robot.target.package}.{one}" for one in (*self._package.models, *self._users_models)]
+        tasks = list(map(compile_task, models))
+        return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
+
+    def _edit_jobs(self, move: CompileTask) -> dict[str, _Job]:
+        """Jobs that move the edited package, the generated one, and this one with each of the edits."""
+        package, files = self._package, self._package.edits
+        jobs: dict[str, _Job] = {"edited": (package.files.texts, [move]), "generated": (package.generated, [move])}
+        own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+        for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
+            jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, [move]
+        return jobs
+
+    def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
+        """Take note of the models that were compiled by themselves."""
+        for label, (_, tasks) in jobs.items():
+            for task, one in zip(tasks, done[label], strict=False):
+                model = self._short_title(task)
+                if one.problem:
+                    said = self._explain(one.problem, model)
+                    if model in self._users_models:  # it may be meant to be a part of something
+                        said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
+                    self._result.add(said)
+                elif model not in self._users_models:
+                    self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
+
+    def _edit_effects(
+        self, plain: Experiment, generated: _Series | None, done: Mapping[str, Sequence[CompileResult]]
+    ) -> tuple[EditEffect, ...]:
+        """What edits do, compared with how the generated package moves."""
+        package = self._package
+        edited, faults = self._series(done["edited"])
+        if faults:  # no fault of an edited package
+            self._result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+        if edited is None or generated is None:
+            return ()
+        moved = {file: self._series(done[file])[0] for file in package.edits if file in done}
+        single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
+        return tuple(edit_effects(package.edits, package.files.owners, plain.compare(edited, generated), single))
 
     def _experiment(self, *, complete: bool) -> Experiment:
         """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
@@ -163,9 +178,7 @@ class Compilation:
             raise OutputError(Diagnostic(Severity.ERROR, "no-reference", message, hint="check without `--physics`"))
         return found
 
-    def _run_all(
-        self, jobs: Mapping[str, tuple[Mapping[str, bytes], Sequence[CompileTask]]]
-    ) -> dict[str, list[CompileResult]]:
+    def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
         self._progress.total = 2 + len(jobs)
         done: dict[str, list[CompileResult]] = {}
@@ -187,8 +200,7 @@ class Compilation:
             roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
         originals = {**self._originals, str(top): robot.output / top.name}
         job = CompileJob((str(self._standard), *roots, str(top)), tuple(map(self._with_imports, tasks)))
-        titles = [task.title.removeprefix(f"{robot.target.package}.") for task in tasks]
-        self._progress.begin(f"loading libraries, then compiling {listed(titles)}")
+        self._progress.begin(f"loading libraries, then compiling {listed([*map(self._short_title, tasks)])}")
         results = []
         for one in compilers.run_job(self._options.compiler, job, cache):
             problem = one.problem
@@ -197,25 +209,16 @@ class Compilation:
             results.append(msgspec.structs.replace(one, problem=problem))
         return results
 
+    def _short_title(self, task: CompileTask) -> str:
+        return task.title.removeprefix(f"{self._package.robot.target.package}.")
+
     def _with_imports(self, task: CompileTask) -> CompileTask:
         """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
         first, _, rest = task.source.partition("\n")
         imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
         return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
-    def _note(self, model: str, one: CompileResult) -> None:
-        """Take note of a model that was compiled by itself."""
-        if one.problem:
-            said = self._explain(one.problem, model)
-            if model in self._users_models:  # it may be meant to be a part of something
-                said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
-            self._result.add(said)
-        elif model not in self._users_models:
-            self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
-
-    def _series(
-        self, results: Sequence[CompileResult]
-    ) -> tuple[Mapping[str, Sequence[float]] | None, list[Diagnostic]]:
+    def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []

@@ -199,29 +199,13 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
     whole = not all(map(_is_in_copy, texts))
     key = fingerprint(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
-
-    def ignored(folder: str, names: list[str]) -> set[str]:
-        left_out = {name for name in names if name in ("Resources", "package.order") or name.startswith(".")}
-        if not whole and Path(folder).is_relative_to(modelica):
-            below = Path(folder).relative_to(modelica).parts
-            for name in names:
-                path = (*below, name.removesuffix(".mo"))
-                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)
-                if name != "package.mo" and (not is_part or _LEFT_OUT.intersection(path)):
-                    left_out.add(name)
-        return left_out
-
     with cache_errors(cache.folder):
         if not target.is_dir():
             target.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
                 made = Path(folder) / "library"
                 made.mkdir()
-                for name, path in parts.items():
-                    if path.suffix == ".mo":
-                        shutil.copyfile(path, made / f"{name}.mo")
-                    else:
-                        shutil.copytree(path, made / name, ignore=ignored)
+                _copy_libraries(parts, made, whole)
                 try:
                     made.rename(target)
                 except OSError:
@@ -229,6 +213,29 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
                         raise
         os.utime(target)  # the cache sees that it is in use
     return target
+
+
+def _copy_libraries(parts: Mapping[str, Path], target: Path, whole: bool) -> None:
+    """Copy libraries without their resources; of `Modelica` only the part that robots need, if not the `whole`."""
+
+    def ignored(folder: str, names: list[str]) -> list[str]:
+        left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
+        if not whole and Path(folder).is_relative_to(parts["Modelica"]):
+            below = Path(folder).relative_to(parts["Modelica"]).parts
+            left_out += [name for name in names if not _is_needed((*below, name.removesuffix(".mo")))]
+        return left_out
+
+    for name, path in parts.items():
+        if path.suffix == ".mo":
+            shutil.copyfile(path, target / f"{name}.mo")
+        else:
+            shutil.copytree(path, target / name, ignore=ignored)
+
+
+def _is_needed(path: tuple[str, ...]) -> bool:
+    """Whether a class is in the part that robots need, or around it; `path` is its name below `Modelica`."""
+    is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)
+    return path[-1] == "package" or (is_part and _LEFT_OUT.isdisjoint(path))
 
 
 def _is_in_copy(text: bytes) -> bool:

@@ -152,6 +152,11 @@ def holds_class(path: PurePosixPath) -> bool:
     return path.suffix == ".mo" and not hidden and "Resources" not in path.parts[:-1]
 
 
+def class_path(file: PurePosixPath) -> PurePosixPath:
+    """The path of a stored class, without suffix: of a `package.mo` that of its folder."""
+    return file.parent if file.name == "package.mo" else file.with_suffix("")
+
+
 def package_texts(folder: Path) -> dict[str, bytes]:
     """The Modelica files below a package's folder, by their path below it; see `read_files`."""
     return _below(folder, read_files(folder)[0])

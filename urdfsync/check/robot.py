@@ -18,7 +18,7 @@ from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
 from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, listed, to_text
 from urdfsync.check.run import RobotOrder
-from urdfsync.config import Config, RobotConfig, library_folder, load, shown
+from urdfsync.config import Config, RobotConfig, find_own_library, load, shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
@@ -70,10 +70,10 @@ def _check_models(
     key = _result_key(package, options, needed)
     if known := cache.load(key, CheckResult):
         return known
-    result, top = CheckResult(robot.name, robot.target.package), robot.target.package.partition(".")[0]
+    result, own = CheckResult(robot.name, robot.target.package), find_own_library(LIBRARY, robot.target.package)
     contents += [text for path in needed.others.values() for text in libraries.library_texts(path).values()]
     copy = libraries.standard_library_copy(needed.standard, contents, cache)
-    used = {**({LIBRARY: library_folder() / LIBRARY} if top != LIBRARY else {}), **needed.others}
+    used = {**({LIBRARY: own} if own else {}), **needed.others}
     compilation = Compilation(package, options, result, progress, folder, (copy, needed.standard), used)
     if options.physics and compilers.COMPILERS[options.compiler].SIMULATES:
         compilation.compare()

@@ -12,9 +12,9 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from typing import IO
+from typing import IO, TypeAlias
 
 import msgspec
 import psutil
@@ -35,6 +35,10 @@ _SHARE_OF_FREE_MEMORY = 0.9
 _PAUSE = 0.1  # s between two reports of progress
 _INTERVAL = 0.1  # s between two looks at memory and clock
 _PATIENCE = 10.0  # s to read what a process has told
+
+
+_Futures: TypeAlias = dict[str, Future[CheckResult | None]]
+"""The checks of robots, by the robots' names."""
 
 
 class RobotOrder(msgspec.Struct, frozen=True):
@@ -74,15 +78,7 @@ def check_robots(
     orders = [RobotOrder(str(config.file), one.name, one.target.package, folder, options) for one in robots]
     steps: dict[str, CheckStep] = {}
     stopped = threading.Event()
-    futures: dict[str, Future[CheckResult | None]] = {}
-
-    def await_all(waiting: Collection[Future[CheckResult | None]]) -> None:
-        while wait(waiting, _PAUSE).not_done:
-            begun = [step for name, step in list(steps.items()) if not futures[name].done()]
-            what = ", ".join(step.what for step in begun if step.what) or "checking"
-            percent = sum(100.0 * future.done() for future in futures.values()) + sum(100 * step.done for step in begun)
-            progress(what, int(percent), 100 * len(robots))
-
+    futures: _Futures = {}
     with cluster or ThreadPoolExecutor(count) as pool:
         try:
             for order in orders:
@@ -92,22 +88,31 @@ def check_robots(
                     limits = budget / count, steps, stopped
                     futures[order.robot] = pool.submit(_check, order, *limits, is_alone=count == 1)
             for order in orders:
-                await_all([futures[order.robot]])
+                _wait_for([order.robot], futures, steps, progress)
                 error = futures[order.robot].exception()
                 if cluster and error:  # a worker is lost in one of many ways
                     found = _failure(order, "check-crashed", f"the worker is lost: {error!r}", "try again")
                     yield CheckResult(order.robot, order.package, diagnostics=(found,))
                     continue
                 while (result := futures[order.robot].result()) is None:  # too little memory was left beside others
-                    await_all(futures.values())
+                    _wait_for(futures, futures, steps, progress)
                     futures[order.robot] = pool.submit(_check, order, budget, steps, stopped, is_alone=True)
-                    await_all([futures[order.robot]])
+                    _wait_for([order.robot], futures, steps, progress)
                 cache.trim()
                 yield result
         finally:
             stopped.set()
             for future in futures.values():
                 future.cancel()
+
+
+def _wait_for(names: Iterable[str], futures: _Futures, steps: Mapping[str, CheckStep], progress: Progress) -> None:
+    """Wait for the checks of some robots, and tell how far all are."""
+    while wait([futures[name] for name in names], _PAUSE).not_done:
+        begun = [step for name, step in list(steps.items()) if not futures[name].done()]
+        what = ", ".join(step.what for step in begun if step.what) or "checking"
+        percent = sum(100.0 * future.done() for future in futures.values()) + sum(100 * step.done for step in begun)
+        progress(what, int(percent), 100 * len(futures))
 
 
 def check_on_worker(order: RobotOrder) -> CheckResult | None:
@@ -124,9 +129,9 @@ def _check(
     `steps` gets each step under the robot's name. Once `stopped` is set, nobody wants to know any more. At the end
     nothing that the process started is left.
     """
-    name, limit = order.robot, order.options.timeout
+    name, deadline = order.robot, time.monotonic() + order.options.timeout
     steps[name] = CheckStep("", 0.0)
-    fault, peak, deadline, family = None, 0, time.monotonic() + limit, list[psutil.Process]()
+    fault, peak, family = None, 0, list[psutil.Process]()
     with tempfile.TemporaryFile() as errors, UserCache.default().workspace() as workspace:
         process = psutil.Popen(
             COMMAND,
@@ -143,16 +148,11 @@ def _check(
                 text = to_text(msgspec.structs.replace(order, workspace=str(workspace)))
                 process.stdin.write(text.encode() + b"\n")
                 process.stdin.flush()
-            while fault is None and not stopped.is_set():
-                with contextlib.suppress(psutil.TimeoutExpired):
-                    process.wait(_INTERVAL)
-                    break
-                family = _family(process)
-                used = sum(map(_memory, family))
+            for used in _memory_used(process, family):
                 peak = max(peak, used)
                 if time.monotonic() >= deadline:
-                    hint = "allow more with `urdfsync check --timeout`"
-                    fault = _failure(order, "check-out-of-time", f"it was not done after {limit:g} s", hint)
+                    message = f"it was not done after {order.options.timeout:g} s"
+                    fault = _failure(order, "check-out-of-time", message, "allow more with `urdfsync check --timeout`")
                 elif used > memory and not is_alone:
                     steps[name] = CheckStep(f"{name}: waits for more memory", 0.0)
                     return None
@@ -160,6 +160,8 @@ def _check(
                     message = f"it takes more than the {memory / 1e9:.2g} GB that it may"
                     hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
                     fault = _failure(order, "check-out-of-memory", message, hint)
+                if fault or stopped.is_set():
+                    break
         finally:
             for one in {*family, *_family(process)}:  # of a process that is dead, the system knows no children
                 with contextlib.suppress(psutil.Error):
@@ -187,11 +189,18 @@ def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrde
             steps[order.robot] = from_text(line, CheckStep)
 
 
-def _memory(process: psutil.Process) -> int:
-    """Resident bytes of a process; 0 if it has just ended."""
-    with contextlib.suppress(psutil.Error):
-        return int(process.memory_info().rss)
-    return 0
+def _memory_used(process: psutil.Popen, family: list[psutil.Process]) -> Iterator[int]:
+    """Yield the resident bytes of a process and of all that it started, which `family` gets, until it has ended."""
+    while True:
+        with contextlib.suppress(psutil.TimeoutExpired):
+            process.wait(_INTERVAL)
+            return
+        family[:] = _family(process)
+        used = 0
+        for one in family:
+            with contextlib.suppress(psutil.Error):  # it has just ended
+                used += one.memory_info().rss
+        yield used
 
 
 def _family(process: psutil.Popen) -> list[psutil.Process]:

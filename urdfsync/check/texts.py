@@ -8,18 +8,18 @@ is.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageFiles, holds_class
+from urdfsync.check.package import CheckedPackage, PackageFiles, class_path, holds_class
 from urdfsync.check.results import listed
-from urdfsync.config import library_folder, shown
+from urdfsync.config import find_own_library, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
 from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import find_markers
-from urdfsync.modelica.names import LIBRARY, is_identifier, within
+from urdfsync.modelica.names import is_identifier, within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import StoredText, declared
@@ -39,57 +39,64 @@ def check_layout(package: PackageFiles) -> list[Diagnostic]:
 
     What is generated never gets one.
     """
-    found: dict[Diagnostic, None] = {}
-    files: dict[PurePosixPath, list[str]] = {PurePosixPath(): []}  # of each class, by its name below the package
-    declarations: dict[PurePosixPath, dict[str, int]] = {}  # lines of what a `package.mo` declares
-    misnamed: dict[PurePosixPath, str] = {}
+    found: list[Diagnostic] = []
+    stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
+    declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
+    misnamed: dict[PurePosixPath, set[str]] = {}  # by folder, names in it that no class can have
     for path in sorted(filter(holds_class, map(PurePosixPath, package.texts))):
         if culprit := _misnamed_part(path):
-            misnamed[culprit] = culprit.stem if culprit == path else culprit.name
-            kind, noun = ("class", "file") if culprit == path else ("package", "folder")
-            message = f"`{misnamed[culprit]}` can't be the name of a {kind}"
-            hint = f"rename the {noun}, or move it elsewhere"
-            found[package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint)] = None
+            is_file = culprit == path
+            name = culprit.stem if is_file else culprit.name
+            misnamed.setdefault(culprit.parent, set()).update((name, culprit.name))
+            message = f"`{name}` can't be the name of a {'class' if is_file else 'package'}"
+            hint = f"rename the {'file' if is_file else 'folder'}, or move it elsewhere"
+            found.append(package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint))
             continue
-        name = path.parent if path.name == _PACKAGE else path.with_suffix("")
-        files.setdefault(name, []).append(str(path))
-        for folder in path.parents:
-            files.setdefault(folder, [])
-        text, faults = check_file(package, str(path), ".".join((package.name, *name.parts)))
-        found |= dict.fromkeys(faults)
+        place = class_path(path)
+        stored.setdefault(path.parent, set())
+        for part in (place, *place.parents):
+            if part.parts:
+                stored.setdefault(part.parent, set()).add(part.name)
+        text, faults = check_file(package, str(path), ".".join((package.name, *place.parts)))
+        found += faults
         if path.name == _PACKAGE and text:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
-            declarations[name] = {one.path[1]: one.line for one in reversed(inside)}
-
-    folders = {folder for name in files if name.parts for folder in [name.parent]} | {PurePosixPath()}
-    folders |= {PurePosixPath(path).parent for paths in files.values() for path in paths}
-    for folder in sorted(folders):
-        place = str(folder / _PACKAGE)
-        if place not in package.texts:
-            message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
-            shown = "" if not folder.parts else str(folder)
-            found[package.diagnostic(_ERROR, "no-package-file", message, shown, hint=hint)] = None
-        stored = sorted(name for name in files if name.parts and name.parent == folder)
-        lines, spellings = declarations.get(folder, {}), dict[str, str]()
-        for name in stored:
-            file, both = f"{name}.mo", f"{name}.mo" in package.texts and name in folders
-            if both:
-                message = f"`{name.name}` is both a file and a folder"
-                found[package.diagnostic(_ERROR, "class-twice", message, file, hint="keep one of them")] = None
-            if line := lines.get(name.name):
-                message = f"`{name.name}` is declared here, and is a {'folder' if name in folders else 'file'} as well"
-                found[package.diagnostic(_ERROR, "class-twice", message, place, line, hint="keep one of them")] = None
-            first = spellings.setdefault(name.name.casefold(), name.name)
-            if first != name.name:
-                message = f"`{name.name}` and `{first}` differ only by case"
-                hint = "rename one: file systems that ignore case do not hold both"
-                found[package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint)] = None
+            declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
+    for folder in sorted(stored):
+        lines = declarations.get(folder, {})
+        found += _check_folder(package, folder, stored, lines)
         if str(folder / _ORDER) in package.texts:
-            present = {name.name for name in stored} | lines.keys()
-            others = {word for path, name in misnamed.items() if path.parent == folder for word in (name, path.name)}
-            is_known = folder in declarations
-            found |= dict.fromkeys(_check_order(package, folder, present, others if is_known else None))
-    return sorted(found, key=lambda one: (one.file, one.line))
+            others = misnamed.get(folder, set()) if folder in declarations else None
+            found += _check_order(package, folder, stored[folder] | lines.keys(), others)
+    return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
+
+
+def _check_folder(
+    package: PackageFiles, folder: PurePosixPath, stored: Mapping[PurePosixPath, Collection[str]], lines: dict[str, int]
+) -> Iterator[Diagnostic]:
+    """Check that a folder is a package, and that each name is only there once.
+
+    `stored` are the classes in each folder, `lines` those in which the folder's `package.mo` declares others.
+    """
+    package_file = str(folder / _PACKAGE)
+    if package_file not in package.texts:
+        message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
+        place = str(folder) if folder.parts else ""
+        yield package.diagnostic(_ERROR, "no-package-file", message, place, hint=hint)
+    spellings: dict[str, str] = {}
+    for name in sorted(stored[folder]):
+        file, is_folder = f"{folder / name}.mo", folder / name in stored
+        if is_folder and file in package.texts:
+            message = f"`{name}` is both a file and a folder"
+            yield package.diagnostic(_ERROR, "class-twice", message, file, hint="keep one of them")
+        if name in lines:
+            message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
+            yield package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint="keep one of them")
+        first = spellings.setdefault(name.casefold(), name)
+        if first != name:
+            message = f"`{name}` and `{first}` differ only by case"
+            hint = "rename one: file systems that ignore case do not hold both"
+            yield package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint)
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
@@ -99,11 +106,10 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     """
     found: list[Diagnostic] = []
     for path in filter(holds_class, map(PurePosixPath, sorted(files))):
-        name = path.parent if path.name == _PACKAGE else path.with_suffix("")
         package = PackageFiles("", output, {str(path): files[str(path)]})
         ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
-        said = check_file(package, str(path), ".".join(name.parts))[1]
+        said = check_file(package, str(path), ".".join(class_path(path).parts))[1]
         found += [one for one in said if one.code not in ignored]
     return found
 
@@ -188,9 +194,11 @@ def _check_order(
 
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
     """The outermost folder around a file, or the file itself, whose name no class can have."""
-    parts = [*reversed(path.parents[:-1]), *([] if path.name == _PACKAGE else [path])]
-    names = [(part, part.stem if part is path else part.name) for part in parts]
-    return next((part for part, name in names if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name))), None)
+    for part in [*reversed(path.parents[:-1]), *([] if path.name == _PACKAGE else [path])]:
+        name = part.stem if part is path else part.name
+        if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name)):
+            return part
+    return None
 
 
 def _decoded(package: PackageFiles, path: str) -> str | Diagnostic:
@@ -226,8 +234,8 @@ def check_names(package: CheckedPackage, standard: Mapping[str, Path]) -> tuple[
     robot = package.robot
 
     def find(name: str) -> Path | None:
-        if name == LIBRARY != robot.target.package.partition(".")[0]:
-            return library_folder() / LIBRARY
+        if own := find_own_library(name, robot.target.package):
+            return own
         if name in libraries.STANDARD:
             return standard.get(name)
         return libraries.find_library(name, libraries.search_path(robot))

@@ -2,7 +2,15 @@
 
 from urdfsync.config.load import find, load, parse
 from urdfsync.config.names import is_robot_name
-from urdfsync.config.paths import library_folder, read_source, ros_package_path, shown, templates_folder, working_folder
+from urdfsync.config.paths import (
+    find_own_library,
+    library_folder,
+    read_source,
+    ros_package_path,
+    shown,
+    templates_folder,
+    working_folder,
+)
 from urdfsync.config.settings import FILE_NAME, STATE_FOLDER, CheckConfig, Config, Keys, RobotConfig
 
 __all__ = [
@@ -13,6 +21,7 @@ __all__ = [
     "Keys",
     "RobotConfig",
     "find",
+    "find_own_library",
     "is_robot_name",
     "library_folder",
     "load",

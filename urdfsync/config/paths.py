@@ -10,6 +10,7 @@ import urdfsync
 from urdfsync import dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain
+from urdfsync.modelica.names import LIBRARY
 
 
 def working_folder() -> Path:
@@ -52,6 +53,11 @@ def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
 def library_folder() -> Path:
     """The folder to put on MODELICAPATH: it holds the library `UrdfSync`."""
     return _data_folder("modelica")
+
+
+def find_own_library(name: str, package: str) -> Path | None:
+    """The library UrdfSync, if that is `name`, for a package that needs it: not for one that is the library itself."""
+    return library_folder() / LIBRARY if name == LIBRARY != package.partition(".")[0] else None
 
 
 def templates_folder(domain: Domain) -> Path:

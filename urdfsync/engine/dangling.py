@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
-from urdfsync.config import library_folder, shown
+from urdfsync.config import find_own_library, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Target
 from urdfsync.engine.actions import Actions, Kind
@@ -15,7 +15,6 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import lex
-from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Element, Scopes, Type
 from urdfsync.modelica.syntax import declared
@@ -182,8 +181,8 @@ class DanglingNames:
             found[inputs.path(key)] = text.encode(errors="replace")
 
         def find(name: str) -> Path | None:
-            if name == LIBRARY != self._package.partition(".")[0]:
-                return library_folder() / LIBRARY
+            if own := find_own_library(name, self._package):
+                return own
             places = (robot.output / name, robot.output / f"{name}.mo")
             return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
 

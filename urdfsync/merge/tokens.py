@@ -74,20 +74,23 @@ class Region(NamedTuple):
 
 
 class _Edit(msgspec.Struct, frozen=True):
-    """Base tokens `start` to `stop` (half open) replaced; from `low` to `high` are equal places for the same edit."""
+    """Base tokens from `start` on that are replaced."""
 
     start: int
-    stop: int
-    inserted: tuple[str, ...]
     deleted: tuple[str, ...]
+    inserted: tuple[str, ...]
     low: int
-    high: int
+    """From here up to `start` are equal places for the same edit."""
     is_lines: bool = False
     """Nothing but whole lines are inserted or deleted."""
 
     @property
-    def effect(self) -> tuple[int, int, tuple[str, ...], tuple[str, ...]]:
-        return self.start, self.stop, self.inserted, self.deleted
+    def stop(self) -> int:
+        return self.start + len(self.deleted)
+
+    @property
+    def effect(self) -> tuple[int, tuple[str, ...], tuple[str, ...]]:
+        return self.start, self.deleted, self.inserted
 
     @property
     def only_adds(self) -> bool:
@@ -101,19 +104,20 @@ class _Edit(msgspec.Struct, frozen=True):
     def is_trivia(self) -> bool:
         return self.only_adds and self.only_removes
 
-    @property
-    def weight(self) -> int:
-        """How many words change, at least 1."""
-        return max(1, sum(map(is_word, self.inserted)), sum(map(is_word, self.deleted)))
-
 
 class _Unit(NamedTuple):
     """Edits of one side that stand or fall together (rule 8)."""
 
     side: int
     edits: tuple[_Edit, ...]
-    low: int
-    high: int
+
+    @property
+    def low(self) -> int:
+        return self.edits[0].low
+
+    @property
+    def high(self) -> int:
+        return self.edits[-1].stop
 
 
 def tokens(text: str) -> list[str]:
@@ -156,24 +160,21 @@ def merge_tokens(base: str, mine: str, generated: str) -> list[Region]:
     if max(map(len, (old, own, new))) > _MAX_TOKENS:
         one, two, three = (range(_line_count(text)) for text in (base, mine, generated))
         return [Region((one, two, three), None)]
-    ours, theirs = _find_edits(old, own), _find_edits(old, new)
-    conflicts = _find_conflicts(old, (ours, theirs))
+    sides = _find_edits(old, own), _find_edits(old, new)
+    conflicts = _find_conflicts(old, sides)
     # the texts are cut at the ends of line that neither side touches and no conflict includes
-    touched = {index for edit in (*ours, *theirs) for index in range(edit.start, edit.stop)}
+    touched = {index for edits in sides for edit in edits for index in range(edit.start, edit.stop)}
     touched.update(index for low, high in conflicts for index in range(low, high))
     cuts = [index + 1 for index, token in enumerate(old) if token == NEWLINE and index not in touched]
-    bounds = list(pairwise([0, *cuts, len(old)]))
     regions: list[Region] = []
     ends = [0, 0, 0]
-    for number, (start, stop) in enumerate(bounds, start=1):
-        inside = range(start, stop + (number == len(bounds)))
-        left, right = ([edit for edit in edits if edit.start in inside] for edits in (ours, theirs))
-        merged = _apply(old, start, stop, {*left, *right})
+    for start, stop in pairwise([0, *cuts, len(old) + 1]):  # edits at the very end are in the last piece
+        ours, theirs = ([edit for edit in edits if start <= edit.start < stop] for edits in sides)
+        versions = [_apply(old, start, stop, edits) for edits in ((), ours, theirs)]
+        merged = _apply(old, start, stop, {*ours, *theirs})
         text = "".join(merged)
-        is_conflict = any(low in inside for low, _ in conflicts) or tokens(text) != merged
-        starts = list(ends)
-        for side, edits in enumerate(([], left, right)):
-            ends[side] += _line_count("".join(_apply(old, start, stop, edits)))
+        is_conflict = any(start <= low < stop for low, _ in conflicts) or tokens(text) != merged
+        starts, ends = ends, [end + _line_count("".join(part)) for end, part in zip(ends, versions, strict=True)]
         if starts == ends:
             continue
         if regions and (regions[-1].text is None) == is_conflict:
@@ -216,18 +217,18 @@ def _find_edits(old: Sequence[str], new: Sequence[str]) -> list[_Edit]:
         if not (deleted and inserted):
             edits.append(_at_whole_lines(start, deleted, inserted, old, floor, ceiling))
             continue
+        # whole lines after a replacement that only one of the texts has are an edit of their own
         rest = tuple(old[stop:ceiling])
         ending = rest[: rest.index(NEWLINE) + 1] if NEWLINE in rest else ()
-        after = stop + len(ending)
-        # whole lines after a replacement that only one of the texts has are an edit of their own
-        if NEWLINE not in deleted and (added := _find_run(ending, inserted)):
+        added = _find_run(ending, inserted) if NEWLINE not in deleted else None
+        removed = _find_run(ending, deleted) if NEWLINE not in inserted else None
+        if added:
             edits += _without_comments(start, deleted, inserted[:added])
-            lines = inserted[added + len(ending) :] + ending
+            lines, after = inserted[added + len(ending) :] + ending, stop + len(ending)
             edits.append(_at_whole_lines(after, (), lines, old, after, ceiling))
-        elif NEWLINE not in inserted and (removed := _find_run(ending, deleted)) is not None:
+        elif removed is not None:
             edits += _without_comments(start, deleted[:removed], inserted)
-            after = start + removed + len(ending)
-            lines = deleted[removed + len(ending) :] + ending
+            lines, after = deleted[removed + len(ending) :] + ending, start + removed + len(ending)
             edits.append(_at_whole_lines(after, lines, (), old, after, ceiling))
         else:
             edits += _without_comments(start, deleted, inserted)
@@ -246,32 +247,32 @@ def _without_comments(start: int, deleted: tuple[str, ...], inserted: tuple[str,
     head = code[0] if code and not is_trivia(deleted[0]) else 0
     tail = code[-1] + 1 if code and not is_trivia(deleted[-1]) else len(inserted)
     if head:
-        yield _Edit(start, start, inserted[:head], (), start, start)
-    yield _Edit(start, stop, inserted[head:tail], deleted, start, stop)
+        yield _Edit(start, (), inserted[:head], start)
+    yield _Edit(start, deleted, inserted[head:tail], start)
     if tail < len(inserted):
-        yield _Edit(stop, stop, inserted[tail:], (), stop, stop)
+        yield _Edit(stop, (), inserted[tail:], stop)
 
 
 def _at_whole_lines(
     start: int, deleted: tuple[str, ...], inserted: tuple[str, ...], old: Sequence[str], floor: int, ceiling: int
 ) -> _Edit:
     """Return an insertion or deletion, moved to where it comprises whole lines if such a place is within the bounds."""
-    stop, run = start + len(deleted), deleted or inserted
-    up = down = 0
-    while start - up > floor and old[start - up - 1] == run[(-up - 1) % len(run)]:
-        up += 1
-    while stop + down < ceiling and old[stop + down] == run[down % len(run)]:
-        down += 1
-    shifts = range(-up, down + 1)
+    run, first = deleted or inserted, start
+    while first > floor and old[first - 1] == run[(first - 1 - start) % len(run)]:
+        first -= 1
+    last = start
+    while last + len(deleted) < ceiling and old[last + len(deleted)] == run[(last - start) % len(run)]:
+        last += 1
+    places = range(first, last + 1)
     whole = [
-        shift
-        for shift in shifts
-        if run[(shift - 1) % len(run)] == NEWLINE and (start + shift == 0 or old[start + shift - 1] == NEWLINE)
+        place
+        for place in places
+        if run[(place - start - 1) % len(run)] == NEWLINE and (place == 0 or old[place - 1] == NEWLINE)
     ]
-    first, last = (whole or shifts)[0], (whole or shifts)[-1]
-    turned = run[last % len(run) :] + run[: last % len(run)]
-    added, removed = ((), turned) if deleted else (turned, ())
-    return _Edit(start + last, stop + last, added, removed, start + first, stop + last, bool(whole))
+    first, last = (whole or places)[0], (whole or places)[-1]
+    turn = (last - start) % len(run)
+    turned = run[turn:] + run[:turn]
+    return _Edit(last, turned if deleted else (), () if deleted else turned, first, bool(whole))
 
 
 # --- conflicts of two sides ---------------------------------------------------------------------------------------
@@ -294,13 +295,11 @@ def _find_conflicts(old: Sequence[str], sides: Sequence[Sequence[_Edit]]) -> lis
                 break  # rule 3; those that follow are even farther away
             if second.side != first.side and not _are_apart(first, second, old):
                 conflicts.append((first.low, max(first.high, second.high)))
-    brought = [
-        (unit, {token for edit in unit.edits for token in edit.inserted if _is_name_or_note(token)}) for unit in units
-    ]
+    brought = [{token for edit in one.edits for token in edit.inserted if _is_name_or_note(token)} for one in units]
     conflicts += [  # rule 7
         (min(one.low, other.low), max(one.high, other.high))
-        for one, names in brought
-        for other, others in brought
+        for one, names in zip(units, brought, strict=True)
+        for other, others in zip(units, brought, strict=True)
         if one.side < other.side and names & others
     ]
     return conflicts
@@ -311,12 +310,12 @@ def _in_units(side: int, edits: Iterable[_Edit], words: Sequence[int]) -> Iterat
 
     Comments, white space and whole lines stay alone.
     """
-    groups: list[tuple[tuple[_Edit, ...], int]] = []  # with what they change, in words
+    groups: list[tuple[tuple[_Edit, ...], int]] = []  # with the number of words that they change, at least 1
     for edit in edits:
         if edit.is_trivia:
-            yield _Unit(side, (edit,), edit.low, edit.high)
+            yield _Unit(side, (edit,))
             continue
-        groups.append(((edit,), edit.weight))
+        groups.append(((edit,), max(1, sum(map(is_word, edit.inserted)), sum(map(is_word, edit.deleted)))))
         while len(groups) > 1:
             (one, weight), (two, other) = groups[-2:]
             between = words[two[0].start] - words[one[-1].stop]
@@ -324,7 +323,7 @@ def _in_units(side: int, edits: Iterable[_Edit], words: Sequence[int]) -> Iterat
                 break
             groups[-2:] = [(one + two, weight + other)]
     for group, _ in groups:
-        yield _Unit(side, group, group[0].low, group[-1].high)
+        yield _Unit(side, group)
 
 
 def _are_apart(first: _Unit, second: _Unit, old: Sequence[str]) -> bool:

@@ -8,7 +8,7 @@ are read one by one, so that one that is no Modelica does not hide what is wrong
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 import msgspec
 
@@ -23,10 +23,12 @@ _LONGEST = 60
 _SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *_SECTIONS})
 _CLASSES = frozenset("class model record block connector type package function operator".split())
+# prefixes in their order, of which each group may have one
 _CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
 _ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
-_ARGUMENT_PREFIXES = ("each",), ("final",)
+_ARGUMENT_PREFIXES = ("redeclare",), ("each",), ("final",), ("replaceable",)
 _TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
+_CLASS_STARTS = _CLASSES.union(*_CLASS_PREFIXES)
 _ARITHMETIC = frozenset("+-*/^")
 _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
 _BRANCHES = {"if": ("elseif", "else"), "when": ("elsewhen",)}
@@ -42,7 +44,7 @@ def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
     parser = _Parser(text)
     parser.document()
-    return StoredText(parser.faults, parser.within, parser.within_line, parser.around.classes)
+    return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes)
 
 
 class _FaultError(Exception):
@@ -56,8 +58,8 @@ class _FaultError(Exception):
 class _Parser:
     """Reads one text from the first token to the last.
 
-    A method reads what it is named for. It raises _FaultError where something is missing; `_each` catches that, and
-    goes on behind the element or equation.
+    A method reads what it is named for, and returns its value, or the names used in it. It raises _FaultError where
+    something is missing; `_each` catches that, and goes on behind the element or equation.
     """
 
     def __init__(self, text: str) -> None:
@@ -65,12 +67,8 @@ class _Parser:
         self.at = 0
         self.within: str | None = None
         self.within_line = 0
-        self.around = Class(Name(("",), 0), "")
-        """The class around this place; at first one that stands for the file."""
-        self._open: tuple[str, ...] = ()
-        """Names of the classes around this place."""
-        self._uses: list[Name] = []
-        """Names that were read and do not belong to any syntax value yet."""
+        self.open = [Class(Name(("",), 0), "")]
+        """The classes around this place, the innermost one last; the first stands for the file."""
         self._depth = self._subscript_depth = 0
 
     # --- tokens ---------------------------------------------------------------------------------------------------
@@ -112,45 +110,27 @@ class _Parser:
         before = "a string" if self.word[:1] == '"' else f"`{_short(self.word)}`" if self.word else "its end"
         return _FaultError(f"lacks {what} before {before}", self.line)
 
+    def _since(self, start: int) -> str:
+        """Return the tokens since the one with the number `start`, with blanks where they would run together."""
+        text = " ".join(token.text for token in self.tokens[start : self.at])
+        return re.sub(r" ?([.()\[\]]) ?", r"\1", text)
+
     def _once(self, seen: set[str], key: str, reason: str) -> None:
         """Note a fault if the key is in `seen`; else put it there."""
         if key in seen:
             self.faults.append(Fault(reason, self.tokens[self.at - 1].line, is_repetition=True))
         seen.add(key)
 
-    def _since(self, start: int) -> str:
-        """Return the tokens since the one with the number `start`, with blanks where they would run together."""
-        text = " ".join(token.text for token in self.tokens[start : self.at])
-        return re.sub(r" ?([.()\[\]]) ?", r"\1", text)
-
-    def _taken(self, start: int) -> tuple[Name, ...]:
-        """Take the names that were read since there were `start` of them."""
-        names = tuple(self._uses[start:])
-        del self._uses[start:]
-        return names
+    def _declared_name(self, names: set[str]) -> Name:
+        """The name of something that is declared beside `names`."""
+        line, text = self.line, self._identifier()
+        self._once(names, text, f"declares `{text}` twice")
+        return Name((text,), line)
 
     def _enter(self) -> None:
         if self._depth == _DEEPEST:
             raise _FaultError(f"nests more than {_DEEPEST} deep", self.line)
         self._depth += 1
-
-    def _each(self, read: Callable[..., None], *arguments: object) -> None:
-        """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
-        start, uses = self.at, len(self._uses)
-        state = self._depth, self._subscript_depth, self._open, self.around
-        try:
-            self._enter()
-            read(*arguments)
-            self._depth -= 1
-            self._expect(";")
-        except _FaultError as error:
-            self.faults.append(error.fault)
-            self._depth, self._subscript_depth, self._open, self.around = state
-            del self._uses[uses:]
-            while self.word not in (";", "end", "", *_SECTIONS):
-                self._step()
-            if self.word == ";" or self.at == start:
-                self._step()
 
     def _list(self, opening: str = "(", closing: str = ")", *, separators: str = ",") -> Iterator[None]:
         """Yield before each item of a list in brackets; it may be empty."""
@@ -164,41 +144,63 @@ class _Parser:
         if not self._accept(closing):
             raise self._lack(f"`,` or `{closing}`")
 
+    def _each(self, read: Callable[..., list[Name] | None], *arguments: object) -> list[Name]:
+        """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
+        start, depth, subscript_depth, classes = self.at, self._depth, self._subscript_depth, len(self.open)
+        try:
+            self._enter()
+            found = read(*arguments)
+            self._depth -= 1
+            self._expect(";")
+        except _FaultError as error:
+            self.faults.append(error.fault)
+            self._depth, self._subscript_depth = depth, subscript_depth
+            del self.open[classes:]
+            while self.word not in (";", "end", "", *_SECTIONS):
+                self._step()
+            if self.word == ";" or self.at == start:
+                self._step()
+            return []
+        return found or []
+
     # --- names and expressions ------------------------------------------------------------------------------------
 
-    def _name(self, *, has_subscripts: bool = False) -> Name:
+    def _name(self, subscripts: list[Name] | None = None) -> Name:
+        """A name with dots. If it may have subscripts, `subscripts` gets the names in them."""
         line, is_global = self.line, bool(self._accept("."))
         parts: list[str] = []
         while not parts or (self.word == "." and is_name(self.following) and self._step()):
             parts.append(self._identifier())
-            if has_subscripts:
-                self._subscripts()
+            if subscripts is not None:
+                subscripts += self._subscripts()
         return Name(tuple(parts), line, is_global)
 
-    def _reference(self) -> Name:
-        """A reference to a component or function."""
-        name = self._name(has_subscripts=True)
-        self._uses.append(name._replace(is_called=self.word == "("))
-        return self._uses[-1]
+    def _reference(self) -> list[Name]:
+        """A component or function, after the names in its subscripts."""
+        found: list[Name] = []
+        name = self._name(found)
+        return [*found, name._replace(is_called=self.word == "(")]
 
-    def _subscripts(self) -> None:
+    def _subscripts(self) -> list[Name]:
         """Subscripts or the sizes of an array, if there are any."""
+        found: list[Name] = []
         if self.word == "[":
             self._subscript_depth += 1
             for _ in self._list("[", "]"):
                 if not (self.word == ":" and self.following in (",", "]") and self._step()):
-                    self._expression()
+                    found += self._expression()
             self._subscript_depth -= 1
+        return found
 
-    def _expression(self) -> None:
-        while self._accept("if"):
+    def _expression(self) -> list[Name]:
+        found: list[Name] = []
+        while branch := self._accept("if"):
             self._enter()
-            is_branch = True
-            while is_branch:
-                self._expression()
+            while branch:
+                found += self._expression()
                 self._expect("then")
-                self._expression()
-                is_branch = bool(self._accept("elseif"))
+                found += self._expression()
+                branch = self._accept("elseif")
             self._depth -= 1
             self._expect("else")
         operator = "or"  # a sign may stand at the beginning, as behind any operator that is no arithmetic one
@@ -208,49 +210,37 @@ class _Parser:
                 if self.word == "." and self.following in ("+", "-"):
                     self._step()
                 self._accept("+", "-")
-            self._operand()
+            found += self._operand()
             if self.word == "." and self.following in _ARITHMETIC:
                 self._step()
             operator = self._accept(*_OPERATORS)
+        return found
 
-    def _operand(self) -> None:
+    def _operand(self) -> list[Name]:
         word = self.word
-        is_literal = word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false")
-        if is_literal or (word == "end" and self._subscript_depth):
+        if word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false"):
             self._step()
-        elif word == "(":
-            self._group()
-        elif word == "[" and self.following != "]":
-            for _ in self._list("[", "]", separators=",;"):
-                self._expression()
-        elif word == "{":
-            for _ in self._list("{", "}"):
-                self._item()
-        elif self._accept(*_CALLED):
-            self._call()
-        elif is_name(word) or word == ".":
-            self._reference()
-            if self.word == "(":
-                self._call()
-        else:
-            raise self._lack("an expression")
+            return []
+        if word == "end" and self._subscript_depth:
+            self._step()
+            return []
+        if word == "(":  # an expression, or the outputs of a function, some of which may be left out
+            inside = [name for _ in self._list() if self.word not in (",", ")") for name in self._expression()]
+            return inside + self._subscripts()
+        if word == "[" and self.following != "]":
+            return [name for _ in self._list("[", "]", separators=",;") for name in self._expression()]
+        if word == "{":
+            return [name for _ in self._list("{", "}") for name in self._item()]
+        if self._accept(*_CALLED):
+            return self._call()
+        if is_name(word) or word == ".":
+            found = self._reference()
+            return found + self._call() if self.word == "(" else found
+        raise self._lack("an expression")
 
-    def _group(self) -> None:
-        """An expression in parentheses, or the outputs of a function, some of which may be left out."""
-        for _ in self._list():
-            if self.word not in (",", ")"):
-                self._expression()
-        self._subscripts()
-
-    def _item(self) -> None:
-        """An expression, possibly with the indices of a reduction."""
-        start = len(self._uses)
-        self._expression()
-        if self._accept("for"):
-            self._forget(self._indices(), start)
-
-    def _call(self) -> None:
+    def _call(self) -> list[Name]:
         """The arguments of a function."""
+        found: list[Name] = []
         names: set[str] = set()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
@@ -260,23 +250,28 @@ class _Parser:
             elif names:
                 raise self._lack("the name of an argument")
             if self._accept("function"):
-                self._uses.append(self._name()._replace(is_called=True))
-                self._call()
+                found.append(self._name()._replace(is_called=True))
+                found += self._call()
             else:
-                self._item()
-
-    def _indices(self) -> set[str]:
-        """The indices of a loop or of a reduction; returns their names."""
-        found: set[str] = set()
-        while not found or self._accept(","):
-            found.add(self._identifier())
-            if self._accept("in"):
-                self._expression()
+                found += self._item()
         return found
 
-    def _forget(self, indices: set[str], start: int) -> None:
-        """Drop the names of indices from those that were read since there were `start` of them."""
-        self._uses[start:] = [name for name in self._uses[start:] if name.is_global or name.parts[0] not in indices]
+    def _item(self) -> list[Name]:
+        """An expression, possibly with the indices of a reduction."""
+        found = self._expression()
+        if self._accept("for"):
+            indices, ranges = self._indices()
+            found = _without(indices, found + ranges)
+        return found
+
+    def _indices(self) -> tuple[set[str], list[Name]]:
+        """The indices of a loop or of a reduction, and the names in their ranges."""
+        indices, ranges = set[str](), list[Name]()
+        while not indices or self._accept(","):
+            indices.add(self._identifier())
+            if self._accept("in"):
+                ranges += self._expression()
+        return indices, ranges
 
     # --- classes --------------------------------------------------------------------------------------------------
 
@@ -297,14 +292,11 @@ class _Parser:
         prefixes = self._prefixes((("final",),))
         if self.word == "end":
             raise _FaultError("has an `end` too many", self.line)
-        if not self._is_class():
+        if self.word not in _CLASS_STARTS:
             raise self._lack("a class")
-        self.around.classes.append(self._class(names, prefixes))
+        self.open[-1].classes.append(self._class(names, prefixes))
 
-    def _is_class(self) -> bool:
-        return self.word in _CLASSES or any(self.word in prefixes for prefixes in _CLASS_PREFIXES)
-
-    def _prefixes(self, groups: Iterable[tuple[str, ...]]) -> set[str]:
+    def _prefixes(self, groups: Sequence[tuple[str, ...]]) -> set[str]:
         """At most one of each group, in order."""
         return {found for prefixes in groups if (found := self._accept(*prefixes))}
 
@@ -314,35 +306,35 @@ class _Parser:
         kind = self._accept(*_CLASSES)
         if not kind:
             raise self._lack("the kind of class")
-        if kind == "operator":
-            kind = " ".join(filter(None, (kind, self._accept("record", "function"))))
+        if kind == "operator" and (more := self._accept("record", "function")):
+            kind = f"operator {more}"
         is_extension = bool(self._accept("extends"))
-        line, text = self.line, self._identifier()
-        self._once(names, text, f"declares `{text}` twice")
-        found = Class(Name((text,), line), kind, frozenset(prefixes), is_extension=is_extension)
+        name = self._declared_name(names)
+        found = Class(name, kind, frozenset(prefixes), is_extension=is_extension)
         if not is_extension and self._accept("="):
-            return self._short_class(found)
+            self._short_class(found)
+            return found
         found.arguments = self._arguments() if is_extension else ()
         self._description()
-        outer, self._open, self.around = (self._open, self.around), (*self._open, text), found
+        self.open.append(found)
         self._composition()
-        is_other_end = is_name(self.following) and self.following not in self._open
-        if self.word != "end" or not (is_other_end or self.following == text):
-            raise self._lack(f"`end {text}`")
+        around = {str(one.name) for one in self.open}  # another name is a slip, unless it ends a class around this one
+        if self.word != "end" or not is_name(end := self.following) or (end in around and end != str(name)):
+            raise self._lack(f"`end {name}`")
         self._step()
-        if (end := self._step()) != text:
-            self.faults.append(Fault(f"ends `{text}` with `end {end}`", self.tokens[self.at - 1].line))
-        self._open, self.around = outer
+        if self._step() != str(name):
+            self.faults.append(Fault(f"ends `{name}` with `end {end}`", self.tokens[self.at - 1].line))
+        self.open.pop()
         return found
 
-    def _short_class(self, found: Class) -> Class:
+    def _short_class(self, found: Class) -> None:
+        """The part of a class behind its equals sign."""
         if self._accept("enumeration"):
+            names: set[str] = set()
             literals: list[str] = []
-            seen: set[str] = set()
             for _ in self._list():
                 if not self._accept(":"):
-                    literals.append(self._identifier())
-                    self._once(seen, literals[-1], f"declares `{literals[-1]}` twice")
+                    literals.append(str(self._declared_name(names)))
                     self._comment()
             found.literals = tuple(dict.fromkeys(literals))
         elif self._accept("der"):
@@ -350,18 +342,16 @@ class _Parser:
                 self._name()
             found.is_derivative = True
         else:
-            start = len(self._uses)
-            name, _ = self._type()
-            del self._uses[start:]
+            self._prefixes(_TYPE_PREFIXES)
+            name = self._name()
+            self._subscripts()
             found.alias = Extends(name, self._arguments())
         self._comment()
-        return found
 
     def _composition(self) -> None:
         """Elements, equations and algorithms up to the class's `end`."""
-        names: set[str] = set()
-        equations: set[str] = set()
-        section = "public"
+        names, equations = set[str](), set[str]()
+        around, section = self.open[-1], "public"
         while (word := self.word) not in ("end", ""):
             if word == "initial" and self.following in ("equation", "algorithm"):
                 self._step()
@@ -370,93 +360,82 @@ class _Parser:
             elif section in ("public", "protected") or word == "external":
                 self._each(self._element, names)
             else:
-                start = len(self._uses)
-                self._each(self._equation, equations if section == "equation" else None)
-                self.around.uses += self._taken(start)
+                around.uses += self._each(self._equation, equations if section == "equation" else None)
             if word == "annotation" and self.word not in ("end", ""):
-                self.faults.append(Fault(f"goes on after the annotation of `{self._open[-1]}`", self.line))
+                self.faults.append(Fault(f"goes on after the annotation of `{around.name}`", self.line))
 
     # --- elements -------------------------------------------------------------------------------------------------
 
     def _element(self, names: set[str]) -> None:
+        around = self.open[-1]
         if self.word == "annotation":
             self._annotation()
         elif self._accept("import"):
-            self._import()
+            around.imports.append(self._import())
         elif self._accept("extends"):
-            parent = self._base()
-            self._once(names, f"extends {parent.type}", f"extends `{parent.type}` twice")
-            self.around.extends.append(parent)
+            base = self._base()
+            self._once(names, f"extends {base.type}", f"extends `{base.type}` twice")
+            around.extends.append(base)
             self._annotation()
         elif self._accept("external"):
             self._external()
         else:
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
-            if self._is_class():
+            if self.word in _CLASS_STARTS:
                 found = self._class(names, prefixes)
                 found.constraint = self._constraint()
-                self.around.classes.append(found)
+                around.classes.append(found)
             else:
-                self._components(names, prefixes)
+                around.components += self._components(names, prefixes)
 
     def _base(self) -> Extends:
         """A class with its modifiers."""
         name = self._name()
         return Extends(name, self._arguments())
 
-    def _import(self) -> None:
+    def _import(self) -> Import:
         alias = ""
         if self.following == "=":
             alias = self._identifier()
             self._step()
-        name = self._name()
-        members: list[tuple[str, str]] = []
-        is_everything = False
-        if self._accept("."):
-            if self.word == "{":
-                for _ in self._list("{", "}"):
-                    short = self._identifier()
-                    members.append((short, self._identifier() if self._accept("=") else short))
-            else:
-                self._expect("*")
-                is_everything = True
+        name = self._name()._replace(is_global=True)
+        names: dict[str, Name] = {}
+        if not self._accept("."):
+            names[alias or name.parts[-1]] = name
+        elif self.word != "{":
+            self._expect("*")
+        else:
+            for _ in self._list("{", "}"):
+                short = self._identifier()
+                member = self._identifier() if self._accept("=") else short
+                names[short] = name._replace(parts=(*name.parts, member))
         self._comment()
-        self.around.imports.append(Import(name, alias, tuple(members), is_everything))
+        return Import(name, names)
 
     def _external(self) -> None:
         self._description()
-        start = len(self._uses)
+        found: list[Name] = []
         if self.word not in (";", "annotation"):
-            self._expression()
+            found += self._expression()
             if self._accept("="):
-                self._expression()
+                found += self._expression()
         # the function of the other language has a name of its own
-        self.around.uses += [name for name in self._taken(start) if not name.is_called]
+        self.open[-1].uses += [name for name in found if not name.is_called]
         self._comment()
 
-    def _components(self, names: set[str], prefixes: set[str]) -> None:
-        start, found = len(self._uses), list[Component]()
-        kind, more = self._type()
-        sizes = self._taken(start)
+    def _components(self, names: set[str], prefixes: set[str]) -> list[Component]:
+        """The components of one declaration."""
+        prefixes |= self._prefixes(_TYPE_PREFIXES)
+        kind, sizes = self._name(), self._subscripts()
+        found: list[Component] = []
         while not found or self._accept(","):
-            line, text = self.line, self._identifier()
-            self._once(names, text, f"declares `{text}` twice")
-            self._subscripts()
-            arguments = self._modification()
-            if self._accept("if"):
-                self._expression()
-            uses = (*sizes, *self._taken(start))
-            found.append(Component(Name((text,), line), kind, frozenset(prefixes | more), arguments, uses))
+            name, uses = self._declared_name(names), [*sizes, *self._subscripts()]
+            arguments, values = self._modification()
+            condition = self._expression() if self._accept("if") else []
+            found.append(Component(name, kind, frozenset(prefixes), arguments, (*uses, *values, *condition)))
             self._comment()
         constraint = self._constraint()
-        self.around.components += [msgspec.structs.replace(one, constraint=constraint) for one in found]
-
-    def _type(self) -> tuple[Name, set[str]]:
-        """A type; returns it with its prefixes."""
-        prefixes = self._prefixes(_TYPE_PREFIXES)
-        name = self._name()
-        self._subscripts()
-        return name, prefixes
+        return [msgspec.structs.replace(one, constraint=constraint) for one in found]
 
     def _constraint(self) -> Extends | None:
         if not self._accept("constrainedby"):
@@ -482,18 +461,15 @@ class _Parser:
     def _annotation(self) -> None:
         """An annotation, if there is one; names have meanings of their own in it."""
         if self._accept("annotation"):
-            start = len(self._uses)
             self._arguments()
-            del self._uses[start:]
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 
-    def _modification(self) -> tuple[Modifier, ...]:
-        """Modifiers in parentheses and a value, whose names are added to `_uses`; both may be missing."""
+    def _modification(self) -> tuple[tuple[Modifier, ...], list[Name]]:
+        """Modifiers in parentheses and the names in a value; both may be missing."""
         arguments = self._arguments()
-        if self._accept("=", ":=") and not self._accept("break"):
-            self._expression()
-        return arguments
+        has_value = self._accept("=", ":=") and not self._accept("break")
+        return arguments, self._expression() if has_value else []
 
     def _arguments(self) -> tuple[Modifier, ...]:
         """Modifiers in parentheses, if there are any."""
@@ -502,90 +478,97 @@ class _Parser:
 
     def _argument(self, names: set[str]) -> Modifier | None:
         """One modifier; None for a connection that is taken away."""
-        is_redeclared = bool(self._accept("redeclare"))
         prefixes = self._prefixes(_ARGUMENT_PREFIXES)
-        declares = bool(self._accept("replaceable")) or is_redeclared
-        start = len(self._uses)
+        declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
         if self._accept("break"):
             if not self._accept("connect"):
                 return Modifier(self._name())
             self._expression()
-            del self._uses[start:]
             return None
-        if declares and self._is_class():
+        if declares and self.word in _CLASS_STARTS:
             definition = self._class(names, prefixes)
-            return Modifier(definition.name, (), (), is_redeclared, None, definition, self._constraint())
-        kind = self._type()[0] if declares else None
+            return Modifier(definition.name, (), (), is_redeclared, definition.alias, self._constraint())
+        new_type: Extends | None = None
+        uses: list[Name] = []
+        if declares:
+            self._prefixes(_TYPE_PREFIXES)
+            new_type = Extends(self._name())
+            uses += self._subscripts()
         name = self._name()
         if str(name) not in _REPEATABLE:
             self._once(names, str(name), f"sets `{name}` twice")
         if declares:
-            self._subscripts()
-        arguments = self._modification()
-        uses = self._taken(start)
+            uses += self._subscripts()
+        arguments, values = self._modification()
         self._description()
         if declares:
             self._annotation()
-        return Modifier(name, arguments, uses, is_redeclared, kind, None, self._constraint())
+        return Modifier(name, arguments, (*uses, *values), is_redeclared, new_type, self._constraint())
 
     # --- equations and statements ---------------------------------------------------------------------------------
 
-    def _equation(self, seen: set[str] | None) -> None:
+    def _equation(self, seen: set[str] | None) -> list[Name]:
         """An equation, or a statement if `seen` is None: statements may be repeated."""
-        start, word = self.at, self.word
+        start, word, found = self.at, self.word, list[Name]()
         if word == "annotation":
             self._annotation()
-            return
+            return []
         if self._accept("if", "when", "for", "while"):
-            self._block(word, repeats=seen is None)
+            found = self._block(word, repeats=seen is None)
         elif seen is None and self._accept("break", "return"):
             pass
         elif seen is not None and self._accept("connect"):
-            self._connect(seen)
+            found = self._connect(seen)
         else:
             sign = ":=" if seen is None else "="
-            self._expression()
+            found = self._expression()
             if self._accept(sign):
-                self._expression()
+                found += self._expression()
             elif not (is_name(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
                 raise self._lack(f"`{sign}`")
             if seen is not None:
                 text = self._since(start)
                 self._once(seen, text, f"has the equation `{_short(text)}` twice")
         self._comment()
+        return found
 
-    def _connect(self, seen: set[str]) -> None:
-        texts: list[str] = []
+    def _connect(self, seen: set[str]) -> list[Name]:
+        found, texts = list[Name](), list[str]()
         for mark in ("(", ","):
             self._expect(mark)
             start = self.at
-            self._reference()
+            found += self._reference()
             texts.append(self._since(start))
         self._expect(")")
         first, second = sorted(texts)
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
+        return found
 
-    def _block(self, kind: str, *, repeats: bool) -> None:
-        start = len(self._uses)
-        indices: set[str] = set()
-        begin = "loop" if kind in ("for", "while") else "then"
+    def _block(self, kind: str, *, repeats: bool) -> list[Name]:
+        """The rest of an equation or statement that holds others, which may repeat each other."""
+        found, indices = list[Name](), set[str]()
         branch = kind
         while branch:
             if branch == "for":
-                indices = self._indices()
+                indices, found = self._indices()
             elif branch != "else":
-                self._expression()
+                found += self._expression()
             if branch != "else":
-                self._expect(begin)
+                self._expect("loop" if kind in ("for", "while") else "then")
             seen: set[str] | None = None if repeats else set()
             while self.word not in _BLOCK_ENDS:
-                self._each(self._equation, seen)
+                found += self._each(self._equation, seen)
             branch = self._accept(*_BRANCHES.get(kind, ())) if branch != "else" else ""
         if (self.word, self.following) != ("end", kind):
             raise self._lack(f"`end {kind}`")
         self._step()
         self._step()
-        self._forget(indices, start)
+        return _without(indices, found)
+
+
+def _without(indices: Collection[str], names: Sequence[Name]) -> list[Name]:
+    """Return names but for those of indices."""
+    return [name for name in names if name.is_global or name.parts[0] not in indices]
 
 
 def _short(text: str) -> str:

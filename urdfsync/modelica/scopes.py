@@ -7,14 +7,15 @@ type and of its new one are all accepted, which is more than the language allows
 
 from __future__ import annotations
 
+import contextlib
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple, Protocol, TypeAlias
 
 import msgspec
 
 from urdfsync.modelica.names import FUNCTIONS
-from urdfsync.modelica.syntax import Class, Component, Extends, Import, Modifier, Name
+from urdfsync.modelica.syntax import Class, Component, Extends, Modifier, Name
 
 _NUMBER = "value quantity min max start fixed"
 _PREDEFINED = {
@@ -94,9 +95,9 @@ Types: TypeAlias = tuple[Type, ...]
 class Element(NamedTuple):
     """Something that has a name: a component, a class, a literal, an attribute, or a part of the language itself."""
 
-    declaration: Component | Class | None
     types: Types
     """The classes that a component may have, the one that it has first; of a class, what it may stand for."""
+    is_component: bool = False
 
 
 class Missing(NamedTuple):
@@ -116,7 +117,7 @@ def _predefined(name: str, components: Iterable[str] = ()) -> Node:
 
 OPAQUE = _predefined("")
 """A class that is not at hand, or can't be read."""
-ANYTHING = Element(None, (Type(OPAQUE),))
+ANYTHING = Element((Type(OPAQUE),))
 """An element of such a class."""
 _TYPES = {name: _predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
 
@@ -127,7 +128,7 @@ class Scopes:
     def __init__(self, sources: Sources) -> None:
         self._sources = sources
         self._tops: dict[str, Node | None] = {}
-        self._resolving: set[Node] = set()
+        self._resolving: frozenset[Node] = frozenset()
         """Classes whose base classes are being looked for: these are not looked for in what they inherit."""
         self._depth = 0
 
@@ -169,13 +170,8 @@ class Scopes:
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing:
         """Return the meaning of a name after `extends` in a class: nothing that the class inherits."""
-        outer = node in self._resolving
-        self._resolving.add(node)
-        try:
+        with self._without_bases(node):
             return self.lookup(name, node)
-        finally:
-            if not outer:
-                self._resolving.discard(node)
 
     def part(self, types: Types, name: str) -> Element | Missing:
         """Return the meaning of a name in something that may have any of these types."""
@@ -187,12 +183,12 @@ class Scopes:
         known = [one for one in found if one is not ANYTHING]
         united = (one for element in found for one in element.types)
         more = () if is_certain else ANYTHING.types
-        return Element(known[0].declaration, tuple(dict.fromkeys((*united, *more)))) if known else ANYTHING
+        return Element(tuple(dict.fromkeys((*united, *more))), known[0].is_component) if known else ANYTHING
 
     def types_of(self, used: Extends, scope: Node | None) -> Types:
         """Return the classes that a name stands for, with the modifiers beside it."""
         found = self.lookup(used.type, scope)
-        if isinstance(found, Missing) or isinstance(found.declaration, Component):
+        if isinstance(found, Missing) or found.is_component:
             return ANYTHING.types
         return _modified(found.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
@@ -211,14 +207,21 @@ class Scopes:
             return node.bases
         if node in self._resolving:
             return ()
-        self._resolving.add(node)
-        try:
+        with self._without_bases(node):
             found = self._bases(node)
-        finally:
-            self._resolving.discard(node)
         if not self._resolving:  # else a name may be missing only because a class around it is being resolved
             node.bases = found
         return found
+
+    @contextlib.contextmanager
+    def _without_bases(self, node: Node) -> Iterator[None]:
+        """Inside, names are not looked for in what a class inherits."""
+        before = self._resolving
+        self._resolving = before | {node}
+        try:
+            yield
+        finally:
+            self._resolving = before
 
     def names_in(self, types: Types) -> dict[str, bool]:
         """The names of all that is known to be in classes, inherited elements included; whether each is a class."""
@@ -239,7 +242,7 @@ class Scopes:
         """The simple names that can be used in a class, as far as they are known; whether each is that of a class."""
         found = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
-            imported = (name for one in scope.definition.imports for name in _imported(one))
+            imported = (name for one in scope.definition.imports for name in one.names)
             found = {**dict.fromkeys(imported, True), **self.names_in((Type(scope),)), **found}
             scope = scope.parent
         return found
@@ -259,7 +262,7 @@ class Scopes:
             return ANYTHING
         top = _TYPES.get(name) or self._top(name)
         if top is not None:
-            return Element(top.definition, (Type(top),)) if top is not OPAQUE else ANYTHING
+            return Element((Type(top),)) if top is not OPAQUE else ANYTHING
         return Missing(name, (), is_certain)
 
     def _in_scope(self, scope: Node, name: str) -> Element | Missing:
@@ -267,13 +270,12 @@ class Scopes:
         if isinstance(found, Element) or not found.is_certain:
             return found
         for one in scope.definition.imports:
-            if name in _imported(one):
-                member = (dict(one.members)[name],) if one.members else ()
-                imported = self.lookup(one.name._replace(is_global=True, parts=(*one.name.parts, *member)), None)
+            if name in one.names:
+                imported = self.lookup(one.names[name], None)
                 return imported if isinstance(imported, Element) else ANYTHING  # it is told where it is imported
         for one in scope.definition.imports:
-            if one.is_everything:
-                imported = self.lookup(one.name._replace(is_global=True, parts=(*one.name.parts, name)), None)
+            if not one.names:
+                imported = self.lookup(one.name._replace(parts=(*one.name.parts, name)), None)
                 if isinstance(imported, Element):
                     return imported
                 if imported.part != name or not imported.types:
@@ -298,7 +300,7 @@ class Scopes:
             return ANYTHING
         if definition.literals is not None:
             if name in definition.literals or not definition.literals:
-                return Element(None, (Type(node),))
+                return Element((Type(node),))
             return self._member(Type(_TYPES["enumeration"]), name)
         if component := node.components.get(name):
             return self._component(node, modifiers, component)
@@ -308,7 +310,7 @@ class Scopes:
             return ANYTHING if isinstance(found, Missing) and "expandable" in definition.prefixes else found
         is_open = "replaceable" in child.definition.prefixes
         types = (Type(child, _nested(modifiers, name)), *(ANYTHING.types if is_open else ()))
-        return Element(child.definition, types) if child is not OPAQUE else ANYTHING
+        return Element(types) if child is not OPAQUE else ANYTHING
 
     def _inherited(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
         is_certain = True
@@ -329,13 +331,13 @@ class Scopes:
         for arguments, scope in modifiers:
             for one in arguments:
                 if one.name.parts == (name,) and one.type is not None:
-                    types += _modified(self.types_of(Extends(one.type), scope), nested)
+                    types += _modified(self.types_of(one.type, scope), nested)
                     types += self.types_of(one.constraint, scope) if one.constraint else ()
         types += _modified(self.types_in(component, node), nested)
         if "redeclare" in component.prefixes:
             before = self._inherited(node, modifiers, name)
             types += before.types if isinstance(before, Element) else ()
-        return Element(component, tuple(dict.fromkeys(types)))
+        return Element(tuple(dict.fromkeys(types)), is_component=True)
 
     def _bases(self, node: Node) -> Types:
         definition = node.definition
@@ -365,10 +367,3 @@ def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
         for one in arguments
         if one.name.parts == (name,) and one.arguments
     )
-
-
-def _imported(used: Import) -> list[str]:
-    """Return the names that an import clause makes known, but for one that imports everything."""
-    if used.members:
-        return [alias for alias, _ in used.members]
-    return [] if used.is_everything else [used.alias or used.name.parts[-1]]

@@ -6,7 +6,7 @@ left out; of an expression only the names in it remain.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -37,10 +37,8 @@ class Modifier(msgspec.Struct, frozen=True):
     uses: tuple[Name, ...] = ()
     """Names in its value."""
     is_redeclared: bool = False
-    type: Name | None = None
-    """The new type, if a component is declared anew (`redeclare`, `replaceable`)."""
-    definition: Class | None = None
-    """The new class, if a class is declared anew; its own name is `name`."""
+    type: Extends | None = None
+    """What an element that is declared anew (`redeclare`, `replaceable`) is: the type of a component, or a class."""
     constraint: Extends | None = None
     """The class after `constrainedby`."""
 
@@ -69,13 +67,9 @@ class Import(msgspec.Struct, frozen=True):
     """An import clause."""
 
     name: Name
-    """The class or package that is imported."""
-    alias: str = ""
-    """The short name, empty if none is given."""
-    members: tuple[tuple[str, str], ...] = ()
-    """Short name and name of what is taken out of the package: `import A.{b, c = d}`."""
-    is_everything: bool = False
-    """Whether it ends in `.*`."""
+    """The class or package behind `import`; like all names that are imported, it counts from the top."""
+    names: Mapping[str, Name] = {}
+    """What is imported, by the short names that it gets; empty for everything in the package (`import A.*`)."""
 
 
 class Class(msgspec.Struct, eq=False):

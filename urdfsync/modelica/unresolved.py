@@ -73,8 +73,7 @@ class _Walk:
             yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, UnresolvedKind.CLASS)
             yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
         for one in definition.imports:
-            found = scopes.lookup(one.name._replace(is_global=True), None)
-            yield from self._missing(one.name, found, None, UnresolvedKind.CLASS)
+            yield from self._missing(one.name, scopes.lookup(one.name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
         yield from self._uses(definition.uses, node)
@@ -109,13 +108,12 @@ class _Walk:
     ) -> Iterator[Unresolved]:
         """Yield what is wrong with modifiers of something that may have one of these types."""
         for one in arguments:
-            found: Element | Missing = Element(None, types)
+            found: Element | Missing = Element(types)
             for part in one.name.parts:
                 if isinstance(found, Element):
                     found = self._scopes.part(found.types, part)
                     yield from self._missing(Name((part,), one.name.line), found, scope, UnresolvedKind.ELEMENT)
-            new_type = Extends(one.type) if one.type else one.definition.alias if one.definition else None
-            for used in filter(None, (new_type, one.constraint)):
+            for used in filter(None, (one.type, one.constraint)):
                 yield from self._used(used, scope)
             if isinstance(found, Element) and found is not ANYTHING:
                 text, line = str(one.name), one.name.line

@@ -9,13 +9,20 @@ import os
 import re
 import shutil
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint, SimulationResult, one_line
+from urdfsync.check.compilers.compiler import (
+    CompileJob,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    SimulationResult,
+    one_line,
+)
 from urdfsync.extras import install_command
 
 TITLE = "OpenModelica"
@@ -71,41 +78,47 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     except (*refused, OSError) as error:
         raise ImportError(str(error)) from error
 
-    def load(call: str) -> str:
-        """Load something; returns what is wrong, empty if it is there."""
-        answer = str(session.sendExpression(f"{call}; getErrorString()", parsed=False))
-        if answer.lstrip().startswith("true"):
-            return ""
-        return "\n".join(filter(None, map(str.strip, strings(answer)))) or "it can't be loaded, and does not say why"
+    def ask(call: str) -> str:
+        return str(session.sendExpression(call, parsed=False))
 
     problem = ""
     try:
-        session.sendExpression("cd(getTempDirectoryPath())", parsed=False)
+        ask("cd(getTempDirectoryPath())")
         calls = (f"loadFile({quoted(file.as_posix())}, uses=false)" for file in _package_files(job))
-        problem = next(filter(None, map(load, calls)), "")
+        problem = next(filter(None, (_load(ask, call) for call in calls)), "")
     except refused as error:
         problem = str(error)
     for task in job.tasks:
-        started, result = time.monotonic(), CompileResult(problem)
+        started = time.monotonic()
         try:
-            if not problem:
-                result = CompileResult(load(f"loadString({quoted(task.source)}, uses=false)"))
-            if not result.problem:
-                # the messages in the same breath, or the client library takes them for itself
-                call = f"checkModel({task.model}); getErrorString()"
-                said, *messages = strings(answer := str(session.sendExpression(call, parsed=False))) or [answer]
-                counts = _COUNTS.search(said)
-                if "completed successfully" not in said or counts is None:
-                    words = "\n".join(filter(None, map(str.strip, (*messages, said))))
-                    result = CompileResult(words or "the model does not compile")
-                elif counts[1] != counts[2]:
-                    result = CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
-                else:
-                    runs = tuple(SimulationResult(problem="OpenModelica only compiles here") for _ in task.runs)
-                    result = CompileResult(unknowns=int(counts[2]), runs=runs)
+            result = CompileResult(problem) if problem else _compile(ask, task)
         except refused as error:
             result = CompileResult(str(error))
         yield msgspec.structs.replace(result, seconds=time.monotonic() - started)
+
+
+def _load(ask: Callable[[str], str], call: str) -> str:
+    """Load something; returns what is wrong, empty if it is there."""
+    answer = ask(f"{call}; getErrorString()")
+    if answer.lstrip().startswith("true"):
+        return ""
+    return "\n".join(filter(None, map(str.strip, strings(answer)))) or "it can't be loaded, and does not say why"
+
+
+def _compile(ask: Callable[[str], str], task: CompileTask) -> CompileResult:
+    if problem := _load(ask, f"loadString({quoted(task.source)}, uses=false)"):
+        return CompileResult(problem)
+    # the messages in the same breath, or the client library takes them for itself
+    answer = ask(f"checkModel({task.model}); getErrorString()")
+    said, *messages = strings(answer) or [answer]
+    counts = _COUNTS.search(said)
+    if "completed successfully" not in said or counts is None:
+        words = "\n".join(filter(None, map(str.strip, (*messages, said))))
+        return CompileResult(words or "the model does not compile")
+    if counts[1] != counts[2]:
+        return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
+    runs = tuple(SimulationResult(problem="OpenModelica only compiles here") for _ in task.runs)
+    return CompileResult(unknowns=int(counts[2]), runs=runs)
 
 
 def _package_files(job: CompileJob) -> list[Path]:
