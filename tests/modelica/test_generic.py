@@ -17,7 +17,7 @@ import test_limits
 from support import generic, modelica, physics
 from support.modelica import URDFSYNC, Array, Run, Series, Task, execute, simulate
 from support.packages import generate
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.poses import start_positions
@@ -26,49 +26,48 @@ from urdfsync.urdf.physics import motion
 pytestmark = pytest.mark.slow
 
 GRIPPER = robot(
-    link("base", 2.0),
-    link("plate", 1.0),
+    *links(base=2.0, plate=1.0),
     *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
     link("sensor", 0.3),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2), limit()]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5), limit()]),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5)]),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
-    joint("grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02), limit()]),
-    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3), limit()]),
+    joint("grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02)]),
+    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
 )
 """A chain with branches; press follows grip, and grip follows shoulder."""
 
 LADDER = robot(
     link("base"),
     *(link(name, 2.0) for name in ("car", "mast", "left", "right")),
-    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0), limit()]),
-    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8", inside=[limit()]),
-    joint("left swing", "revolute", "mast", "left", axis="0 1 0", inside=[limit()]),
-    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0), limit()]),
+    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0)]),
+    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8"),
+    joint("left swing", "revolute", "mast", "left", axis="0 1 0"),
+    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0)]),
 )
 """Two sliding joints first; a base without mass; a name with a space."""
 
 CHAIN = robot(
     *(link(name, 1.0) for name in ("base", "one", "two", "three", "four")),
-    joint("first", "revolute", "base", "one", axis="0 1 0", inside=[dynamics(0.4, 0.2), limit()]),
-    joint("second", "prismatic", "one", "two", axis="1 0 0", inside=[mimic("first", 0.1, 0.02), limit()]),
-    joint("third", "revolute", "two", "three", axis="0 0 1", inside=[mimic("second", -4.0, 0.3), limit()]),
-    joint("fourth", "prismatic", "three", "four", axis="0 1 0", inside=[mimic("third", 0.2, -0.1), limit()]),
+    joint("first", "revolute", "base", "one", axis="0 1 0", inside=[dynamics(0.4, 0.2)]),
+    joint("second", "prismatic", "one", "two", axis="1 0 0", inside=[mimic("first", 0.1, 0.02)]),
+    joint("third", "revolute", "two", "three", axis="0 0 1", inside=[mimic("second", -4.0, 0.3)]),
+    joint("fourth", "prismatic", "three", "four", axis="0 1 0", inside=[mimic("third", 0.2, -0.1)]),
 )
 """Three joints that follow one another, and so the first one."""
 
 MASSLESS = robot(
     *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
-    joint("lift", "revolute", "base", "arm", axis="0 1 0", inside=[limit()]),
-    joint("twist", "revolute", "arm", "tip", axis="0 0 1", inside=[limit()]),
+    joint("lift", "revolute", "base", "arm", axis="0 1 0"),
+    joint("twist", "revolute", "arm", "tip", axis="0 0 1"),
 )
 SLIDER = robot(
     link("base", 1.0),
     '<link name="box"><inertial><mass value="0"/>'
     '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>',
-    joint("push", "prismatic", "base", "box", axis="0 0 1", inside=[limit()]),
+    joint("push", "prismatic", "base", "box", axis="0 0 1"),
 )
 """Inertia, but no mass behind a joint that slides."""
 FOLLOWER = robot(

@@ -17,7 +17,7 @@ CART = urdfs.robot(
     *map(urdfs.link, ("base", "tyre", "roller", "mast", "camera", "plate", "kite", "cover", "bolt")),
     urdfs.joint("wheel", "continuous", "base", "tyre"),
     urdfs.joint("caster", "continuous", "base", "roller"),
-    urdfs.joint("lift", "prismatic", "base", "mast", inside=[urdfs.limit(), urdfs.mimic("wheel")]),
+    urdfs.joint("lift", "prismatic", "base", "mast", inside=[urdfs.mimic("wheel")]),
     urdfs.joint("camera", "fixed", "mast", "camera"),
     urdfs.joint("glide", "planar", "base", "plate"),
     urdfs.joint("lid", "fixed", "base", "cover", inside=[urdfs.mimic("wheel")]),

@@ -259,10 +259,7 @@ def tags(*links: str) -> list[str]:
 
 def said(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> set[str]:
     """The changes from one robot to another: with both values where a drive changed."""
-    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
-    assert one is not None
-    assert two is not None
-    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
+    found = compare(urdfs.version(*old), urdfs.version(*new), DOMAIN, options).changes
     return {
         f"{each}: {f'{each.old} → {each.new}' if each.path[-1] == 'drive' else each.kind}, {each.change_class}"
         for each in found

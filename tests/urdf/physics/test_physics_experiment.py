@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from support.physics import pinocchio_series
-from support.urdfs import dynamics, joint, limit, link, robot
+from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.check.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
@@ -22,12 +22,9 @@ from urdfsync.urdf.options import Options
 BOT = Target("Bot", "Bot")
 POSE = (("position", "m"), ("orientation", ""))
 ARM = robot(
-    link("base", 4.0),
-    link("arm", 2.5),
-    link("drone", 0.7),
-    link("plate", 0.7),
-    joint("elbow", "revolute", "base", "arm", inside=[limit(), dynamics(1, 1)]),
-    joint("slide", "prismatic", "base", "drone", inside=[limit()]),
+    *links(base=4.0, arm=2.5, drone=0.7, plate=0.7),
+    joint("elbow", "revolute", "base", "arm", inside=[dynamics(1, 1)]),
+    joint("slide", "prismatic", "base", "drone"),
     joint("skate", "planar", "arm", "plate"),
 )
 
@@ -204,7 +201,7 @@ def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatc
 
 
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm"))
     one = experiment(urdf, approach=("record",))
     assert "UrdfSync.Robots.GenericRobot robot(redeclare parameter Bot.BotParameters data, " in one.probe.source
     assert "robot.r_0[2,3]" in one.probe.values
@@ -218,7 +215,7 @@ def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
 
 
 def test_axes_of_links_are_read_in_the_same_order_in_both_approaches() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm"))
     package, record = experiment(urdf), experiment(urdf, approach=("record",))
     axes = [value for value in package.probe.values if "base.frame_a.R.T" in value]
     transposed = [re.sub(r".*\[(.),(.)\]", r"robot.R_0[1,\2,\1]", value) for value in axes]
@@ -226,7 +223,7 @@ def test_axes_of_links_are_read_in_the_same_order_in_both_approaches() -> None:
 
 
 def test_with_both_approaches_the_package_is_compared_and_the_record_is_not() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
+    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm"))
     one = experiment(urdf, approach=("package", "record"))
     assert "Bot.Bot robot(" in one.probe.source
     assert any("the generic robot with the record" in sentence for sentence in one.unchecked)

@@ -8,10 +8,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.physics.free_joints import FreeJointState
 from urdfsync.urdf.physics.reading import read
@@ -21,23 +20,16 @@ from urdfsync.urdf.robot import Joint
 Array = NDArray[np.float64]
 
 DRIVEN = robot(
-    link("base", 4.0),
-    link("upper", 2.5),
-    link("hand", 0.7),
-    link("finger", 0.2),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit()]),
-    joint("slide", "prismatic", "upper", "hand", axis="-2 0 0", inside=[limit()]),
+    *links(base=4.0, upper=2.5, hand=0.7, finger=0.2),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0"),
+    joint("slide", "prismatic", "upper", "hand", axis="-2 0 0"),
     joint("grip", "continuous", "hand", "finger", axis="0 1 1", inside=[mimic("shoulder", -1.5, 0.2)]),
 )
 FREE = robot(
-    link("base", 4.0),
-    link("carrier", 1.0),
-    link("drone", 3.0),
-    link("arm", 1.0),
-    link("puck", 0.5),
-    joint("rail", "prismatic", "base", "carrier", axis="0 1 1", inside=[limit(), dynamics(0.3, 0.1)]),
+    *links(base=4.0, carrier=1.0, drone=3.0, arm=1.0, puck=0.5),
+    joint("rail", "prismatic", "base", "carrier", axis="0 1 1", inside=[dynamics(0.3, 0.1)]),
     joint("air", "floating", "carrier", "drone"),
-    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[limit(), dynamics(0.2, 0.1)]),
+    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[dynamics(0.2, 0.1)]),
     joint("tray", "planar", "arm", "puck", axis="0.3 1 -0.2", inside=[dynamics(0.4, 0.3)]),
 )
 """A floating joint and a planar one, each moved by a driven one."""
@@ -47,9 +39,7 @@ class Bot:
     """A reference, and the state that the motion gives it."""
 
     def __init__(self, urdf: str) -> None:
-        found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
-        assert found is not None
-        skeleton = KinematicTree.of(found)
+        skeleton = KinematicTree.of(parsed(urdf))
         self.axes, self.free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
         self.starts = {j.name: self.reference.start(j.name, free_joints.free_start(j)) for j in self.free}
