@@ -95,15 +95,12 @@ def test_nothing_is_lost_on_the_way_through_json(robot: Robot) -> None:
     assert json.dumps(to_snapshot(from_snapshot(written))) == json.dumps(snapshot)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        ARM.replace("\n", "\n\n<!-- c -->"),
-        ARM.replace('xyz="1 2 3"', "rpy = '0 0  -0'\n xyz=\" 1.0 2e0\t+3 \""),
-        ARM.replace("<gazebo/>", "<gazebo >\n  </gazebo>"),
-        ARM.replace("\n", "\r\n"),
-    ],
-)
+@pytest.mark.parametrize("text", [
+    ARM.replace("\n", "\n\n<!-- c -->"),
+    ARM.replace('xyz="1 2 3"', "rpy = '0 0  -0'\n xyz=\" 1.0 2e0\t+3 \""),
+    ARM.replace("<gazebo/>", "<gazebo >\n  </gazebo>"),
+    ARM.replace("\n", "\r\n"),
+])  # fmt: skip
 def test_what_is_no_change_at_all(text: str) -> None:
     assert json.dumps(to_snapshot(parsed(text))) == json.dumps(to_snapshot(parsed(ARM)))
 

@@ -139,15 +139,12 @@ def test_what_can_follow_what(case: list[str]) -> None:
     assert found(*elements("a b c"), *joints) == finding
 
 
-@pytest.mark.parametrize(
-    ("leaders", "finding"),
-    [
-        (" jk", ""),
-        ("ljk", "error mimic-cycle 5"),
-        ("j  ", "error mimic-cycle 5"),
-        ("x  ", "error unknown-mimic 5"),
-    ],
-)
+@pytest.mark.parametrize(("leaders", "finding"), [
+    (" jk", ""),
+    ("ljk", "error mimic-cycle 5"),
+    ("j  ", "error mimic-cycle 5"),
+    ("x  ", "error unknown-mimic 5"),
+])  # fmt: skip
 def test_joints_follow_in_chains_and_not_in_circles(leaders: str, finding: str) -> None:
     joints = [
         joint(mimic(leader) if leader.strip() else "", "continuous", name, child)

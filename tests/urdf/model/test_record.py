@@ -64,17 +64,14 @@ UNLIMITED = ", ".join(
 )
 
 
-@pytest.mark.parametrize(
-    ("kind", "full", "bare"),
-    [
-        ("revolute", GROUPS, {"limits": UNLIMITED}),
-        ("prismatic", GROUPS, {"limits": UNLIMITED}),
-        ("continuous", GROUPS | {"limits": UNLIMITED.rpartition("= ")[0] + "= 30"}, {"limits": UNLIMITED}),
-        ("planar", {"translation": LOSSES, "rotation": LOSSES}, {}),
-        ("fixed", {}, {}),
-        ("floating", {}, {}),
-    ],
-)
+@pytest.mark.parametrize(("kind", "full", "bare"), [
+    ("revolute", GROUPS, {"limits": UNLIMITED}),
+    ("prismatic", GROUPS, {"limits": UNLIMITED}),
+    ("continuous", GROUPS | {"limits": UNLIMITED.rpartition("= ")[0] + "= 30"}, {"limits": UNLIMITED}),
+    ("planar", {"translation": LOSSES, "rotation": LOSSES}, {}),
+    ("fixed", {}, {}),
+    ("floating", {}, {}),
+])  # fmt: skip
 def test_a_joint_has_the_groups_of_its_type(kind: JointType, full: dict[str, str], bare: dict[str, str]) -> None:
     leader = Joint("leader", "revolute", "a", "l")
     for parts, groups in ((EVERYTHING, full), ({}, bare)):

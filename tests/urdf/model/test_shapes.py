@@ -54,15 +54,12 @@ def shapes_of(
     return link_shapes(link, imports or {}, "Plant.Arm", Options(**options))
 
 
-@pytest.mark.parametrize(
-    ("material", "color", "opacity"),
-    [
-        (None, GREY, 1),
-        (Material("textured", texture="t.png"), GREY, 1),
-        (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
-        (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
-    ],
-)
+@pytest.mark.parametrize(("material", "color", "opacity"), [
+    (None, GREY, 1),
+    (Material("textured", texture="t.png"), GREY, 1),
+    (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
+    (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
+])  # fmt: skip
 def test_colours_are_integers_that_tools_take(
     material: Material | None, color: tuple[int, ...], opacity: float
 ) -> None:

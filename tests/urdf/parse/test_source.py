@@ -167,19 +167,16 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     assert reading.lines == read(ARM).lines
 
 
-@pytest.mark.parametrize(
-    ("declaration", "code"),
-    [
-        ("<?xml version='0.0'?>", "xml-version"),
-        (" <?xml version='1.0'?>", "xml-declaration"),
-        ("<?xml version=1.0?>", "xml-declaration"),
-        ("<?XML version='1.0'?>", "xml-declaration"),
-        ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
-        ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
-        ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
-        ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
-    ],
-)
+@pytest.mark.parametrize(("declaration", "code"), [
+    ("<?xml version='0.0'?>", "xml-version"),
+    (" <?xml version='1.0'?>", "xml-declaration"),
+    ("<?xml version=1.0?>", "xml-declaration"),
+    ("<?XML version='1.0'?>", "xml-declaration"),
+    ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
+    ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
+    ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
+    ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
+])  # fmt: skip
 def test_a_wrong_declaration_is_tolerated(declaration: str, code: str) -> None:
     reading = read(f"{declaration}<robot name='cart'>\r\n<link name='bödy'/></robot>")
     assert reading.robot == Robot("cart", (Link("bödy"),))
@@ -259,15 +256,12 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
     assert all(d.hint for d in reading.diagnostics)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("<link name='R&D'/>", "not well-formed (invalid token)"),
-        ("<mass value='&kg;'/>", "undefined entity"),
-        ("<visual><origin></visual>", "<origin> of line 2 is not closed"),
-        ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    ("<link name='R&D'/>", "not well-formed (invalid token)"),
+    ("<mass value='&kg;'/>", "undefined entity"),
+    ("<visual><origin></visual>", "<origin> of line 2 is not closed"),
+    ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep"),
+])  # fmt: skip
 def test_what_is_wrong_in_xml_is_said(text: str, message: str) -> None:
     (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
     assert (found.code, found.line, found.column > 0) == ("xml-syntax", 2, "deep" not in message)
@@ -372,16 +366,13 @@ def test_many_warnings_of_a_kind_are_told_once() -> None:
 LEADER = '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
 
 
-@pytest.mark.parametrize(
-    ("inner", "expected"),
-    [
-        ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
-        ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
-        ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
-        ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
-        ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
-    ],
-)
+@pytest.mark.parametrize(("inner", "expected"), [
+    ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
+    ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
+    ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
+    ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
+    ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
+])  # fmt: skip
 def test_defaults_of_a_joint(inner: str, expected: Joint) -> None:
     robot = read(with_joint(inner, "continuous").replace("</robot>", LEADER)).robot
     assert robot is not None

@@ -41,14 +41,11 @@ def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
     assert inner == {"robot.m", "robot.frame_a", "robot.shoulderAxis", *bodies, *frames}
 
 
-@pytest.mark.parametrize(
-    ("target", "options", "imports"),
-    [
-        (ARM, Options(), ["Modelica", "UrdfSync", "Plant"]),
-        (Target("UrdfSync.Examples.Arm", "Arm"), Options(), ["Modelica", "UrdfSync"]),
-        (ARM, Options(visualizer="visualization2"), ["Modelica", "UrdfSync", "Visualization2", "Plant"]),
-    ],
-)
+@pytest.mark.parametrize(("target", "options", "imports"), [
+    (ARM, Options(), ["Modelica", "UrdfSync", "Plant"]),
+    (Target("UrdfSync.Examples.Arm", "Arm"), Options(), ["Modelica", "UrdfSync"]),
+    (ARM, Options(visualizer="visualization2"), ["Modelica", "UrdfSync", "Visualization2", "Plant"]),
+])  # fmt: skip
 def test_every_library_is_named_once(target: Target, options: Options, imports: list[str]) -> None:
     assert re.findall(r"^  import (\w+);$", probe(skeleton(), target, options).source, re.MULTILINE) == imports
 
