@@ -58,6 +58,13 @@ CHAIN = robot(
 )
 """Three joints that follow one another, and so the first one."""
 
+STONE = robot(link("stone", 2.0))
+STATUE = robot(
+    *links(base=1.0, head=1.0, hat=1.0),
+    joint("neck", "fixed", "base", "head"),
+    joint("tilt", "revolute", "head", "hat", axis="0 1 0", inside=[mimic("neck", 1, 0.4)]),
+)
+"""No axis: a fixed joint, and one that follows it."""
 MASSLESS = robot(
     *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
     joint("lift", "revolute", "base", "arm", axis="0 1 0"),
@@ -111,6 +118,7 @@ DRIVEN = """
 
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
 BASES = {"gripper": generic.Base(), "ladder": None}
+GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 START = motion.Course(0.3, 0.2, 0.0)
 STOP = 0.5
 TOLERANCE = 1e-9
@@ -133,7 +141,16 @@ AXES = {
 def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     """Base and axes move; efforts of all axes, what acts on the base, mass and centre are compared."""
     cases = [in_form(name, form) for name, form in PRESCRIBED]
-    cases.append(physics.prepare(CHAIN.encode(), "Chain", approach=("record",)))
+    twig = GOLDEN / "twig.urdf"
+    others: dict[str, tuple[bytes | Path, str]] = {
+        "Chain": (CHAIN.encode(), "fixed"),
+        "Bolted": (twig, "fixed"),
+        "Loose": (twig, "floating"),
+        "Stone": (STONE.encode(), "fixed"),
+        "Statue": (STATUE.encode(), "floating"),
+    }
+    for name, (source, base) in others.items():
+        cases.append(physics.prepare(source, name, approach=("record",), base=base))
     for comparison in physics.compare(modelica_library, tmp_path, cases):
         assert comparison.agrees, comparison.worst()
 

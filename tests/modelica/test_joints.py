@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
-from support import modelica, physics
+from support import generic, modelica, physics
 from support.modelica import Run, Task
 from support.packages import Package, generate
 from support.urdfs import dynamics, joint, link, links, mimic, robot
@@ -145,15 +145,13 @@ end Check;
 
 
 def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
-    """Accelerations of axes without drives: forward dynamics with the inertia matrix Bᵀ·H·B of independent axes."""
+    """Accelerations of axes without drives, the base at rest."""
     reference = Reference(read(urdf.encode(), "robot.urdf"), axes, ())
     state = reference.state(0.0, courses, {})
-    model, data, b = reference.model, reference.model.createData(), reference.projection
-    q, v = state.q, reference.projection @ [course.speed for course in courses]  # the base is at rest
-    q[:7] = pin.neutral(model)[:7]
-    upper = np.triu(pin.crba(model, data, q))
-    load = pin.nonLinearEffects(model, data, q, v) + reference.losses(v)
-    return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
+    v = reference.projection @ [course.speed for course in courses]
+    state.q[:7] = pin.neutral(reference.model)[:7]
+    load = pin.nonLinearEffects(reference.model, reference.model.createData(), state.q, v) + reference.losses(v)
+    return generic.forward(reference, state, load)
 
 
 def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:

@@ -137,6 +137,18 @@ def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
     return state
 
 
+def forward(reference: Reference, state: Configuration, load: Array) -> Array:
+    """Accelerations of axes without drives under a load on all joints: Bᵀ·H·B·a = -Bᵀ·load for independent axes."""
+    b = reference.projection
+    return np.asarray(np.linalg.solve(b.T @ mass_matrix(reference, state) @ b, -b.T @ load))
+
+
+def mass_matrix(reference: Reference, state: Configuration) -> Array:
+    """Of all joints; Pinocchio gives its upper half."""
+    upper = np.triu(reference.pin.crba(reference.model, reference.model.createData(), state.q))
+    return np.asarray(upper + np.triu(upper, 1).T)
+
+
 def link_place(robot: Robot, p: Array, link: str) -> Array:
     """Where the frame of a link is, the base at the origin."""
     pin, model = robot.reference.pin, robot.reference.model
@@ -172,8 +184,7 @@ def _rates(robot: Robot, y: Array, floats: bool) -> Array:
     pin, model = reference.pin, reference.model
     bias = pin.rnea(model, model.createData(), state.q, state.v, np.zeros(model.nv))
     bias += reference.losses(state.v)
-    upper = np.triu(pin.crba(model, model.createData(), state.q))
-    inertia = upper + np.triu(upper, 1).T
+    inertia = mass_matrix(reference, state)
     free = np.hstack([np.eye(model.nv, 6), reference.projection]) if floats else reference.projection
     found = np.linalg.solve(free.T @ inertia @ free, -free.T @ bias)
     pushed = found[:6] if floats else np.zeros(6)

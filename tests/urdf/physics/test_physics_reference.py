@@ -1,4 +1,7 @@
-"""The reference against other ways to the same numbers: forward dynamics, and derivatives of momentum."""
+"""The reference against other ways to the same numbers: forward dynamics, and derivatives of momentum.
+
+That it moves and pushes as generated robots do, planar joints and followers too, tests/modelica/test_joints.py shows.
+"""
 
 from __future__ import annotations
 
@@ -103,33 +106,6 @@ def momentum(bot: Bot, time: float) -> Array:
     return np.concatenate([about_centre.linear, shifted])
 
 
-@pytest.mark.parametrize("urdf", [DRIVEN, FREE], ids=["driven", "free"])
-def test_velocities_are_derivatives_of_places(urdf: str) -> None:
-    """Free joints move as they begin: on straight lines, with constant turning in the joint frame."""
-    bot, step = Bot(urdf), 1e-5
-    starts = dict(bot.starts)
-    now = bot.instant()
-    frames = []
-    for time in (-step, step):
-        bot.starts = {name: moved(start, time) for name, start in starts.items()}
-        frames.append({frame: bot.instant(time).frame(frame) for frame in links_of(bot)})
-    for name in links_of(bot):
-        frame = now.frame(name)
-        velocity = (frames[1][name].place - frames[0][name].place) / (2 * step)
-        turning = pin.log3(frames[0][name].axes.T @ frames[1][name].axes) / (2 * step)
-        assert frame.velocity == pytest.approx(velocity, abs=1e-8)
-        assert frame.turning == pytest.approx(turning, abs=1e-8)
-
-
-def moved(start: FreeJointState, time: float) -> FreeJointState:
-    axes = pin.exp3(start.turning * time) @ start.axes
-    return FreeJointState(start.place + start.velocity * time, axes, start.velocity, start.turning)
-
-
-def links_of(bot: Bot) -> list[str]:
-    return [frame.name for frame in bot.reference.model.frames if frame.type == pin.BODY and "__" not in frame.name]
-
-
 def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     bot = Bot(FREE)
     state, instant = bot.state(), bot.instant()
@@ -137,18 +113,6 @@ def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames)
     assert again.q == pytest.approx(state.q, abs=1e-12)
     assert again.v == pytest.approx(state.v, abs=1e-12)
-
-
-def test_followers_move_with_their_leader_and_load_it() -> None:
-    bot = Bot(DRIVEN)
-    state, model = bot.state(), bot.reference.model
-    (shoulder, _) = [motion.axis_course(joint) for joint in bot.axes]
-    grip = model.joints[model.getJointId("grip")]
-    angle = np.arctan2(state.q[grip.idx_q + 1], state.q[grip.idx_q])
-    assert angle == pytest.approx(-1.5 * shoulder.position + 0.2)
-    efforts = pin.rnea(model, model.createData(), state.q, state.v, state.a)
-    both = efforts[model.joints[model.getJointId("shoulder")].idx_v] - 1.5 * efforts[grip.idx_v]
-    assert bot.instant().efforts[0] == pytest.approx(both)
 
 
 def test_free_joints_without_inertia_are_singular() -> None:
