@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
 import itertools
 import random
 import sys
@@ -10,6 +9,7 @@ from collections import defaultdict
 from types import FrameType
 from typing import TypeAlias
 
+import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.robots import random_robot, tree
@@ -72,20 +72,12 @@ def port(diagram: Diagram, end: str) -> tuple[float, float]:
 
 
 def touching(placements: dict[str, Placement]) -> list[tuple[str, str]]:
-    """Pairs of components that overlap or touch: a sweep from left to right over the rectangles' edges."""
-    edges = [(place.x1, 0, name) for name, place in placements.items()]
-    edges += [(place.x2, 1, name) for name, place in placements.items()]
-    active: list[tuple[int, int, str]] = []
+    """Pairs of components that overlap or touch."""
+    names, (left, low, right, high) = list(placements), np.array(list(placements.values())).T
     found = []
-    for _, closes, name in sorted(edges):
-        span = (placements[name].y1, placements[name].y2, name)
-        at = bisect.bisect_left(active, span)
-        if closes:
-            active.remove(span)
-            continue
-        found += [(other[2], name) for other in active[max(0, at - 1) : at] if other[1] >= span[0]]
-        found += [(other[2], name) for other in active[at : at + 1] if other[0] <= span[1]]
-        active.insert(at, span)
+    for index, name in enumerate(names):
+        others = (left <= right[index]) & (right >= left[index]) & (low <= high[index]) & (high >= low[index])
+        found += [(name, names[other]) for other in np.flatnonzero(others) if other != index]
     return found
 
 
