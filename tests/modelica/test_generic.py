@@ -120,7 +120,7 @@ ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
 BASES = {"gripper": generic.Base(), "ladder": None}
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 START = motion.Course(0.3, 0.2, 0.0)
-STOP = 0.5
+STOP, STEPS = 0.5, 1500
 TOLERANCE = 1e-9
 """Of the integration, so that its error is far below what is compared."""
 PRESCRIBED = (("gripper", "GenericRobot"), ("gripper", "ArticulatedRobot"), ("ladder", "GenericRobot"))
@@ -172,7 +172,7 @@ def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Pat
     tasks = [generic.free_task(own, form, starts(own), STOP, [TOLERANCE], base) for own, base, form in todo]
     runs = simulate(modelica_library, [own.package.write(tmp_path) for own in robots], tasks)
     for (own, base, _), task, series in zip(todo, tasks, runs, strict=True):
-        expected = generic.free_motion(own, starts(own), STOP, 250, base)
+        expected = generic.free_motion(own, starts(own), STOP, STEPS, base)
         assert np.abs(expected[: len(own.reference.axes)] - START.position).min() > 1e-3, "every axis moves"
         found = [series.values[value][-1] for value in task.values]
         assert np.abs(found - expected).max() < 1e-6
@@ -185,7 +185,9 @@ def starts(own: generic.Robot) -> list[motion.Course]:
 def test_the_reference_converges() -> None:
     """With half the steps it changes far less than the comparison tolerates."""
     own = generic.prepare(GRIPPER.encode())
-    coarse, fine = (generic.free_motion(own, starts(own), STOP, steps, BASES["gripper"]) for steps in (250, 500))
+    coarse, fine = (
+        generic.free_motion(own, starts(own), STOP, steps, BASES["gripper"]) for steps in (STEPS, 2 * STEPS)
+    )
     assert np.abs(coarse - fine).max() < 1e-7
 
 
