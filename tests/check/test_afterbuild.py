@@ -75,31 +75,16 @@ def notes(project: Path) -> list[Path]:
     return sorted((project.parent / "cache" / "results").glob("*.json"))
 
 
-def test_a_package_that_is_right_is_checked_once(project: Path) -> None:
-    examiner = Examiner(RIGHT)
-    first, second = run(examiner)[0], run(examiner)[0]
-    assert examiner.asked == ["ladder"]
-    assert first.checked is second.checked is Checked.RIGHT
-    assert second.in_step
-
-
-def test_a_package_that_is_wrong_is_checked_after_each_build_until_it_is_right(project: Path) -> None:
-    examiner = Examiner(WRONG, WRONG, RIGHT)
-    for _ in range(2):
-        (result,) = run(examiner)
-        assert result.checked is Checked.WRONG
-        assert result.diagnostics == (BROKEN,)
-        assert not result.failed
-        assert exit_code([result]) is Exit.ERROR
-    assert run(examiner)[0].checked is Checked.RIGHT
-    assert exit_code(run(examiner)) is Exit.IN_STEP
+def test_a_package_is_checked_after_each_build_until_it_is_right(project: Path) -> None:
+    examiner = Examiner(WRONG, WRONG, RIGHT, WRONG)
+    for diagnostics, checked, code in (((BROKEN,), Checked.WRONG, Exit.ERROR), ((), Checked.RIGHT, Exit.IN_STEP)):
+        for _ in range(2):
+            (result,) = run(examiner)
+            assert (result.diagnostics, result.checked, exit_code([result])) == (diagnostics, checked, code)
+            assert not result.failed
     assert len(examiner.asked) == 3
-
-
-def test_what_is_wrong_is_not_taken_for_what_was_right_before(project: Path) -> None:
-    run(Examiner(RIGHT))
-    run(Examiner(WRONG), full=True)
-    assert notes(project) == []
+    assert [result.checked for result in run(examiner, full=True)] == [Checked.WRONG]
+    assert notes(project) == [], "what is wrong is not taken for what was right before"
 
 
 def write(file: Path, text: str) -> None:
@@ -107,36 +92,15 @@ def write(file: Path, text: str) -> None:
     file.write_text(text)
 
 
-def edit_model(project: Path) -> None:
-    with (project / MODEL).open("a") as file:
-        file.write("// mine\n")
-
-
-def change_order(project: Path) -> None:
-    with (project / "modelica" / "Ladder" / "package.order").open("a") as file:
-        file.write("Mine\n")
-
-
-def change_library(project: Path) -> None:
-    (project / "libraries" / "Complex 4.1.0" / "Mine.mo").touch()
-
-
-def change_library_of_library(project: Path) -> None:
-    (project / "path" / "Tanks.mo").write_text("package Tanks\n  // new\nend Tanks;\n")
-
-
-def remove_other_library(project: Path) -> None:
-    shutil.rmtree(project / "path" / "Pumps")
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        *(edit_model, change_order, change_library, change_library_of_library, remove_other_library),
-    ],
-)
+@pytest.mark.parametrize(("changed", "added"), [
+    (MODEL, "// mine\n"),
+    ("modelica/Ladder/package.order", "Mine\n"),
+    ("libraries/Complex 4.1.0/Mine.mo", "// a new file\n"),
+    ("path/Tanks.mo", "// used by a library that is used\n"),
+    ("path/Pumps", None),
+])  # fmt: skip
 def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
-    project: Path, change: Any, monkeypatch: pytest.MonkeyPatch
+    project: Path, changed: str, added: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     add(project, '[check]\nlibrary = "libraries"\n')
     for name in ("Modelica", "ModelicaServices", "Complex"):
@@ -149,7 +113,11 @@ def test_it_is_checked_again_when_something_matters_that_a_build_does_not_see(
     write(project / MODEL, (project / MODEL).read_text().replace("end R2;", "  Pumps.Small p;\nend R2;"))
     examiner = Examiner(RIGHT)
     run(examiner)
-    change(project)
+    if added is None:
+        shutil.rmtree(project / changed)
+    else:
+        with (project / changed).open("a") as file:
+            file.write(added)
     run(examiner)
     run(examiner)
     assert examiner.asked == ["ladder"] * 2
@@ -183,7 +151,7 @@ def test_what_is_remembered_may_be_lost_and_is_no_part_of_the_project(project: P
 def test_a_check_is_not_remembered_if_somebody_saves_meanwhile(project: Path) -> None:
     class Saving(Examiner):
         def __call__(self, *arguments: Any) -> Iterator[CheckResult]:
-            edit_model(project)
+            write(project / MODEL, (project / MODEL).read_text() + "// mine\n")
             return super().__call__(*arguments)
 
     examiner = Saving(RIGHT)
@@ -216,13 +184,10 @@ def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build
 NO_COMPILER = Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler", hint="install it")
 
 
-@pytest.mark.parametrize(
-    ("way", "checked"),
-    [
-        (CompilerError(NO_COMPILER), Checked.UNCHECKED),
-        (CheckResult("ladder", "Ladder", diagnostics=(NO_COMPILER,)), Checked.INCOMPLETE),
-    ],
-)
+@pytest.mark.parametrize(("way", "checked"), [
+    (CompilerError(NO_COMPILER), Checked.UNCHECKED),
+    (CheckResult("ladder", "Ladder", diagnostics=(NO_COMPILER,)), Checked.INCOMPLETE),
+])  # fmt: skip
 def test_a_machine_without_a_compiler_is_a_warning_and_no_fault(project: Path, way: Any, checked: Checked) -> None:
     (result,) = run(Examiner(way))
     assert result.checked is checked
@@ -260,17 +225,28 @@ def test_failed_and_dry_builds_are_not_checked(project: Path) -> None:
     assert examiner.asked == []
 
 
-def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk(project: Path) -> None:
+def contradict(project: Path) -> None:
+    """The user and an export give one number other values."""
+    for file, value in (("modelica/Ladder/Elements/R2Parameters.mo", "221"), ("ladder.json", "330")):
+        write(project / file, (project / file).read_text().replace("220.5", value))
+
+
+def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk_and_again_once_it_is_resolved(
+    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     run(Examiner(RIGHT))
-    record = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo"
-    record.write_text(record.read_text().replace("220.5", "221"))
-    source = project / "ladder.json"
-    source.write_text(source.read_text().replace("220.5", "330"))
+    contradict(project)
     (result,) = run(Examiner(RIGHT))
     assert result.conflicts
     assert result.checked is Checked.RIGHT
     assert exit_code([result]) is Exit.CONFLICT
     assert exit_code([msgspec.structs.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
+    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG))
+    capsys.readouterr()
+    assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
+    assert "checked" not in capsys.readouterr().out
+    assert cli.main(["resolve", "--all", "--take"]) == 2
+    assert "checked: 1 error" in capsys.readouterr().out
 
 
 def names(results: Sequence[Result]) -> list[str]:
@@ -286,7 +262,7 @@ def test_results_keep_their_order_and_the_lock_is_free_while_packages_are_checke
             self, config: Config, robots: Sequence[RobotConfig], options: CheckOptions, tell: Progress
         ) -> Iterator[CheckResult]:
             again = BuildOptions(wait=0)
-            (project / "ladder.json").write_text((project / "ladder.json").read_text().replace("220.5", "330"))
+            write(project / "ladder.json", (project / "ladder.json").read_text().replace("220.5", "330"))
             assert not any(result.locked for result in build(config, config.robots, again))
             return super().__call__(config, robots, options, tell)
 
@@ -320,17 +296,3 @@ def test_people_see_what_a_check_said(
         assert streams.out.splitlines()[0].endswith("in step, 14 files; checked: compiles")
     assert cli.main(["build", "--check"]) == 0
     assert "checked" not in capsys.readouterr().out
-
-
-def test_what_is_resolved_is_built_and_checked(
-    project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    run(Examiner(RIGHT))
-    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG))
-    record, source = project / "modelica" / "Ladder" / "Elements" / "R2Parameters.mo", project / "ladder.json"
-    record.write_text(record.read_text().replace("220.5", "221"))
-    source.write_text(source.read_text().replace("220.5", "330"))
-    assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
-    assert "checked" not in capsys.readouterr().out
-    assert cli.main(["resolve", "--all", "--take"]) == 2
-    assert "checked: 1 error" in capsys.readouterr().out

@@ -78,20 +78,17 @@ def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capt
     assert "nobody" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("result", "arguments", "code"),
-    [
-        (RIGHT, [], 0),
-        (EDITED, [], 0),
-        (EDITED, ["--strict"], 1),
-        (WRONG, [], 1),
-        (msgspec.structs.replace(RIGHT, in_step=False), [], 1),
-        (msgspec.structs.replace(RIGHT, in_step=False, built=False), [], 1),
-        (INCOMPLETE, [], 0),
-        (INCOMPLETE, ["--strict"], 1),
-        (FAILED, [], 2),
-    ],
-)
+@pytest.mark.parametrize(("result", "arguments", "code"), [
+    (RIGHT, [], 0),
+    (EDITED, [], 0),
+    (EDITED, ["--strict"], 1),
+    (WRONG, [], 1),
+    (msgspec.structs.replace(RIGHT, in_step=False), [], 1),
+    (msgspec.structs.replace(RIGHT, in_step=False, built=False), [], 1),
+    (INCOMPLETE, [], 0),
+    (INCOMPLETE, ["--strict"], 1),
+    (FAILED, [], 2),
+])  # fmt: skip
 def test_exit_codes(checker: Checker, result: CheckResult, arguments: list[str], code: int) -> None:
     checker.result = result
     assert cli.main(["check", *arguments]) == code
@@ -112,22 +109,19 @@ def test_an_interruption_leaves_what_was_found(
     assert "[interrupted]" in streams.err
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--jobs", "0"],
-        ["--timeout", "0"],
-        ["--timeout", "soon"],
-        ["--memory", "inf"],
-        ["--memory", "nan"],
-        ["--tool", "dymola"],
-        ["ladder", "--clear-cache"],
-        ["--robot", "ladder", "--clear-cache"],
-        ["--clear-cache", "--physics"],
-        ["--clear-cache", "--timeout", "5"],
-        ["--clear-cache", "--wait", "5"],
-    ],
-)
+@pytest.mark.parametrize("arguments", [
+    ["--jobs", "0"],
+    ["--timeout", "0"],
+    ["--timeout", "soon"],
+    ["--memory", "inf"],
+    ["--memory", "nan"],
+    ["--tool", "dymola"],
+    ["ladder", "--clear-cache"],
+    ["--robot", "ladder", "--clear-cache"],
+    ["--clear-cache", "--physics"],
+    ["--clear-cache", "--timeout", "5"],
+    ["--clear-cache", "--wait", "5"],
+])  # fmt: skip
 def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> None:
     assert cli.main(["check", *arguments]) == 2
     streams = capsys.readouterr()

@@ -11,14 +11,13 @@ from pathlib import Path
 
 import psutil
 import pytest
-from support.urdfs import dynamics, joint, link, robot
+from support.urdfs import dynamics, joint, links, robot
 
 COMMAND = [sys.executable, "-m", "urdfsync", "check", "--json"]
 MEGABYTE = 1e6
 
 ARM = robot(
-    link("base", 3.0),
-    link("arm", 2.0),
+    *links(base=3.0, arm=2.0),
     joint("shoulder", "continuous", "base", "arm", axis="0 1 0", inside=[dynamics(0.5, 0.2)]),
 )
 

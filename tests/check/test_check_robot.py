@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from support.corpus import REPOSITORY
-from support.urdfs import dynamics, joint, limit, link, robot
+from support.urdfs import dynamics, joint, link, robot
 
 from urdfsync import config
 from urdfsync.check import libraries
@@ -27,7 +27,7 @@ ARM = robot(
     link("base", 3.0),
     link("arm", 2.0, rpy="0.1 0.2 0.3"),
     link("hand", 0.7),
-    joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[limit(), dynamics(0.5, 0.2)]),
+    joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[dynamics(0.5, 0.2)]),
     joint("elbow", "continuous", "arm", "hand", axis="0 0 1", inside=[dynamics(0.1, 0.0)]),
 )
 BROKEN = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -20,32 +21,33 @@ def torque(joint: str, difference: float) -> Deviation:
 
 
 def effects(
-    files: Sequence[str],
-    whole: Sequence[Deviation],
-    single: Mapping[str, Sequence[Deviation]],
+    files: Sequence[str], whole: Sequence[Deviation], single: Mapping[str, Sequence[Deviation]]
 ) -> list[EditEffect]:
     return list(edit_effects(files, OWNERS, whole, single))
 
 
-def test_one_edited_file_does_it_all() -> None:
-    found = effects(["A.mo"], [torque("elbow", 2.0), torque("wrist", 1e-15)], {})
-    assert found == [EditEffect(("A.mo",), (torque("elbow", 2.0),), ("joint a",))]
+ELBOW, SHOULDER, NOTHING = torque("elbow", 4.0), torque("shoulder", 0.3), torque("elbow", 0.0)
+CASES: dict[str, tuple[list[str], list[Deviation], dict[str, list[Deviation]], list[EditEffect]]] = {
+    "one file does it all": (
+        ["A.mo"], [ELBOW, torque("wrist", 1e-15)], {}, [EditEffect(("A.mo",), (ELBOW,), ("joint a",))],
+    ),
+    "each by itself": (
+        ["A.mo", "B.mo"], [ELBOW], {"A.mo": [ELBOW], "B.mo": [NOTHING]},
+        [EditEffect(("A.mo",), (ELBOW,), ("joint a",)), EditEffect(("B.mo",), (), ("joint b",))],
+    ),
+    # a limit that a changed model now reads: neither file does anything without the other; a third one does
+    "what no single one does the others do together": (
+        FILES, [SHOULDER, ELBOW], {"A.mo": [SHOULDER], "B.mo": [NOTHING], "C.mo": [NOTHING]},
+        [EditEffect(("A.mo",), (SHOULDER,), ("joint a",)), EditEffect(("B.mo", "C.mo"), (ELBOW,), ("joint b",))],
+    ),
+}  # fmt: skip
 
 
-def test_edits_are_told_apart() -> None:
-    single = {"A.mo": [torque("elbow", 2.0)], "B.mo": [torque("elbow", 0.0)]}
-    first, second = effects(["A.mo", "B.mo"], [torque("elbow", 2.0)], single)
-    assert (first.files, first.deviations) == (("A.mo",), (torque("elbow", 2.0),))
-    assert (second.files, second.deviations) == (("B.mo",), ())
-
-
-def test_what_no_single_edit_does_the_others_do_together() -> None:
-    """A limit that a changed model now reads: neither file does anything without the other; a third one does."""
-    single = {file: [torque("elbow", 0.0)] for file in FILES} | {"A.mo": [torque("shoulder", 0.3)]}
-    alone, together = effects(FILES, [torque("shoulder", 0.3), torque("elbow", 4.0)], single)
-    assert (alone.files, alone.deviations) == (("A.mo",), (torque("shoulder", 0.3),))
-    assert (together.files, together.deviations) == (("B.mo", "C.mo"), (torque("elbow", 4.0),))
-    assert together.owners == ("joint b",)
+@pytest.mark.parametrize(("files", "whole", "single", "expected"), CASES.values(), ids=CASES)
+def test_edits_are_told_apart(
+    files: list[str], whole: list[Deviation], single: dict[str, list[Deviation]], expected: list[EditEffect]
+) -> None:
+    assert effects(files, whole, single) == expected
 
 
 values = st.floats(0, 1e3) | st.sampled_from([0.0, 1e-12, float("inf")])

@@ -114,17 +114,14 @@ def test_other_libraries_are_found_by_name(name: str, tmp_path: Path) -> None:
 # --- which ones a package needs ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "names"),
-    [
-        ("Pumps.Small p; extends Tanks . Round;", {"Pumps", "Tanks"}),
-        (".Pumps.Small p;", {"Pumps"}),
-        ("import Pumps; import T = Tanks; import Valves.*;", {"Pumps", "Tanks", "Valves"}),
-        ("arm.Pumps.x; a[1].Tanks.c; Real Pumps; MyPumps.A a;", set()),
-        ('parameter String s = "Pumps.Small"; // Pumps.Small\n/* import Pumps; */', set()),
-        ("Arm.Pumps.Small p; Modelica.Blocks.A a;", set()),
-    ],
-)
+@pytest.mark.parametrize(("text", "names"), [
+    ("Pumps.Small p; extends Tanks . Round;", {"Pumps", "Tanks"}),
+    (".Pumps.Small p;", {"Pumps"}),
+    ("import Pumps; import T = Tanks; import Valves.*;", {"Pumps", "Tanks", "Valves"}),
+    ("arm.Pumps.x; a[1].Tanks.c; Real Pumps; MyPumps.A a;", set()),
+    ('parameter String s = "Pumps.Small"; // Pumps.Small\n/* import Pumps; */', set()),
+    ("Arm.Pumps.Small p; Modelica.Blocks.A a;", set()),
+])  # fmt: skip
 def test_libraries_are_what_names_begin_with(text: str, names: set[str], tmp_path: Path) -> None:
     place = put(tmp_path, "Pumps 1.2.0", "Tanks.mo", "Valves", "Arm", "Modelica 4.1.0")
     assert needed_libraries([text.encode()], "Arm", [place], ()).keys() == names
@@ -184,18 +181,15 @@ def names(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
 
 
-@pytest.mark.parametrize(
-    ("text", "whole"),
-    [
-        ("", False),
-        ("Modelica.Mechanics.MultiBody.Body b; import SI = Modelica.Units.SI; import Modelica.Math.{sin, cos};", False),
-        ('Real x "Modelica.Fluid.Tank"; // Modelica.Fluid.Tank', False),
-        ("Modelica . Fluid.Tank t;", True),
-        ("import Modelica.Thermal.*;", True),
-        ("import M = Modelica;", True),
-        ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
-    ],
-)
+@pytest.mark.parametrize(("text", "whole"), [
+    ("", False),
+    ("Modelica.Mechanics.MultiBody.Body b; import SI = Modelica.Units.SI; import Modelica.Math.{sin, cos};", False),
+    ('Real x "Modelica.Fluid.Tank"; // Modelica.Fluid.Tank', False),
+    ("Modelica . Fluid.Tank t;", True),
+    ("import Modelica.Thermal.*;", True),
+    ("import M = Modelica;", True),
+    ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
+])  # fmt: skip
 def test_what_robots_need_is_copied_and_all_if_more_is_named(
     text: str, whole: bool, small: StandardLibrary, cache: UserCache
 ) -> None:

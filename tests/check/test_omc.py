@@ -85,24 +85,18 @@ def test_texts_survive_being_quoted(texts: list[str]) -> None:
     assert omc.strings("\n".join(map(omc.quoted, texts))) == texts
 
 
-@pytest.mark.parametrize(
-    ("load", "check", "problem"),
-    [
-        ("true\n" + ODD, BALANCED + ODD, ""),
-        ("true\n", BALANCED.replace("4 variable", "5 variable"), "unbalanced model: 4 equations, 5 unknowns"),
-        (
-            "true\n",
-            f'""\n"{LOST}Error: Error occurred while flattening\n"\n',
-            LOST.replace("\\", "") + "Error: Error occurred while flattening",
-        ),
-        ("true\n", "", "the model does not compile"),
-        ("true\n", "false\n", "false"),
-        ("true\n", "refuse", "OMC error occurred"),
-        ('false\n"Error: text"\n', BALANCED, "Error: text"),
-        ('""\n""\n', BALANCED, "it can't be loaded, and does not say why"),
-        ("refuse", BALANCED, "OMC error occurred"),
-    ],
-)
+@pytest.mark.parametrize(("load", "check", "problem"), [
+    ("true\n" + ODD, BALANCED + ODD, ""),
+    ("true\n", BALANCED.replace("4 variable", "5 variable"), "unbalanced model: 4 equations, 5 unknowns"),
+    ("true\n", f'""\n"{LOST}Error: Error occurred while flattening\n"\n',
+     LOST.replace("\\", "") + "Error: Error occurred while flattening"),
+    ("true\n", "", "the model does not compile"),
+    ("true\n", "false\n", "false"),
+    ("true\n", "refuse", "OMC error occurred"),
+    ('false\n"Error: text"\n', BALANCED, "Error: text"),
+    ('""\n""\n', BALANCED, "it can't be loaded, and does not say why"),
+    ("refuse", BALANCED, "OMC error occurred"),
+])  # fmt: skip
 def test_every_answer_but_success_is_a_problem_of_its_task(
     load: str, check: str, problem: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

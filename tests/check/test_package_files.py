@@ -16,22 +16,10 @@ from urdfsync.check.package import PackageFiles
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 
-CONFIG = """
-[robots.arm]
-source = "arm.json"
-package = "Plant.Robots.Arm"
-domain = "rcnetwork"
-
-[robots.cart]
-source = "cart.json"
-package = "Plant.Robots.Cart"
-domain = "rcnetwork"
-
-[robots.crane]
-source = "crane.json"
-package = "Plant.Robots.Crane"
-domain = "rcnetwork"
-"""
+CONFIG = "".join(
+    f'[robots.{name}]\nsource = "{name}.json"\npackage = "Plant.Robots.{name.title()}"\ndomain = "rcnetwork"\n'
+    for name in ("arm", "cart", "crane")
+)
 
 
 def write(folder: Path, **texts: str) -> None:
@@ -90,11 +78,8 @@ def odd(tmp_path: Path) -> Path:
     return folder
 
 
-def test_what_is_no_regular_file_is_left_out(odd: Path) -> None:
+def test_what_is_no_regular_file_is_left_out_and_told(odd: Path, plant: Config) -> None:
     assert files.package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
-
-
-def test_and_is_told(odd: Path, plant: Config) -> None:
     expected = {"Linked", "Dangling.mo", "Circle.mo", *(["Pipe.mo"] if hasattr(os, "mkfifo") else [])}
     assert {path.relative_to(odd).as_posix() for path in files.read_files(odd)[1]} == expected
     assert files.read_files(plant.root / "modelica" / "Plant")[1] == []
@@ -169,22 +154,19 @@ def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
     assert found.models_not_in(found.texts) == []
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("within; // model\n\nencapsulated model Own end Own;", True),
-        ("final block Own end Own;", True),
-        ("model Own = Arm(n = 2);", True),
-        ("model Own partial model In end In; end Own;", True),
-        ("encapsulated partial model Own end Own;", False),
-        ("function Own end Own;", False),
-        ("package Own model In end In; end Own;", False),
-        ("model Other end Other;", False),
-        ("within Plant.Robots", False),
-        ("model", False),
-        ("", False),
-    ],
-)
+@pytest.mark.parametrize(("text", "expected"), [
+    ("within; // model\n\nencapsulated model Own end Own;", True),
+    ("final block Own end Own;", True),
+    ("model Own = Arm(n = 2);", True),
+    ("model Own partial model In end In; end Own;", True),
+    ("encapsulated partial model Own end Own;", False),
+    ("function Own end Own;", False),
+    ("package Own model In end In; end Own;", False),
+    ("model Other end Other;", False),
+    ("within Plant.Robots", False),
+    ("model", False),
+    ("", False),
+])  # fmt: skip
 def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
     assert (package(Own=text).models_not_in([]) == ["Own"]) is expected
 

@@ -41,17 +41,14 @@ def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
     assert check_layout(PackageFiles("Plant.Robots.Bot", Path("Bot"), texts)) == []
 
 
-@pytest.mark.parametrize(
-    "edits",
-    [
-        pytest.param({ELBOW: arm.text().replace("\n", "\r\n")}, id="line ends of Windows"),
-        pytest.param({"Resources/notes.mo": "no Modelica"}, id="resources are no classes"),
-        pytest.param({"Joints/.#Elbow.mo": "no Modelica"}, id="hidden files are an editor's business"),
-        pytest.param({ORDER: None}, id="no package.order"),
-        pytest.param({ORDER: arm.text(ORDER).replace("\n", " \r\n\r\n")}, id="blanks in package.order"),
-        pytest.param({ELBOW: arm.text() + "// the end\n"}, id="comments"),
-    ],
-)
+@pytest.mark.parametrize("edits", [
+    pytest.param({ELBOW: arm.text().replace("\n", "\r\n")}, id="line ends of Windows"),
+    pytest.param({"Resources/notes.mo": "no Modelica"}, id="resources are no classes"),
+    pytest.param({"Joints/.#Elbow.mo": "no Modelica"}, id="hidden files are an editor's business"),
+    pytest.param({ORDER: None}, id="no package.order"),
+    pytest.param({ORDER: arm.text(ORDER).replace("\n", " \r\n\r\n")}, id="blanks in package.order"),
+    pytest.param({ELBOW: arm.text() + "// the end\n"}, id="comments"),
+])  # fmt: skip
 def test_what_the_language_allows_is_no_fault(edits: Mapping[str, str | None]) -> None:
     assert findings(edits) == []
 
@@ -261,21 +258,12 @@ def test_packages_around_are_sound() -> None:
     assert around({}) == []
 
 
-@pytest.mark.parametrize(
-    ("path", "text", "found"),
-    [
-        (
-            "Plant/Robots/Shelf.mo",
-            "within Plant;\nmodel Shelf\nend Shelf;\n",
-            "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`",
-        ),
-        (
-            "Plant/Robots/package.mo",
-            "package Robots\nend Robots;\n",
-            "1: error: the file lacks `within Plant;`; put it into the first line",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("path", "text", "found"), [
+    ("Plant/Robots/Shelf.mo", "within Plant;\nmodel Shelf\nend Shelf;\n",
+     "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`"),
+    ("Plant/Robots/package.mo", "package Robots\nend Robots;\n",
+     "1: error: the file lacks `within Plant;`; put it into the first line"),
+])  # fmt: skip
 def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
     assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
 

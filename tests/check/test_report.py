@@ -224,17 +224,14 @@ def test_any_number_can_be_told(difference: float, value: float, quantity: Quant
 GAP = "what edits do was not measured: the robot can't be simulated"
 
 
-@pytest.mark.parametrize(
-    ("facts", "strict", "word"),
-    [
-        ({"gaps": (GAP,)}, True, "incomplete"),
-        ({"gaps": (GAP,), "in_step": False}, False, "out of step"),
-        ({"in_step": False, "built": False}, False, "not built"),
-        ({"effects": (EditEffect(("a.mo",), (ELBOW,)),)}, False, "right"),
-        ({"effects": (EditEffect(("a.mo",), (ELBOW,)),), "gaps": (GAP,)}, True, "differs"),
-        ({"deviations": (ELBOW,), "in_step": False}, False, "differs"),
-        ({"deviations": (msgspec.structs.replace(MASS, difference=0),)}, False, "right: syntax and layout; masses"),
-    ],
-)
+@pytest.mark.parametrize(("facts", "strict", "word"), [
+    ({"gaps": (GAP,)}, True, "incomplete"),
+    ({"gaps": (GAP,), "in_step": False}, False, "out of step"),
+    ({"in_step": False, "built": False}, False, "not built"),
+    ({"effects": (EditEffect(("a.mo",), (ELBOW,)),)}, False, "right"),
+    ({"effects": (EditEffect(("a.mo",), (ELBOW,)),), "gaps": (GAP,)}, True, "differs"),
+    ({"deviations": (ELBOW,), "in_step": False}, False, "differs"),
+    ({"deviations": (msgspec.structs.replace(MASS, difference=0),)}, False, "right: syntax and layout; masses"),
+])  # fmt: skip
 def test_one_word_for_all(capsys: Capture, facts: dict[str, Any], strict: bool, word: str) -> None:
     assert shown(capsys, CheckResult("arm", "Arm", **facts), strict=strict)[0].startswith(f"arm: {word}")

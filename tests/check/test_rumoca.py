@@ -118,13 +118,10 @@ def test_a_crash_is_one_line(signal: str, hint: str, tmp_path: Path, monkeypatch
     assert hint in diagnostic.hint
 
 
-@pytest.mark.parametrize(
-    ("program", "code", "words"),
-    [
-        ("", "compiler-crashed", "at Plant.Good: exit code 0"),
-        (f"sys.stderr.write('no such wheel'); sys.exit({MISSING})", "no-compiler", "no such wheel"),
-    ],
-)
+@pytest.mark.parametrize(("program", "code", "words"), [
+    ("", "compiler-crashed", "at Plant.Good: exit code 0"),
+    (f"sys.stderr.write('no such wheel'); sys.exit({MISSING})", "no-compiler", "no such wheel"),
+])  # fmt: skip
 def test_a_worker_that_answers_too_little_is_explained(
     program: str, code: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

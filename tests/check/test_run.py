@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -82,30 +83,26 @@ def codes(result: CheckResult) -> list[str]:
     return [one.code for one in result.diagnostics]
 
 
-def test_results_come_in_order_and_a_process_that_breaks_down_fails_its_robot_only(
-    robots: Config, tmp_path: Path
-) -> None:
+def test_results_come_in_order_and_a_process_that_breaks_down_fails_its_robot_only(robots: Config) -> None:
     """The first two run at the same time: the first waits for the second."""
     steps: list[tuple[str, int, int]] = []
-
-    def tell(what: str, done: int, total: int) -> None:
-        steps.append((what, done, total))
-
-    late, early, crash, silent, loud = check(robots, ["late", "early", "crash", "silent", "loud"], tell=tell)
-    assert [one.robot for one in (late, early, crash)] == ["late", "early", "crash"]
+    names = ["late", "early", "crash", "silent", "loud"]
+    late, early, *broken = check(robots, names, tell=lambda *step: steps.append(step))
+    assert [one.robot for one in (late, early, broken[0])] == names[:3]
     assert late.compiled == (CompiledModel("LateRun", 10, 2),)
     assert codes(late) == codes(early) == []
-    assert [codes(one) for one in (crash, silent, loud)] == [["check-crashed"]] * 3
-    assert "SIGABRT" in crash.diagnostics[0].message or os.name == "nt"
+    assert [codes(one) for one in broken] == [["check-crashed"]] * 3
+    assert "SIGABRT" in broken[0].diagnostics[0].message or os.name == "nt"
     assert all(0 <= done <= total == 500 for _, done, total in steps)
 
 
 def test_it_is_told_what_is_being_done(robots: Config, tmp_path: Path) -> None:
+    """The robot waits until it has been told."""
     steps: list[tuple[str, int, int]] = []
 
-    def tell(what: str, done: int, total: int) -> None:
-        steps.append((what, done, total))
-        if what == "late: at work":
+    def tell(*step: Any) -> None:
+        steps.append(step)
+        if step[0] == "late: at work":
             (tmp_path / "early.done").touch()
 
     list(check(robots, ["late"], tell=tell))

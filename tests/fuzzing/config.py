@@ -70,7 +70,7 @@ FITTING: Mapping[str, Sequence[Any]] = {
     "meshes": ("import", "skip"),
     "approach": (["package"], ["record"], ["package", "record"]),
     "frames": ("leaves", "all", ["arm"]),
-    "driven": ([], ["j1"]),
+    "driven": ([], ["arm"]),
     "inputs": ("names", "vector"),
 }
 """Values of keys that are right, or nearly."""

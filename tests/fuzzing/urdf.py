@@ -17,8 +17,7 @@ from typing import Any
 
 import msgspec
 from lxml import etree
-from support import corpus
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support import corpus, robots
 from support.workplace import Fault, Workplace
 
 from fuzzing.cases import run_cases
@@ -186,51 +185,8 @@ def _corpus() -> Sequence[str]:
 
 
 def small_robot(random: Random) -> str:
-    """A right robot of one to six links, with some of all that a URDF may say."""
-    names = random.sample(["base", "arm", "elbow", "hand", "tool 1", "wheel", "l_6"], random.randint(1, 6))
-    elements = ['<material name="red"><color rgba="1 0 0 1"/></material>']
-    for number, name in enumerate(names):
-        text = link(name, random.choice((None, 1.5)))
-        if random.random() < 0.6:
-            inside = "".join(_shape(random, group) for group in random.choices(("visual", "collision"), k=2))
-            text = (
-                text.replace("/>", f">{inside}</link>", 1)
-                if text.endswith('"/>')
-                else text.replace("</link>", f"{inside}</link>")
-            )
-        elements.append(text)
-        if number:
-            elements.append(_joint(random, f"j{number}", random.choice(names[:number]), name, number))
-    if random.random() < 0.3 and len(names) > 1:
-        elements.append(
-            '<transmission name="t"><joint name="j1"><hardwareInterface>E</hardwareInterface></joint>'
-            '<actuator name="m"/></transmission>'
-        )
-    if random.random() < 0.3:
-        elements.append(f'<gazebo reference="{names[0]}"><mu1>0.2</mu1></gazebo>')
-    return robot(*elements)
-
-
-def _joint(random: Random, name: str, parent: str, child: str, number: int) -> str:
-    kind = random.choice(KINDS[:6])
-    inside = [limit()] if kind in ("revolute", "prismatic") else []
-    if random.random() < 0.4:
-        inside.append(dynamics(0.1, 0.2))
-    if number > 1 and random.random() < 0.3:
-        inside.append(mimic("j1", 2.0, 0.1))
-    if random.random() < 0.2:
-        inside.append('<safety_controller k_velocity="1" k_position="2"/><calibration rising="0.5"/>')
-    return joint(name, kind, parent, child, axis=random.choice(("", "0 0 1", "1 1 0")), inside=inside)
-
-
-def _shape(random: Random, group: str) -> str:
-    kinds = (
-        *('<box size="1 2 3"/>', '<sphere radius="0.5"/>', '<cylinder radius="0.5" length="2"/>'),
-        *('<mesh filename="package://bot/a.stl" scale="1 1 1"/>', '<mesh filename="b.dae"/>'),
-    )
-    material = '<material name="red"/>' if group == "visual" and random.random() < 0.5 else ""
-    geometry = f'<origin xyz="0 0 1" rpy="0 0 0.1"/><geometry>{random.choice(kinds)}</geometry>'
-    return f'<{group} name="s">{geometry}{material}</{group}>'
+    """A right robot of one to seven links, with some of all that a URDF may say."""
+    return robots.urdf(robots.dressed(robots.random_robot(random), random))
 
 
 # --- mutations --------------------------------------------------------------------------------------------------------
@@ -297,8 +253,9 @@ def _mutate_element(root: etree._Element, element: etree._Element, other: etree.
         case "set text":
             element.text = random.choice(("1 2 3", "text", "\n\n", "  <&> ", "é"))
         case "lengthen":  # a long chain of links
+            first = next((found.get("name", "") for found in root.iter("link")), "base")
             for number in range(random.choice((5, 40, 120))):
-                child, above = f"chain{number}", f"chain{number - 1}" if number else "base"
+                child, above = f"chain{number}", f"chain{number - 1}" if number else first
                 etree.SubElement(root, "link", name=child)
                 added = etree.SubElement(root, "joint", name=f"c{number}", type=random.choice(KINDS[:6]))
                 etree.SubElement(added, "parent", link=above)

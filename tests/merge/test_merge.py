@@ -57,40 +57,32 @@ def changed(*edits: Edit, text: str = RECORD) -> str:
     return text
 
 
-@pytest.mark.parametrize(
-    ("mine", "generated"),
-    [
-        pytest.param(("1.2,", "1.2, // weighed"), ("1.2", "1.25"), id="comment at the end of the line, value"),
-        pytest.param(
-            ("1.2,", "1.2, // kg"),
-            ("      inertia", "      load = 3,\n      inertia"),
-            id="comment, line added after it",
-        ),
-        pytest.param(("gain = 1.05", "gain = 1.05 // tuned"), ("1.05", "1.07"), id="comment right after the value"),
-        pytest.param(
-            ("      mass", "      // full\n      mass"), ("1.2", "1.25"), id="comment line before the value's"
-        ),
-        pytest.param(("mass = 1.2", "mass = 1.3"), ("ixx = 0.005953", "ixx = 0.006"), id="values two lines apart"),
-        pytest.param(("mass = 1.2", "mass = 1.3"), ("inertia(", "tensor("), id="value, name on the next line"),
-        pytest.param(("ixx = 0.005953", "ixx = 0.006"), ("iyy = 0.029335", "iyy = 0.03"), id="values one line apart"),
-        pytest.param(("        ixx", "        final ixx"), ("0.005953", "0.006"), id="prefix, value"),
-        pytest.param(("ixx = 0.005953", "ixx  =  0.005953"), ("0.005953", "0.006"), id="spacing, value"),
-        pytest.param(("752)));", "752,\n        ixy = 1e-6)));"), ("iyy = 0.029335", "iyy = 1"), id="last item added"),
-        pytest.param(
-            ("mass = 1.2,", "mass = 1.2,\n      load = 3,"), ("1.2", "1.25"), id="item line added, value before"
-        ),
-        pytest.param(("      mass", "      load = 3,\n      mass"), ("1.2", "1.25"), id="item line added, value after"),
-        pytest.param(("        iyy = 0.029335,\n", ""), ("0.005953", "0.006"), id="item line removed, value before"),
-        pytest.param(("mass, anim", "mass, r = 1, anim"), ("parameters.mass", "5"), id="item added, value before"),
-        pytest.param(("= false)", "= false, r = 1)"), ("= false", "= true"), id="item added at the end, value before"),
-        pytest.param(("m = parameters.mass, ", ""), ("false", "true"), id="item removed, value after"),
-        pytest.param(("animation =", "visible ="), ("parameters.mass", "5"), id="item renamed, value before"),
-        pytest.param(("Body body", "Sphere body"), ("parameters.mass", "5"), id="type, value"),
-        pytest.param(("min(a", "max(a"), ("b)", "y)"), id="function, its second argument"),
-        pytest.param(('"Of the drive";', '"Mine";'), ("Real r", "Length r"), id="declaration, the next one"),
-        pytest.param(("  Body", "  Real x;\n  Body"), ('drive"', 'motor"'), id="declaration added, the one before"),
-    ],
-)
+SIDE_BY_SIDE: dict[str, tuple[Edit, Edit]] = {
+    "comment at the end of the line, value": (("1.2,", "1.2, // weighed"), ("1.2", "1.25")),
+    "comment, line added after it": (("1.2,", "1.2, // kg"), ("      inertia", "      load = 3,\n      inertia")),
+    "comment right after the value": (("gain = 1.05", "gain = 1.05 // tuned"), ("1.05", "1.07")),
+    "comment line before the value's": (("      mass", "      // full\n      mass"), ("1.2", "1.25")),
+    "values two lines apart": (("mass = 1.2", "mass = 1.3"), ("ixx = 0.005953", "ixx = 0.006")),
+    "value, name on the next line": (("mass = 1.2", "mass = 1.3"), ("inertia(", "tensor(")),
+    "values one line apart": (("ixx = 0.005953", "ixx = 0.006"), ("iyy = 0.029335", "iyy = 0.03")),
+    "prefix, value": (("        ixx", "        final ixx"), ("0.005953", "0.006")),
+    "spacing, value": (("ixx = 0.005953", "ixx  =  0.005953"), ("0.005953", "0.006")),
+    "last item added": (("752)));", "752,\n        ixy = 1e-6)));"), ("iyy = 0.029335", "iyy = 1")),
+    "item line added, value before": (("mass = 1.2,", "mass = 1.2,\n      load = 3,"), ("1.2", "1.25")),
+    "item line added, value after": (("      mass", "      load = 3,\n      mass"), ("1.2", "1.25")),
+    "item line removed, value before": (("        iyy = 0.029335,\n", ""), ("0.005953", "0.006")),
+    "item added, value before": (("mass, anim", "mass, r = 1, anim"), ("parameters.mass", "5")),
+    "item added at the end, value before": (("= false)", "= false, r = 1)"), ("= false", "= true")),
+    "item removed, value after": (("m = parameters.mass, ", ""), ("false", "true")),
+    "item renamed, value before": (("animation =", "visible ="), ("parameters.mass", "5")),
+    "type, value": (("Body body", "Sphere body"), ("parameters.mass", "5")),
+    "function, its second argument": (("min(a", "max(a"), ("b)", "y)")),
+    "declaration, the next one": (('"Of the drive";', '"Mine";'), ("Real r", "Length r")),
+    "declaration added, the one before": (("  Body", "  Real x;\n  Body"), ('drive"', 'motor"')),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("mine", "generated"), SIDE_BY_SIDE.values(), ids=SIDE_BY_SIDE)
 def test_both_survive(mine: Edit, generated: Edit) -> None:
     result = merge(RECORD, changed(mine), changed(generated))
     both = changed(mine, generated)
@@ -98,39 +90,36 @@ def test_both_survive(mine: Edit, generated: Edit) -> None:
     assert merge(RECORD, changed(generated), changed(mine)) == result
 
 
-@pytest.mark.parametrize(
-    ("mine", "generated"),
-    [
-        pytest.param(("1.05", "2.05"), ("1.05", "1.07"), id="one number"),
-        pytest.param(("= 1.05", "= -1.05"), ("1.05", "1.07"), id="sign, digits"),
-        pytest.param(("= 1.05", "= 1.05e-3"), ("1.05", "1.07"), id="exponent, digits"),
-        pytest.param(("1.05", "1.05 + offset"), ("1.05", "1.07"), id="expression, number"),
-        pytest.param(("{0.1118, 0, 0}", "{0.2, 0, 0}"), ("{0.1118, 0, 0}", "{0.1118, 0, 0.5}"), id="one vector"),
-        pytest.param(("{0, 0}, {", "{5, 5}, {"), ("{20, 20}", "{30, 30}"), id="one matrix"),
-        pytest.param(("parameters.mass", "data.mass"), ("parameters.mass", "parameters.m"), id="one dotted name"),
-        pytest.param(("Of the drive", "Of my drive"), ("the drive", "the motor"), id="one string"),
-        pytest.param(("gain = ", "factor = "), ("1.05", "1.07"), id="name, its value"),
-        pytest.param(("1.05", "1.06"), ('"Of the drive"', '"Of it"'), id="value, the description after it"),
-        pytest.param(("      mass = 1.2,\n", ""), ("1.2", "1.25"), id="line removed, value in it"),
-        pytest.param(("mass, a", "mass, r = 1, a"), ("mass, a", "mass, s = 2, a"), id="two items at one place"),
-        pytest.param(("false)", "false, r = 1)"), ("false)", "false, s = 2)"), id="two items at the end"),
-        pytest.param(("min(a", "min(x"), ("b)", "y)"), id="two arguments"),
-        pytest.param(("  Body", "  Real x;\n  Body"), ("  Body", "  Real y;\n  Body"), id="two lines at one place"),
-        pytest.param(("mass, a", "mass, r = 1, a"), (", animation = false", ""), id="item added, the next one removed"),
-        pytest.param(("false)", "false, r = 1)"), (", animation = false", ""), id="item added, the one before removed"),
-        pytest.param(
-            ("2 * a + 2 * a", "2 * a"), ("sum(2", "sum(3"), id="one of two equal terms removed, the other changed"
-        ),
-        pytest.param(("1.05\n", "1.05 // mine\n"), (" = 1.05", ""), id="comment, its value removed"),
-        pytest.param(
-            ("iyy = 0.029335,", "iyy = 0.029335, // mine"),
-            ("ixx = 0.005953,\n        iyy = 0.029335,", "ixx = 0.005953, // approximate"),
-            id="comment, its line removed and a comment on the line before",
-        ),
-        pytest.param(("a);\n", "a); // mine\n"), ("a);\n ", "a);"), id="comment that would swallow what follows"),
-        pytest.param(REWRITTEN, ("parameters.mass", "5"), id="declaration rewritten, value in it"),
-    ],
-)
+CONFLICTS: dict[str, tuple[Edit, Edit]] = {
+    "one number": (("1.05", "2.05"), ("1.05", "1.07")),
+    "sign, digits": (("= 1.05", "= -1.05"), ("1.05", "1.07")),
+    "exponent, digits": (("= 1.05", "= 1.05e-3"), ("1.05", "1.07")),
+    "expression, number": (("1.05", "1.05 + offset"), ("1.05", "1.07")),
+    "one vector": (("{0.1118, 0, 0}", "{0.2, 0, 0}"), ("{0.1118, 0, 0}", "{0.1118, 0, 0.5}")),
+    "one matrix": (("{0, 0}, {", "{5, 5}, {"), ("{20, 20}", "{30, 30}")),
+    "one dotted name": (("parameters.mass", "data.mass"), ("parameters.mass", "parameters.m")),
+    "one string": (("Of the drive", "Of my drive"), ("the drive", "the motor")),
+    "name, its value": (("gain = ", "factor = "), ("1.05", "1.07")),
+    "value, the description after it": (("1.05", "1.06"), ('"Of the drive"', '"Of it"')),
+    "line removed, value in it": (("      mass = 1.2,\n", ""), ("1.2", "1.25")),
+    "two items at one place": (("mass, a", "mass, r = 1, a"), ("mass, a", "mass, s = 2, a")),
+    "two items at the end": (("false)", "false, r = 1)"), ("false)", "false, s = 2)")),
+    "two arguments": (("min(a", "min(x"), ("b)", "y)")),
+    "two lines at one place": (("  Body", "  Real x;\n  Body"), ("  Body", "  Real y;\n  Body")),
+    "item added, the next one removed": (("mass, a", "mass, r = 1, a"), (", animation = false", "")),
+    "item added, the one before removed": (("false)", "false, r = 1)"), (", animation = false", "")),
+    "one of two equal terms removed, the other changed": (("2 * a + 2 * a", "2 * a"), ("sum(2", "sum(3")),
+    "comment, its value removed": (("1.05\n", "1.05 // mine\n"), (" = 1.05", "")),
+    "comment, its line removed and a comment on the line before": (
+        ("iyy = 0.029335,", "iyy = 0.029335, // mine"),
+        ("ixx = 0.005953,\n        iyy = 0.029335,", "ixx = 0.005953, // approximate"),
+    ),
+    "comment that would swallow what follows": (("a);\n", "a); // mine\n"), ("a);\n ", "a);")),
+    "declaration rewritten, value in it": (REWRITTEN, ("parameters.mass", "5")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("mine", "generated"), CONFLICTS.values(), ids=CONFLICTS)
 def test_conflicts(mine: Edit, generated: Edit) -> None:
     result = merge(RECORD, changed(mine), changed(generated))
     assert result.text is None

@@ -52,18 +52,15 @@ def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
 
 
 def accelerations(own: generic.Robot, link: str) -> Array:
-    """Of the axes at rest at their start, by (Bᵀ·H·B)·a = Bᵀ·(Jᵀ·F - C) with the Jacobian J of the link."""
+    """Of the axes at rest at their start, with the Jacobian of the link."""
     reference = own.reference
     pin, model = reference.pin, reference.model
     state = generic.at_rest(own, np.zeros(len(reference.axes)), np.zeros(len(reference.axes)))
     data = model.createData()
-    upper = np.triu(pin.crba(model, data, state.q))
-    inertia = upper + np.triu(upper, 1).T
     bias = pin.nonLinearEffects(model, data, state.q, np.zeros(model.nv))
     frame = model.getFrameId(link, pin.BODY)
     jacobian = pin.computeFrameJacobian(model, data, state.q, frame, pin.LOCAL_WORLD_ALIGNED)[:3]
-    b = reference.projection
-    return np.asarray(np.linalg.solve(b.T @ inertia @ b, b.T @ (jacobian.T @ np.array(FORCE) - bias)))
+    return generic.forward(reference, state, bias - jacobian.T @ np.array(FORCE))
 
 
 def example(library: Path, model: str, stop: float, values: list[str]) -> Series:

@@ -13,7 +13,7 @@ import pinocchio as pin
 import pytest
 from support.modelica import Array, Run, Series, Task, simulate
 from support.packages import generate
-from support.urdfs import dynamics, joint, limit, link, robot
+from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.physics.reference import SLIDING_STEEPNESS, TURNING_STEEPNESS
@@ -31,15 +31,12 @@ AXES = {"shoulder": ("revolute", "phi", "w", "tau"), "elbow": ("revolute", "phi"
 def arm(*, mass: float, center: str, damping: float, axis: str, xyz: str, rpy: str) -> str:
     """A robot with two axes that turn and one that slides; the numbers are those that a test changes."""
     return robot(
-        link("base", 4.0),
-        link("upper", 2.5),
+        *links(base=4.0, upper=2.5),
         link("forearm", mass, center=center),
         link("hand", 0.7),
-        joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit(), dynamics(damping, 0.3)]),
-        joint(
-            "elbow", "revolute", "upper", "forearm", xyz=xyz, rpy=rpy, axis=axis, inside=[limit(), dynamics(0.2, 0.1)]
-        ),
-        joint("slide", "prismatic", "forearm", "hand", axis="-1 0 0", inside=[limit(), dynamics(3.0, 2.0)]),
+        joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[dynamics(damping, 0.3)]),
+        joint("elbow", "revolute", "upper", "forearm", xyz=xyz, rpy=rpy, axis=axis, inside=[dynamics(0.2, 0.1)]),
+        joint("slide", "prismatic", "forearm", "hand", axis="-1 0 0", inside=[dynamics(3.0, 2.0)]),
     )
 
 

@@ -3,47 +3,42 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator, Sequence
 
-import icons
 import pytest
-from icons import Point
-from support.diagram import STANDARD, Component, library_diagram
+from support.diagram import STANDARD, Component, Diagram, Point, library_diagram, outline
+from support.modelica import URDFSYNC
 
-CLASSES = icons.classes()
-
-
-def lines(name: str) -> list[Sequence[Point]]:
-    """The points of all connection lines of a class, those of its base classes first."""
-    text = icons.source(name)
-    own = [note.get("Line").get("points") for note in icons.annotations_in(text) if note.get("Line")]
-    return [*(line for base in icons.bases(text) for line in lines(base)), *own]
+CLASSES = [".".join(file.relative_to(URDFSYNC.parent).with_suffix("").parts) for file in sorted(URDFSYNC.rglob("*.mo"))]
+SHOWN = [
+    name
+    for name in CLASSES
+    if re.match(r"UrdfSync\.(Examples|Robots)\.(?!.*package$)", name) and library_diagram(name).lines
+]
 
 
-SHOWN = [name for name in CLASSES if name.startswith(("UrdfSync.Examples.", "UrdfSync.Robots.")) and lines(name)]
-
-
-def crossed(components: Sequence[Component], drawn: Sequence[Sequence[Point]], inside: Sequence[str]) -> Iterator[str]:
+def crossed(components: Sequence[Component], drawn: Sequence[Sequence[Point]], inside: str) -> Iterator[str]:
     """Names of components that a line crosses, as wide as their icons give them room."""
     for component in components:
-        name = full_name(component.type, inside)
-        for graphic in icons.icon(name).graphics if name in CLASSES else ():
+        icon = library_diagram(full_name(component.type, inside))
+        for graphic in icon.graphics:
             if graphic.get("textString") == "%name":
-                corners = [place(corner, component, icons.icon(name)) for corner in icons.corners(graphic)]
+                corners = [place(corner, component, icon) for corner in outline(graphic)]
                 if any(crosses(line, corners) for line in drawn):
                     yield component.name
 
 
-def full_name(kind: str, inside: Sequence[str]) -> str:
-    """The full name of a class as it is called inside of others, which may leave out the packages around both."""
-    scopes = [name.split(".")[:count] for name in inside for count in range(name.count("."), -1, -1)]
-    names = (".".join([*scope, kind]) for scope in scopes)
-    return next((name for name in names if name in CLASSES), kind)
+def full_name(kind: str, inside: str) -> str:
+    """The full name of a class as it is called inside of another, which may leave out the packages around both."""
+    packages = inside.split(".")
+    names = (".".join([*packages[:count], kind]) for count in range(len(packages), -1, -1))
+    return next((name for name in names if name in CLASSES), f"Modelica.{kind}")
 
 
-def place(point: Point, component: Component, icon: icons.Icon) -> Point:
+def place(point: Point, component: Component, icon: Diagram) -> Point:
     """Where a point of the icon lies in the diagram. No component of the library is turned."""
-    (x1, y1, x2, y2), ((left, bottom), (right, top)) = component.box, icon.extent
+    (x1, y1, x2, y2), (left, bottom, right, top) = component.box, icon.icon
     across, up = (point[0] - left) / (right - left), (point[1] - bottom) / (top - bottom)
     return (x1 + (x2 - x1) * across, y1 + (y2 - y1) * up)
 
@@ -59,12 +54,12 @@ def crosses(line: Sequence[Point], corners: list[Point]) -> bool:
 
 @pytest.mark.parametrize("name", SHOWN)
 def test_no_connection_crosses_a_name(name: str) -> None:
-    inside = [*icons.bases(icons.source(name)), name]
-    assert list(crossed(library_diagram(name).components, lines(name), inside)) == []
+    drawn = library_diagram(name)
+    assert list(crossed(drawn.components, [line.points for line in drawn.lines], name)) == []
 
 
 def test_a_line_through_a_name_is_seen() -> None:
     elbow = Component("elbow", "UrdfSync.Joints.Revolute", (-10, -10, 10, 10), STANDARD)
     above, below = ((0, 10), (0, 30)), ((-40, -13), (40, -13))
-    assert list(crossed([elbow], [above], ["UrdfSync"])) == []
-    assert list(crossed([elbow], [above, below], ["UrdfSync"])) == ["elbow"]
+    assert list(crossed([elbow], [above], "UrdfSync")) == []
+    assert list(crossed([elbow], [above, below], "UrdfSync")) == ["elbow"]

@@ -13,7 +13,7 @@ from support.functions import EQUATIONS, SAMPLED, Form, Functions, errors
 from support.modelica import Run, Task, simulate
 from support.packages import generate
 from support.urdfs import joint, link, robot
-from test_generic import ROBOTS
+from test_generic import ROBOTS, STONE
 
 from urdfsync.domain import Target
 
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.slow
 
 CLOSE = 1e-12
 STILL = {
-    "stone": robot(link("stone", 2.0)),
+    "stone": STONE,
     "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head")),
 }
 """No moving joint: tables and results are empty, but for poses."""

@@ -17,7 +17,7 @@ import test_limits
 from support import generic, modelica, physics
 from support.modelica import URDFSYNC, Array, Run, Series, Task, execute, simulate
 from support.packages import generate
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.poses import start_positions
@@ -26,49 +26,55 @@ from urdfsync.urdf.physics import motion
 pytestmark = pytest.mark.slow
 
 GRIPPER = robot(
-    link("base", 2.0),
-    link("plate", 1.0),
+    *links(base=2.0, plate=1.0),
     *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
     link("sensor", 0.3),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2), limit()]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5), limit()]),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5)]),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
-    joint("grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02), limit()]),
-    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3), limit()]),
+    joint("grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02)]),
+    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
 )
 """A chain with branches; press follows grip, and grip follows shoulder."""
 
 LADDER = robot(
     link("base"),
     *(link(name, 2.0) for name in ("car", "mast", "left", "right")),
-    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0), limit()]),
-    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8", inside=[limit()]),
-    joint("left swing", "revolute", "mast", "left", axis="0 1 0", inside=[limit()]),
-    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0), limit()]),
+    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0)]),
+    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8"),
+    joint("left swing", "revolute", "mast", "left", axis="0 1 0"),
+    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0)]),
 )
 """Two sliding joints first; a base without mass; a name with a space."""
 
 CHAIN = robot(
     *(link(name, 1.0) for name in ("base", "one", "two", "three", "four")),
-    joint("first", "revolute", "base", "one", axis="0 1 0", inside=[dynamics(0.4, 0.2), limit()]),
-    joint("second", "prismatic", "one", "two", axis="1 0 0", inside=[mimic("first", 0.1, 0.02), limit()]),
-    joint("third", "revolute", "two", "three", axis="0 0 1", inside=[mimic("second", -4.0, 0.3), limit()]),
-    joint("fourth", "prismatic", "three", "four", axis="0 1 0", inside=[mimic("third", 0.2, -0.1), limit()]),
+    joint("first", "revolute", "base", "one", axis="0 1 0", inside=[dynamics(0.4, 0.2)]),
+    joint("second", "prismatic", "one", "two", axis="1 0 0", inside=[mimic("first", 0.1, 0.02)]),
+    joint("third", "revolute", "two", "three", axis="0 0 1", inside=[mimic("second", -4.0, 0.3)]),
+    joint("fourth", "prismatic", "three", "four", axis="0 1 0", inside=[mimic("third", 0.2, -0.1)]),
 )
 """Three joints that follow one another, and so the first one."""
 
+STONE = robot(link("stone", 2.0))
+STATUE = robot(
+    *links(base=1.0, head=1.0, hat=1.0),
+    joint("neck", "fixed", "base", "head"),
+    joint("tilt", "revolute", "head", "hat", axis="0 1 0", inside=[mimic("neck", 1, 0.4)]),
+)
+"""No axis: a fixed joint, and one that follows it."""
 MASSLESS = robot(
     *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
-    joint("lift", "revolute", "base", "arm", axis="0 1 0", inside=[limit()]),
-    joint("twist", "revolute", "arm", "tip", axis="0 0 1", inside=[limit()]),
+    joint("lift", "revolute", "base", "arm", axis="0 1 0"),
+    joint("twist", "revolute", "arm", "tip", axis="0 0 1"),
 )
 SLIDER = robot(
     link("base", 1.0),
     '<link name="box"><inertial><mass value="0"/>'
     '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>',
-    joint("push", "prismatic", "base", "box", axis="0 0 1", inside=[limit()]),
+    joint("push", "prismatic", "base", "box", axis="0 0 1"),
 )
 """Inertia, but no mass behind a joint that slides."""
 FOLLOWER = robot(
@@ -112,8 +118,9 @@ DRIVEN = """
 
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
 BASES = {"gripper": generic.Base(), "ladder": None}
+GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 START = motion.Course(0.3, 0.2, 0.0)
-STOP = 0.5
+STOP, STEPS = 0.5, 1500
 TOLERANCE = 1e-9
 """Of the integration, so that its error is far below what is compared."""
 PRESCRIBED = (("gripper", "GenericRobot"), ("gripper", "ArticulatedRobot"), ("ladder", "GenericRobot"))
@@ -134,7 +141,16 @@ AXES = {
 def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     """Base and axes move; efforts of all axes, what acts on the base, mass and centre are compared."""
     cases = [in_form(name, form) for name, form in PRESCRIBED]
-    cases.append(physics.prepare(CHAIN.encode(), "Chain", approach=("record",)))
+    twig = GOLDEN / "twig.urdf"
+    others: dict[str, tuple[bytes | Path, str]] = {
+        "Chain": (CHAIN.encode(), "fixed"),
+        "Bolted": (twig, "fixed"),
+        "Loose": (twig, "floating"),
+        "Stone": (STONE.encode(), "fixed"),
+        "Statue": (STATUE.encode(), "floating"),
+    }
+    for name, (source, base) in others.items():
+        cases.append(physics.prepare(source, name, approach=("record",), base=base))
     for comparison in physics.compare(modelica_library, tmp_path, cases):
         assert comparison.agrees, comparison.worst()
 
@@ -156,7 +172,7 @@ def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Pat
     tasks = [generic.free_task(own, form, starts(own), STOP, [TOLERANCE], base) for own, base, form in todo]
     runs = simulate(modelica_library, [own.package.write(tmp_path) for own in robots], tasks)
     for (own, base, _), task, series in zip(todo, tasks, runs, strict=True):
-        expected = generic.free_motion(own, starts(own), STOP, 250, base)
+        expected = generic.free_motion(own, starts(own), STOP, STEPS, base)
         assert np.abs(expected[: len(own.reference.axes)] - START.position).min() > 1e-3, "every axis moves"
         found = [series.values[value][-1] for value in task.values]
         assert np.abs(found - expected).max() < 1e-6
@@ -169,7 +185,9 @@ def starts(own: generic.Robot) -> list[motion.Course]:
 def test_the_reference_converges() -> None:
     """With half the steps it changes far less than the comparison tolerates."""
     own = generic.prepare(GRIPPER.encode())
-    coarse, fine = (generic.free_motion(own, starts(own), STOP, steps, BASES["gripper"]) for steps in (250, 500))
+    coarse, fine = (
+        generic.free_motion(own, starts(own), STOP, steps, BASES["gripper"]) for steps in (STEPS, 2 * STEPS)
+    )
     assert np.abs(coarse - fine).max() < 1e-7
 
 

@@ -9,10 +9,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
-from support import modelica, physics
+from support import generic, modelica, physics
 from support.modelica import Run, Task
 from support.packages import Package, generate
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, links, mimic, robot
 
 from urdfsync.domain import Quantity, Target
 from urdfsync.urdf.physics import motion
@@ -30,62 +30,47 @@ WORLD = (
 )
 
 TYPES = robot(
-    link("base", 4.0),
-    link("upper", 2.5),
-    link("fore", 1.5),
-    link("hand", 0.7),
+    *links(base=4.0, upper=2.5, fore=1.5, hand=0.7),
     link("tool", 0.4, rpy="-1.2 0.8 2.5"),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit(), dynamics(0.5, 0.3)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[dynamics(0.5, 0.3)]),
     joint("elbow", "continuous", "upper", "fore", axis="0.3 -0.4 1.2", inside=[dynamics(0.2, 0.1)]),
-    joint("slide", "prismatic", "fore", "hand", axis="-2 0 0", inside=[limit(), dynamics(3.0, 2.0)]),
+    joint("slide", "prismatic", "fore", "hand", axis="-2 0 0", inside=[dynamics(3.0, 2.0)]),
     joint("flange", "fixed", "hand", "tool", rpy="1.1 0.2 -2.9"),
 )
 """An axis that is no unit vector, one that is skew, and losses on every type that turns or slides."""
 
 BARE = robot(
-    link("base"),
-    link("carrier"),
-    link("adapter"),
-    link("load", 1.2),
-    joint("lift", "prismatic", "base", "carrier", axis="0 0 1", inside=[limit()]),
-    joint("turn", "revolute", "carrier", "adapter", inside=[limit()]),
+    *links(base=None, carrier=None, adapter=None, load=1.2),
+    joint("lift", "prismatic", "base", "carrier", axis="0 0 1"),
+    joint("turn", "revolute", "carrier", "adapter"),
     joint("bolt", "fixed", "adapter", "load"),
 )
 """Massless links that move, and a joint without an axis: it is x."""
 
 GRIPPER = robot(
-    link("palm", 1.0),
-    link("left", 0.2),
-    link("right", 0.3),
-    link("tip", 0.15),
-    joint("left_slide", "prismatic", "palm", "left", axis="0 1 0", inside=[mimic("drive", 0.03, 0.01), limit()]),
-    joint("drive", "revolute", "palm", "right", axis="0 0 1", inside=[limit(), dynamics(0.1, 0.05)]),
-    joint("tip_turn", "revolute", "left", "tip", axis="1 0 0", inside=[mimic("left_slide", -20.0, 0.2), limit()]),
+    *links(palm=1.0, left=0.2, right=0.3, tip=0.15),
+    joint("left_slide", "prismatic", "palm", "left", axis="0 1 0", inside=[mimic("drive", 0.03, 0.01)]),
+    joint("drive", "revolute", "palm", "right", axis="0 0 1", inside=[dynamics(0.1, 0.05)]),
+    joint("tip_turn", "revolute", "left", "tip", axis="1 0 0", inside=[mimic("left_slide", -20.0, 0.2)]),
 )
 """Sliding follows turning, turning follows sliding: a chain, with a negative multiplier; followers come first."""
 
 CHAIN = robot(
     *(link(f"part{k}", 1.0 + 0.3 * k) for k in range(6)),
     joint("lead", "continuous", "part0", "part1", axis="0 0 1", inside=[dynamics(0.3, 0.2)]),
-    joint("equal", "revolute", "part1", "part2", axis="0 1 0", inside=[mimic("lead"), limit(), dynamics(0.2, 0.1)]),
-    joint("back", "revolute", "part2", "part3", axis="0 1 1", inside=[mimic("equal", -1.5, 0.3), limit()]),
-    joint("rail", "prismatic", "part0", "part4", axis="1 0 0", inside=[limit()]),
-    joint(
-        "rack", "prismatic", "part4", "part5", axis="0 1 0", inside=[mimic("rail", -0.5), limit(), dynamics(4.0, 1.0)]
-    ),
+    joint("equal", "revolute", "part1", "part2", axis="0 1 0", inside=[mimic("lead"), dynamics(0.2, 0.1)]),
+    joint("back", "revolute", "part2", "part3", axis="0 1 1", inside=[mimic("equal", -1.5, 0.3)]),
+    joint("rail", "prismatic", "part0", "part4", axis="1 0 0"),
+    joint("rack", "prismatic", "part4", "part5", axis="0 1 0", inside=[mimic("rail", -0.5), dynamics(4.0, 1.0)]),
 )
 """Turning follows turning twice over, sliding follows sliding; followers have losses of their own."""
 
 HELD = robot(
-    link("base", 1.0),
-    link("plate", 1.0),
-    link("bracket", 1.0),
-    link("pin", 1.0),
-    link("arm", 1.0),
+    *links(base=1.0, plate=1.0, bracket=1.0, pin=1.0, arm=1.0),
     joint("weld", "fixed", "base", "plate"),
-    joint("tilt", "revolute", "plate", "bracket", axis="0 1 0", inside=[mimic("weld", 3.0, 0.4), limit()]),
-    joint("stop", "prismatic", "plate", "pin", axis="0 0 1", inside=[mimic("weld", 3.0, -0.2), limit()]),
-    joint("turn", "revolute", "bracket", "arm", axis="0 0 1", inside=[limit()]),
+    joint("tilt", "revolute", "plate", "bracket", axis="0 1 0", inside=[mimic("weld", 3.0, 0.4)]),
+    joint("stop", "prismatic", "plate", "pin", axis="0 0 1", inside=[mimic("weld", 3.0, -0.2)]),
+    joint("turn", "revolute", "bracket", "arm", axis="0 0 1"),
 )
 """Joints that follow one that never moves stay at their offsets."""
 
@@ -93,25 +78,18 @@ HELD = robot(
 def planar(axis: str, *inside: str) -> str:
     """A planar joint between two that turn."""
     return robot(
-        link("floor", 2.0),
-        link("post", 1.5),
-        link("plate", 3.0),
-        link("arm", 1.0),
-        joint("mast", "revolute", "floor", "post", axis="0 1 0", inside=[limit()]),
+        *links(floor=2.0, post=1.5, plate=3.0, arm=1.0),
+        joint("mast", "revolute", "floor", "post", axis="0 1 0"),
         joint("skate", "planar", "post", "plate", axis=axis, inside=inside),
-        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[limit(), dynamics(0.1, 0.2)]),
+        joint("turn", "revolute", "plate", "arm", axis="1 0 0", inside=[dynamics(0.1, 0.2)]),
     )
 
 
 FLOATING = robot(
-    link("ceiling", 1.0),
-    link("gondola", 2.0),
-    link("drone", 3.0),
-    link("arm", 1.0),
-    link("puck", 0.5),
-    joint("rail", "prismatic", "ceiling", "gondola", axis="0 1 1", inside=[limit()]),
+    *links(ceiling=1.0, gondola=2.0, drone=3.0, arm=1.0, puck=0.5),
+    joint("rail", "prismatic", "ceiling", "gondola", axis="0 1 1"),
     joint("air", "floating", "gondola", "drone"),
-    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[limit(), dynamics(0.1, 0.2)]),
+    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[dynamics(0.1, 0.2)]),
     joint("tray", "planar", "arm", "puck", axis="0 1 0"),
 )
 """A floating joint on a sliding one, which carries a planar one in turn."""
@@ -167,15 +145,13 @@ end Check;
 
 
 def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
-    """Accelerations of axes without drives: forward dynamics with the inertia matrix Bᵀ·H·B of independent axes."""
+    """Accelerations of axes without drives, the base at rest."""
     reference = Reference(read(urdf.encode(), "robot.urdf"), axes, ())
     state = reference.state(0.0, courses, {})
-    model, data, b = reference.model, reference.model.createData(), reference.projection
-    q, v = state.q, reference.projection @ [course.speed for course in courses]  # the base is at rest
-    q[:7] = pin.neutral(model)[:7]
-    upper = np.triu(pin.crba(model, data, q))
-    load = pin.nonLinearEffects(model, data, q, v) + reference.losses(v)
-    return np.asarray(np.linalg.solve(b.T @ (upper + np.triu(upper, 1).T) @ b, -b.T @ load))
+    v = reference.projection @ [course.speed for course in courses]
+    state.q[:7] = pin.neutral(reference.model)[:7]
+    load = pin.nonLinearEffects(reference.model, reference.model.createData(), state.q, v) + reference.losses(v)
+    return generic.forward(reference, state, load)
 
 
 def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:

@@ -15,8 +15,9 @@ from typing import Any
 import pymoca.ast
 import pymoca.parser
 import rumoca
-from icons import LIBRARY, annotations_in
 from lxml import etree
+from support.annotations import annotations_in
+from support.modelica import URDFSYNC as LIBRARY
 
 FILES = sorted(LIBRARY.rglob("*.mo"))
 FOLDERS = [file.parent for file in FILES if file.name == "package.mo"]

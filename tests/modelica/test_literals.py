@@ -49,19 +49,16 @@ def test_a_number_reads_back_bit_by_bit(value: float) -> None:
     assert float(real(value)).hex() == (value + 0.0).hex()  # -0.0 + 0.0 is 0.0: zero has no sign
 
 
-@pytest.mark.parametrize(
-    ("value", "literal"),
-    [
-        (1.0, "1"),
-        (-0.0, "0"),
-        (0.1, "0.1"),
-        (-1e-7, "-1e-07"),
-        (1e22, "1e+22"),
-        (2147483647.0, "2147483647"),
-        (2147483648.0, "2147483648.0"),
-        (-2147483648.0, "-2147483648.0"),
-    ],
-)
+@pytest.mark.parametrize(("value", "literal"), [
+    (1.0, "1"),
+    (-0.0, "0"),
+    (0.1, "0.1"),
+    (-1e-7, "-1e-07"),
+    (1e22, "1e+22"),
+    (2147483647.0, "2147483647"),
+    (2147483648.0, "2147483648.0"),
+    (-2147483648.0, "-2147483648.0"),
+])  # fmt: skip
 def test_numbers_look_as_people_write_them(value: float, literal: str) -> None:
     assert real(value) == literal
 
@@ -122,18 +119,15 @@ end ArmParameters;
 """
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "same"),
-    [
-        ("1.5e-3", "-7", True),
-        ("-0.1", "0.25E+4", True),
-        ("Modelica.Constants.inf", "-3.2", True),
-        ('"Robot \\"arm\\" 1"', '"anything; 2"', True),
-        ("{0, -0.1, .5}", "{0, -0.1}", False),
-        ("r[3]", "r2[3]", False),
-        ("upper", "lower", False),
-        ("parameter Real m = 1.5e-3", "parameter Real m", False),
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "same"), [
+    ("1.5e-3", "-7", True),
+    ("-0.1", "0.25E+4", True),
+    ("Modelica.Constants.inf", "-3.2", True),
+    ('"Robot \\"arm\\" 1"', '"anything; 2"', True),
+    ("{0, -0.1, .5}", "{0, -0.1}", False),
+    ("r[3]", "r2[3]", False),
+    ("upper", "lower", False),
+    ("parameter Real m = 1.5e-3", "parameter Real m", False),
+])  # fmt: skip
 def test_texts_that_differ_in_literals_only(old: str, new: str, same: bool) -> None:
     assert numbers_only(RECORD, RECORD.replace(old, new)) is same

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from support import generic
 from support.modelica import URDFSYNC, Task, simulate
-from support.urdfs import dynamics, joint, limit, link, robot
+from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.urdf.model.tables import tables as integer_tables
 from urdfsync.urdf.physics import motion
@@ -23,12 +23,11 @@ from urdfsync.urdf.robot import MOTION_KINDS
 pytestmark = pytest.mark.slow
 
 CRANE = robot(
-    link("base", 2.0),
-    link("plate", 1.0),
+    *links(base=2.0, plate=1.0),
     *(link(name, 1.5) for name in ("arm", "slide", "wheel")),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2), limit()]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5), limit()]),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5)]),
     joint("roll", "continuous", "arm", "wheel", axis="1 0 0"),
 )
 """A fixed joint, two that turn and one that slides, on branches."""

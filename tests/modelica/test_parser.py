@@ -211,50 +211,37 @@ def test_what_is_taken_away_from_a_base_class() -> None:
     assert base.arguments == (Modifier(name("c", 2)),)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "reason"),
-    [
-        pytest.param("body.frame_b)", "body.frame_b", "lacks `)` before `annotation` (line 32)", id="unbalanced"),
-        pytest.param("(each min = 0)", "(each min = 0]", "lacks `,` or `)` before `]` (line 9)", id="crossing"),
-        pytest.param("{1, 1}}", "{1, 1}", "lacks `,` or `}` before `)` (line 32)", id="braces"),
-        pytest.param('"Masses"', '"Masses', "has a string without an end (line 57)", id="string"),
-        pytest.param("m[2]", "/* m[2]", "has a comment without an end (line 9)", id="comment"),
-        pytest.param("x, y", "'x, y", "has a quoted name without an end (line 16)", id="quoted name"),
-        pytest.param("end Arm", "end Leg", "ends `Arm` with `end Leg` (line 58)", id="another name"),
-        pytest.param("  end gain;\n", "", "lacks `end gain` before `end` (line 57)", id="no end"),
-        pytest.param("end Arm;\n", "end Arm;\nend Arm;\n", "has an `end` too many (line 59)", id="end twice"),
-        pytest.param("end Arm;\n", "", "lacks `end Arm` before its end (line 58)", id="cut off"),
-        pytest.param("end while", "end for", "lacks `end while` before `end` (line 52)", id="end of another block"),
-        pytest.param("  end if;\n", "", "lacks `end if` before `algorithm` (line 46)", id="block without end"),
-        pytest.param("Real u;\n", "Real u\n", "lacks `;` before `output` (line 22)", id="semicolon"),
-        pytest.param("  x = 0;", "  x = 0", "lacks `;` before `equation` (line 31)", id="semicolon of an equation"),
-        pytest.param("0.8}", "0.8, }", "lacks an expression before `}` (line 9)", id="comma too many"),
-        pytest.param("m[1], redeclare", "m[1] redeclare", "lacks `,` or `)` before `redeclare` (line 14)", id="comma"),
-        pytest.param("  import SI", "  Real Mode;\n  import SI", "declares `Mode` twice (line 19)", id="names"),
-        pytest.param("x, y(", "x, x, y(", "declares `x` twice (line 16)", id="names of one declaration"),
-        pytest.param(
-            "Robot;", "Robot;\n extends Icons.Robot(a = 1);", "extends `Icons.Robot` twice (line 4)", id="bases"
-        ),
-        pytest.param("a = 1)", "a = 1, a = 2)", "sets `a` twice (line 14)", id="modifiers"),
-        pytest.param(
-            "equation\n  c",
-            "equation\n  connect(b, a);\n  connect(a, b);\n  c",
-            "connects `a` and `b` twice (line 33)",
-            id="ends",
-        ),
-        pytest.param(
-            "  x = 1;\n",
-            "  x = 1;\n    y = 2;\n    x = 1;\n",
-            "has the equation `x = 1` twice (line 37)",
-            id="equations",
-        ),
-        pytest.param("(x, , y) :=", "(x, , y) =", "lacks `:=` before `=` (line 48)", id="equation in an algorithm"),
-        pytest.param("end Arm", "Real z;\nend Arm", "goes on after the annotation of `Arm` (line 58)", id="after all"),
-        pytest.param(
-            "(each min = 0)", f"(min = {50 * '('}0{50 * ')'})", "nests more than 50 deep (line 9)", id="depth"
-        ),
-    ],
-)
+FAULTS = {
+    "unbalanced": ("body.frame_b)", "body.frame_b", "lacks `)` before `annotation` (line 32)"),
+    "crossing": ("(each min = 0)", "(each min = 0]", "lacks `,` or `)` before `]` (line 9)"),
+    "braces": ("{1, 1}}", "{1, 1}", "lacks `,` or `}` before `)` (line 32)"),
+    "string": ('"Masses"', '"Masses', "has a string without an end (line 57)"),
+    "comment": ("m[2]", "/* m[2]", "has a comment without an end (line 9)"),
+    "quoted name": ("x, y", "'x, y", "has a quoted name without an end (line 16)"),
+    "another name": ("end Arm", "end Leg", "ends `Arm` with `end Leg` (line 58)"),
+    "no end": ("  end gain;\n", "", "lacks `end gain` before `end` (line 57)"),
+    "end twice": ("end Arm;\n", "end Arm;\nend Arm;\n", "has an `end` too many (line 59)"),
+    "cut off": ("end Arm;\n", "", "lacks `end Arm` before its end (line 58)"),
+    "end of another block": ("end while", "end for", "lacks `end while` before `end` (line 52)"),
+    "block without end": ("  end if;\n", "", "lacks `end if` before `algorithm` (line 46)"),
+    "semicolon": ("Real u;\n", "Real u\n", "lacks `;` before `output` (line 22)"),
+    "semicolon of an equation": ("  x = 0;", "  x = 0", "lacks `;` before `equation` (line 31)"),
+    "comma too many": ("0.8}", "0.8, }", "lacks an expression before `}` (line 9)"),
+    "comma": ("m[1], redeclare", "m[1] redeclare", "lacks `,` or `)` before `redeclare` (line 14)"),
+    "names": ("  import SI", "  Real Mode;\n  import SI", "declares `Mode` twice (line 19)"),
+    "names of one declaration": ("x, y(", "x, x, y(", "declares `x` twice (line 16)"),
+    "bases": ("Robot;", "Robot;\n extends Icons.Robot(a = 1);", "extends `Icons.Robot` twice (line 4)"),
+    "modifiers": ("a = 1)", "a = 1, a = 2)", "sets `a` twice (line 14)"),
+    "ends": ("equation\n  c",
+        "equation\n  connect(b, a);\n  connect(a, b);\n  c", "connects `a` and `b` twice (line 33)"),
+    "equations": ("  x = 1;\n", "  x = 1;\n    y = 2;\n    x = 1;\n", "has the equation `x = 1` twice (line 37)"),
+    "equation in an algorithm": ("(x, , y) :=", "(x, , y) =", "lacks `:=` before `=` (line 48)"),
+    "after all": ("end Arm", "Real z;\nend Arm", "goes on after the annotation of `Arm` (line 58)"),
+    "depth": ("(each min = 0)", f"(min = {50 * '('}0{50 * ')'})", "nests more than 50 deep (line 9)"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "reason"), FAULTS.values(), ids=FAULTS)
 def test_faults_have_a_reason_and_a_line(old: str, new: str, reason: str) -> None:
     assert parse(ARM).faults == []
     text = ARM.replace(old, new, 1)

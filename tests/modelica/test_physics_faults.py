@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support import physics
 from support.physics import changed, replaced
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, mimic, robot
 
 from urdfsync.check.results import TOLERANCE
 from urdfsync.domain import Quantity
@@ -23,8 +23,8 @@ FINGER = robot(
     link("base", 2.0),
     link("arm", 1.5).replace("</link>", '<visual><geometry><mesh filename="cover.stl"/></geometry></visual></link>'),
     link("finger", 0.4),
-    joint("elbow", "revolute", "base", "arm", axis="0 0 1", inside=[limit(), dynamics(0.5, 0.1)]),
-    joint("grip", "prismatic", "arm", "finger", axis="0 1 0", inside=[mimic("elbow", 0.3, 0.05), limit()]),
+    joint("elbow", "revolute", "base", "arm", axis="0 0 1", inside=[dynamics(0.5, 0.1)]),
+    joint("grip", "prismatic", "arm", "finger", axis="0 1 0", inside=[mimic("elbow", 0.3, 0.05)]),
 )
 
 

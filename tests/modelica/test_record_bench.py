@@ -1,29 +1,23 @@
-"""What the record approach writes compiles, moves, and is the robot of the URDF."""
+"""What the record approach writes can be simulated at once, or says why not; its motion is in test_generic."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from support import generic, physics, urdfs
+from support import generic, urdfs
 from support.modelica import Run, Task, compile_task, execute
 from support.packages import generate
 
 from urdfsync.domain import Target
+
+pytestmark = pytest.mark.slow
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 PLANAR = urdfs.robot(
     urdfs.link("base"), urdfs.link("puck", 1), urdfs.joint("glide", "planar", "base", "puck", axis="0 0 1")
 )
 """The generic robot can't take it."""
-STONE = urdfs.robot(urdfs.link("stone", 2))
-"""One link."""
-STATUE = urdfs.robot(
-    *(urdfs.link(name, 1) for name in ("base", "head", "hat")),
-    urdfs.joint("neck", "fixed", "base", "head"),
-    urdfs.joint("tilt", "revolute", "head", "hat", axis="0 1 0", inside=[urdfs.mimic("neck", 1, 0.4), urdfs.limit()]),
-)
-"""No axis: a fixed joint, and one that follows it."""
 REFUSED = """
 package Use_
   import Modelica;
@@ -39,21 +33,6 @@ end Use_;
 """
 
 
-@pytest.mark.slow
-def test_the_record_moves_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
-    twig = GOLDEN / "twig.urdf"
-    robots: dict[str, tuple[bytes | Path, str]] = {
-        "Bolted": (twig, "fixed"),
-        "Free": (twig, "floating"),
-        "Stone": (STONE.encode(), "fixed"),
-        "Statue": (STATUE.encode(), "floating"),
-    }
-    cases = [physics.prepare(source, name, approach=("record",), base=base) for name, (source, base) in robots.items()]
-    for comparison in physics.compare(modelica_library, tmp_path, cases):
-        assert comparison.agrees, comparison.worst()
-
-
-@pytest.mark.slow
 def test_benches_can_be_simulated_at_once(modelica_library: Path, tmp_path: Path) -> None:
     targets = {"fixed": Target("Bolted", "Bolted"), "floating": Target("Free", "Free")}
     packages = [

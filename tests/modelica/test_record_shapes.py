@@ -39,8 +39,8 @@ SHAPES = urdfs.robot(
         '<capsule radius="0.05" length="0.4"/>',
         '<mesh filename="meshes/wedge.obj" scale="2 2 -1"/>',
     ),
-    urdfs.joint("swing", "revolute", "base", "bare", axis="0 1 0", inside=[urdfs.limit()]),
-    urdfs.joint("slide", "prismatic", "bare", "arm", axis="1 0 0", inside=[urdfs.limit()]),
+    urdfs.joint("swing", "revolute", "base", "bare", axis="0 1 0"),
+    urdfs.joint("slide", "prismatic", "bare", "arm", axis="1 0 0"),
 )
 PAIRS = {
     1: "base.visual1.shape",

@@ -141,81 +141,54 @@ def test_nothing_is_said_of_what_is_right() -> None:
     assert found(PLANT, USER) == []
 
 
-@pytest.mark.parametrize(
-    ("body", "expected"),
-    [
-        pytest.param("extends Plant.Crane(redeclare User.Telescope bom);", "2: Crane bom [bom] boom", id="redeclare"),
-        pytest.param("Plant.Crane c(boom(numbers(mas = 3)));", "2: BoomNumbers mas [mas] mass", id="modifier"),
-        pytest.param(
-            "Plant.Crane c(boom(numbers(friction(dampin = 5))));", "2: Friction dampin [dampin] damping", id="record"
-        ),
-        pytest.param(
-            "extends Plant.Test(crane(boom(\n numbs(mass = 1))));",
-            "3: Boom numbs [numbs] numbers",
-            id="line of a modifier",
-        ),
-        pytest.param(
-            "Plant.Crane c;\nPlant.Parts.Pin p;\nequation\nconnect(c.bomPin, p);",
-            "5: Crane c.bomPin [bomPin] c.boomPin",
-            id="connect",
-        ),
-        pytest.param("Real x = crane.boomPin.u;", "2: Mine crane.boomPin.u [crane]", id="no component"),
-        pytest.param("Plant.Links.Bom b;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom", id="type"),
-        pytest.param("import Plant.Links.Bom;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom", id="import"),
-        pytest.param("Nowhere n;", "2: Mine Nowhere [Nowhere]", id="type without dots"),
-        pytest.param(
-            "extends Plant.Crane(redeclare User.Telescop boom);",
-            "2: User User.Telescop [Telescop] User.Telescope",
-            id="new type",
-        ),
-        pytest.param(
-            "Real y = Plant.Parts.twic(2);", "2: Parts Plant.Parts.twic [twic] Plant.Parts.twice", id="function"
-        ),
-        pytest.param("Real y(strat = 2);", "2: Real strat [strat] start", id="attribute"),
-        pytest.param(
-            "Plant.Parts.Shape s = Plant.Parts.Shape.rund;",
-            "2: Shape Plant.Parts.Shape.rund [rund] Plant.Parts.Shape.round",
-            id="literal",
-        ),
-        pytest.param(
-            "extends Plant.Crane(redeclare User.Telescope boom(lenth = 3));",
-            "2: Telescope lenth [lenth] length",
-            id="modifier of what is redeclared",
-        ),
-        pytest.param("Plant.Crane c(g = grav);\nparameter Real grave;", "2: Mine grav [grav] grave", id="value"),
-        pytest.param(
-            "parameter Real[:] num;\nReal x[size(num, 1)] = {nun[i] for i in 1:2};",
-            "3: Mine nun [nun] num",
-            id="in a reduction",
-        ),
-    ],
-)
+MISSING = {
+    "redeclare": ("extends Plant.Crane(redeclare User.Telescope bom);", "2: Crane bom [bom] boom"),
+    "modifier": ("Plant.Crane c(boom(numbers(mas = 3)));", "2: BoomNumbers mas [mas] mass"),
+    "record": ("Plant.Crane c(boom(numbers(friction(dampin = 5))));", "2: Friction dampin [dampin] damping"),
+    "line of a modifier": ("extends Plant.Test(crane(boom(\n numbs(mass = 1))));", "3: Boom numbs [numbs] numbers"),
+    "connect": ("Plant.Crane c;\nPlant.Parts.Pin p;\nequation\nconnect(c.bomPin, p);",
+        "5: Crane c.bomPin [bomPin] c.boomPin"),
+    "no component": ("Real x = crane.boomPin.u;", "2: Mine crane.boomPin.u [crane]"),
+    "type": ("Plant.Links.Bom b;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom"),
+    "import": ("import Plant.Links.Bom;", "2: Links Plant.Links.Bom [Bom] Plant.Links.Boom"),
+    "type without dots": ("Nowhere n;", "2: Mine Nowhere [Nowhere]"),
+    "new type": ("extends Plant.Crane(redeclare User.Telescop boom);",
+        "2: User User.Telescop [Telescop] User.Telescope"),
+    "function": ("Real y = Plant.Parts.twic(2);", "2: Parts Plant.Parts.twic [twic] Plant.Parts.twice"),
+    "attribute": ("Real y(strat = 2);", "2: Real strat [strat] start"),
+    "literal": ("Plant.Parts.Shape s = Plant.Parts.Shape.rund;",
+        "2: Shape Plant.Parts.Shape.rund [rund] Plant.Parts.Shape.round"),
+    "modifier of what is redeclared": ("extends Plant.Crane(redeclare User.Telescope boom(lenth = 3));",
+        "2: Telescope lenth [lenth] length"),
+    "value": ("Plant.Crane c(g = grav);\nparameter Real grave;", "2: Mine grav [grav] grave"),
+    "in a reduction": ("parameter Real[:] num;\nReal x[size(num, 1)] = {nun[i] for i in 1:2};",
+        "3: Mine nun [nun] num"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("body", "expected"), MISSING.values(), ids=MISSING)
 def test_a_name_that_means_nothing_is_found(body: str, expected: str) -> None:
     assert told(body) == [expected]
 
 
-@pytest.mark.parametrize(
-    "body",
-    [
-        pytest.param("extends Modelica.Blocks.Base;\nReal x = whatever.is.inherited;", id="unknown base"),
-        pytest.param("Modelica.Blocks.Sources.Sine sine(f = 3);\nReal y = sine.y;", id="unknown type"),
-        pytest.param("Library.Thing thing(a = 1);\nReal y = thing.b;", id="library that is not here"),
-        pytest.param("Plant.Crane c(redeclare Modelica.Thing boom);\nReal y = c.boom.own.x;", id="unknown new type"),
-        pytest.param("import Plant.Parts.{twice, P = Pin};\nP p;\nReal y = twice(p.u);", id="imported names"),
-        pytest.param("replaceable package M = Plant.Links constrainedby Plant.Parts;\nM.Other o;", id="open package"),
-        pytest.param(
-            "outer Plant.Crane crane;\nReal u = crane.boomPin.u + Connections.root(crane.boomPin.u);", id="outer"
-        ),
-        pytest.param(
-            "expandable connector Bus\nend Bus;\nBus bus;\nPlant.Parts.Pin p;\nequation\nconnect(bus.any, p);",
-            id="expandable connector",
-        ),
-        pytest.param("extends User.MyCrane;\nredeclare User.Telescope boom;\nequation\nboom.length = 1;", id="element"),
-        pytest.param(".Plant.Crane Plant;\nReal u = Plant.boomPin.u;", id="hidden by a component"),
-        pytest.param("model B = A;\nmodel A = B;\nA a(x = 1);", id="circle"),
-        pytest.param("extends Mine;\nReal x = y;", id="its own base"),
-    ],
-)
+UNKNOWN = {
+    "unknown base": "extends Modelica.Blocks.Base;\nReal x = whatever.is.inherited;",
+    "unknown type": "Modelica.Blocks.Sources.Sine sine(f = 3);\nReal y = sine.y;",
+    "library that is not here": "Library.Thing thing(a = 1);\nReal y = thing.b;",
+    "unknown new type": "Plant.Crane c(redeclare Modelica.Thing boom);\nReal y = c.boom.own.x;",
+    "imported names": "import Plant.Parts.{twice, P = Pin};\nP p;\nReal y = twice(p.u);",
+    "open package": "replaceable package M = Plant.Links constrainedby Plant.Parts;\nM.Other o;",
+    "outer": "outer Plant.Crane crane;\nReal u = crane.boomPin.u + Connections.root(crane.boomPin.u);",
+    "expandable connector":
+        "expandable connector Bus\nend Bus;\nBus bus;\nPlant.Parts.Pin p;\nequation\nconnect(bus.any, p);",
+    "element": "extends User.MyCrane;\nredeclare User.Telescope boom;\nequation\nboom.length = 1;",
+    "hidden by a component": ".Plant.Crane Plant;\nReal u = Plant.boomPin.u;",
+    "circle": "model B = A;\nmodel A = B;\nA a(x = 1);",
+    "its own base": "extends Mine;\nReal x = y;",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("body", UNKNOWN.values(), ids=UNKNOWN)
 def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
     assert told(body) == []
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
 
+from support.annotations import Call, statements
 from support.corpus import REPOSITORY
 from support.packages import Package
-from support.words import Word, words
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -75,6 +77,8 @@ class Diagram:
     lines: tuple[Line, ...]
     ports: Mapping[str, Point]
     """Connectors on the icon of this class."""
+    graphics: tuple[Call, ...] = ()
+    """The icon itself."""
 
 
 Find = Callable[[str], Diagram]
@@ -106,22 +110,32 @@ def read(text: str, find: Find) -> Diagram:
     components: list[Component] = []
     lines: list[Line] = []
     ports: dict[str, Point] = {}
-    for statement in _statements(words(text)):
-        first = statement[0].text
+    graphics: list[Call] = []
+    for statement, note in statements(text):
+        first = statement[0] if statement else ""
         if first == "extends":
             base = find(_name(statement[1:]))
             extent, icon = base.extent, base.icon
             ports |= base.ports
             components += base.components
             lines += base.lines
+            graphics += base.graphics
         elif first == "connect":
-            lines.append(_line(statement))
-        elif first == "annotation":
-            extent, icon = _system(statement, "Diagram") or extent, _system(statement, "Icon") or icon
-        elif box := _extent(statement, "transformation"):
-            components.append(_component(statement, box))
+            ends = "".join(statement[2:-1])
+            while "[" in ends:  # all connectors of a vector stand in one place
+                ends = re.sub(r"\[[^\[\]]*\]", "", ends)
+            start, end = ends.split(",")
+            lines.append(Line(start, end, tuple((x, y) for x, y in note.get("Line").get("points"))))
+        elif not statement:
+            drawn, shown = note.get("Diagram", Call()), note.get("Icon", Call())
+            extent, icon = _box(drawn.get("coordinateSystem")) or extent, _box(shown.get("coordinateSystem")) or icon
+            graphics += shown.get("graphics", [])
+        elif place := note.get("Placement"):
+            box, kind = _box(place.get("transformation")) or STANDARD, _name(statement)
+            name = statement[2 * kind.count(".") + 1]
+            components.append(Component(name, kind, box, _box(place.get("iconTransformation")) or box))
     ports |= {c.name: _center(c.icon) for c in components if c.is_connector}
-    return Diagram(extent, icon, tuple(components), tuple(lines), ports)
+    return Diagram(extent, icon, tuple(components), tuple(lines), ports, tuple(graphics))
 
 
 def port(diagram: Diagram, reference: str, find: Find) -> Point:
@@ -163,83 +177,32 @@ def corners(component: Component) -> tuple[Point, ...]:
     return (_center(component.box),) if component.is_connector else ((left, bottom), (right, top))
 
 
-def _statements(sequence: Sequence[Word]) -> Iterator[Sequence[Word]]:
-    """Declarations, equations and annotations of the one class in a text, without the words that go before them."""
-    begin = next(k for k, word in enumerate(sequence) if word.text in ("model", "block", "package", "record"))
-    statement: list[Word] = []
-    depth = 0
-    for word in sequence[begin + (3 if sequence[begin + 2].kind == "string" else 2) :]:
-        depth += (word.text in "({[") - (word.text in ")}]") if word.kind == "mark" else 0
-        if word.text == ";" and not depth:
-            yield statement
-            statement = []
-        elif statement or word.text not in _PREFIXES:
-            statement.append(word)
+def outline(graphic: Call) -> list[Point]:
+    """The points that bound a graphic, turned and moved as `rotation` and `origin` say (coordinates of the icon)."""
+    points: list[Point] = [(x, y) for x, y in graphic.get("points") or graphic.get("extent")]
+    if graphic.get("extent"):
+        (x1, y1), (x2, y2) = points
+        points = [(x1, y1), (x2, y1), (x2, y2), (x1, y2)]
+    angle = math.radians(graphic.get("rotation", 0.0))
+    x0, y0 = graphic.get("origin", [0.0, 0.0])
+    c, s = math.cos(angle), math.sin(angle)
+    return [(x0 + c * x - s * y, y0 + s * x + c * y) for x, y in points]
 
 
-_PREFIXES = frozenset(
-    "equation protected public parameter final constant inner outer replaceable redeclare input output".split()
-)
-
-
-def _component(statement: Sequence[Word], box: Box) -> Component:
-    type_name = _name(statement)
-    name = statement[2 * type_name.count(".") + 1].text
-    return Component(name, type_name, box, _extent(statement, "iconTransformation") or box)
-
-
-def _name(statement: Sequence[Word]) -> str:
+def _name(statement: Sequence[str]) -> str:
     """The name with all its dots that begins here."""
     end = 1
-    while end < len(statement) and statement[end].text == ".":
+    while statement[end : end + 1] == ["."]:
         end += 2
-    return "".join(word.text for word in statement[:end])
+    return "".join(statement[:end])
 
 
-def _line(statement: Sequence[Word]) -> Line:
-    texts = [word.text for word in statement]
-    middle, end = texts.index(","), texts.index("annotation")
-    while texts[2:middle].count("[") != texts[2:middle].count("]"):
-        middle = texts.index(",", middle + 1)
-    numbers = _numbers(statement, texts.index("points", end))
-    points = tuple(zip(numbers[::2], numbers[1::2], strict=True))
-    return Line(_reference(texts[2:middle]), _reference(texts[middle + 1 : end - 1]), points)
-
-
-def _reference(texts: Sequence[str]) -> str:
-    """A connector's name without subscripts: all connectors of a vector stand in one place."""
-    text = "".join(texts)
-    while "[" in text:
-        text = text[: text.index("[")] + text[text.index("]") + 1 :]
-    return text
-
-
-def _system(statement: Sequence[Word], owner: str) -> Box | None:
-    """The coordinate system of an icon or a diagram, if the annotation has one for it."""
-    texts = [word.text for word in statement]
-    stated = owner in texts and texts[texts.index(owner) + 1 :][:2] == ["(", "coordinateSystem"]
-    return _extent(statement, owner) if stated else None
-
-
-def _extent(statement: Sequence[Word], owner: str) -> Box | None:
-    texts = [word.text for word in statement]
-    if owner not in texts:
+def _box(owner: Call | None) -> Box | None:
+    """The extent of a coordinate system or of a transformation, if there is one."""
+    if owner is None:
         return None
-    x1, y1, x2, y2 = _numbers(statement, texts.index("extent", texts.index(owner)))
+    (x1, y1), (x2, y2) = owner.get("extent")
     return min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2)
-
-
-def _numbers(statement: Sequence[Word], start: int) -> list[float]:
-    """The numbers in the braces after `start`."""
-    numbers, depth, sign = [], 0, 1
-    for word in statement[start + 2 :]:
-        depth += (word.text == "{") - (word.text == "}")
-        if word.kind == "number":
-            numbers.append(sign * float(word.text))
-        sign = -1 if word.text == "-" else 1
-        if depth == 0:
-            break
-    return numbers
 
 
 def _center(box: Box) -> Point:

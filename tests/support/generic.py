@@ -1,7 +1,7 @@
 """Generic robots, which read the record of a robot: models to compile, and the same motion by Pinocchio.
 
-Pinocchio's free motion is that of `urdfsync.urdf.physics.reference`, the base at rest or free, integrated by the
-classical Runge-Kutta method of fourth order.
+Pinocchio's free motion is that of `urdfsync.urdf.physics.reference`, the base at rest or free, integrated by a
+Runge-Kutta method: of fourth order for axes, of second order for the attitude of a free base.
 """
 
 from __future__ import annotations
@@ -115,18 +115,38 @@ def axis_values(robot: Robot) -> list[str]:
 
 
 def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, base: Base | None = None) -> Array:
-    """What the values of `free_task` are after `stop` s of free motion from positions and speeds of `start`."""
-    p, v, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
-    y = np.concatenate([*_base(robot, base or Base((0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0))), p, v])
+    """What the values of `free_task` are after `stop` s of free motion from positions and speeds of `start`.
+
+    On the way the acceleration is that of (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives.
+    """
+    reference, pin, model = robot.reference, robot.reference.pin, robot.reference.model
+    p, speeds, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
+    state = at_rest(robot, p, speeds)
+    q, v, free = state.q, state.v, reference.projection
+    if base:
+        axes = pin.rpy.rpyToMatrix(*base.rpy)
+        q[:3], q[3:7] = base.place, pin.Quaternion(axes).coeffs()
+        v[:3], v[3:6] = axes.T @ base.velocity, axes.T @ base.turning
+        free = np.hstack([np.eye(model.nv, 6), free])
+
+    def acceleration(q: Array, v: Array) -> Array:
+        load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + reference.losses(v)
+        return np.asarray(free @ np.linalg.solve(free.T @ mass_matrix(reference, q) @ free, -free.T @ load))
+
     h = stop / steps
     for _ in range(steps):
-        k1 = _rates(robot, y, base is not None)
-        k2 = _rates(robot, y + h / 2 * k1, base is not None)
-        k3 = _rates(robot, y + h / 2 * k2, base is not None)
-        k4 = _rates(robot, y + h * k3, base is not None)
-        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-    place, axes, _, _, p, _ = _parts(robot, y)
-    return np.concatenate([p, place, axes.ravel()]) if base else np.asarray(p)
+        a1 = acceleration(q, v)
+        v2 = v + h / 2 * a1
+        a2 = acceleration(pin.integrate(model, q, h / 2 * v), v2)
+        v3 = v + h / 2 * a2
+        a3 = acceleration(pin.integrate(model, q, h / 2 * v2), v3)
+        v4 = v + h * a3
+        a4 = acceleration(pin.integrate(model, q, h * v3), v4)
+        way = h / 6 * (v + 2 * v2 + 2 * v3 + v4)
+        q, v = pin.integrate(model, q, way), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        p = p + np.linalg.pinv(reference.projection) @ way
+    turned = pin.Quaternion(q[3:7]).toRotationMatrix()
+    return np.concatenate([p, q[:3], turned.ravel()]) if base else np.asarray(p)
 
 
 def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
@@ -137,50 +157,24 @@ def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
     return state
 
 
+def forward(reference: Reference, state: Configuration, load: Array) -> Array:
+    """Accelerations of axes without drives under a load on all joints: Bᵀ·H·B·a = -Bᵀ·load for independent axes."""
+    b = reference.projection
+    return np.asarray(np.linalg.solve(b.T @ mass_matrix(reference, state.q) @ b, -b.T @ load))
+
+
+def mass_matrix(reference: Reference, q: Array) -> Array:
+    """Of all joints; Pinocchio gives its upper half."""
+    upper = np.triu(reference.pin.crba(reference.model, reference.model.createData(), q))
+    return np.asarray(upper + np.triu(upper, 1).T)
+
+
 def link_place(robot: Robot, p: Array, link: str) -> Array:
     """Where the frame of a link is, the base at the origin."""
     pin, model = robot.reference.pin, robot.reference.model
     data = model.createData()
     pin.framesForwardKinematics(model, data, at_rest(robot, p, np.zeros(len(p))).q)
     return np.array(data.oMf[model.getFrameId(link, pin.BODY)].translation)
-
-
-def _base(robot: Robot, base: Base) -> tuple[Array, ...]:
-    """Place, attitude as a quaternion, velocity, and angular velocity in axes of the base."""
-    pin = robot.reference.pin
-    axes = pin.rpy.rpyToMatrix(*base.rpy)
-    attitude = pin.Quaternion(axes).coeffs()
-    return np.array(base.place), np.array(attitude), np.array(base.velocity), axes.T @ np.array(base.turning)
-
-
-def _parts(robot: Robot, y: Array) -> tuple[Array, ...]:
-    """Of a state: place, rotation matrix, velocity and angular velocity of the base; positions and speeds."""
-    attitude = robot.reference.pin.Quaternion(y[3:7] / np.linalg.norm(y[3:7]))
-    count = (len(y) - 13) // 2
-    return y[:3], np.array(attitude.toRotationMatrix()), y[7:10], y[10:13], y[13 : 13 + count], y[13 + count :]
-
-
-def _rates(robot: Robot, y: Array, floats: bool) -> Array:
-    """Of change of a state: (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives, as in `reference`.
-
-    Pinocchio resolves velocity v and spatial acceleration a of the base in it: R·(a + w x v) is that of its origin.
-    """
-    place, axes, velocity, turning, p, v = _parts(robot, y)
-    reference, state = robot.reference, at_rest(robot, p, v)
-    state.q[:3], state.q[3:7] = place, y[3:7] / np.linalg.norm(y[3:7])
-    state.v[:3], state.v[3:6] = axes.T @ velocity, turning
-    pin, model = reference.pin, reference.model
-    bias = pin.rnea(model, model.createData(), state.q, state.v, np.zeros(model.nv))
-    bias += reference.losses(state.v)
-    upper = np.triu(pin.crba(model, model.createData(), state.q))
-    inertia = upper + np.triu(upper, 1).T
-    free = np.hstack([np.eye(model.nv, 6), reference.projection]) if floats else reference.projection
-    found = np.linalg.solve(free.T @ inertia @ free, -free.T @ bias)
-    pushed = found[:6] if floats else np.zeros(6)
-    acceleration = axes @ (pushed[:3] + np.cross(turning, axes.T @ velocity))
-    x, w = y[3:6], y[6]
-    attitude = 0.5 * np.array([*(w * turning + np.cross(x, turning)), -x @ turning])
-    return np.concatenate([velocity, attitude, acceleration, pushed[3:], v, found[6 if floats else 0 :]])
 
 
 def _starts(start: Sequence[Course], turning: int) -> str:

@@ -1,4 +1,4 @@
-"""Random robots as snapshots, and random changes to them, valid before and after: for tests of comparisons."""
+"""Random changes to snapshots of robots, valid before and after: for tests of comparisons."""
 
 from __future__ import annotations
 
@@ -7,33 +7,19 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import Any
 
+from support import robots
+from support.robots import NAMES, SCALAR
 from urdfsync.domain import Import, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.robot import Mesh
-
-SCALAR = ("continuous", "revolute", "prismatic")
-TYPES = ("fixed", *SCALAR, "planar", "floating")
-NAMES = ("arm", "Arm", "ARM", "arm_link", "arm_joint", "wheel", "leg-1", "leg_1", "leg 1", "Links", "m", "x9", "x10")
-FILES = ("a.stl", "b.stl", "c.dae")
-GROUPS = ("visuals", "collisions")
-_INERTIA = {"ixx": 1.0, "iyy": 1.0, "izz": 1.0, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0}
-_SAFETY = {"k_velocity": 1.0, "k_position": 1.0, "soft_lower_limit": 0.0, "soft_upper_limit": 0.0}
-_SHAPES = (
-    {"kind": "box", "size": [1.0, 2.0, 3.0]},
-    {"kind": "sphere", "radius": 1.0},
-    {"kind": "cylinder", "radius": 1.0, "length": 2.0},
-    *({"kind": "mesh", "filename": name, "scale": [1.0, 1.0, 1.0]} for name in FILES),
-)
+from urdfsync.urdf.snapshot import to_snapshot
 
 Data = dict[str, Any]
 
 
 def version(random: Random) -> Version:
     """A robot of up to seven links, with everything that a URDF can say."""
-    snapshot: Data = {"name": "robot", "links": {}, "joints": {}, "extensions": {}}
-    for name in random.sample(NAMES, random.randint(1, 7)):
-        _add_leaf(snapshot, random, name)
-    return Version(snapshot, _imports(random))
+    return Version(_snapshot(random), _imports(random))
 
 
 def mutated(old: Version, random: Random, count: int) -> Version:
@@ -71,47 +57,24 @@ def rename(snapshot: Data, part: str, old: str, new: str) -> None:
                 holder[key] = new
 
 
-# Parts of a robot
+def _snapshot(random: Random) -> Data:
+    """A random robot as data that may be changed."""
+    return copy.deepcopy(dict(to_snapshot(robots.dressed(robots.random_robot(random), random))))
+
+
+def _donor(random: Random) -> Data:
+    """Another robot, from which parts can be taken."""
+    return _snapshot(Random(random.random()))
 
 
 def _imports(random: Random) -> Mapping[str, Import]:
     """Some meshes found, some not, some without a hull."""
     found = {}
-    for file in FILES:
+    for file in robots.FILES:
         if size := random.choice((None, 1.0, 2.0)):
             facts = {"bounds": [[0.0, 0.0, 0.0], [size] * 3], "hull": random.choice(([], [[size, 0.0, 0.0]]))}
             found[lookup.key(Mesh(file))] = Import(f"Resources/{file}", str(facts), str(facts), 1, facts)
     return found
-
-
-def _link(random: Random) -> Data:
-    link: Data = {group: [_shape(group, random) for _ in range(random.choice((0, 0, 1, 2)))] for group in GROUPS}
-    inertial = {"mass": 1.0, "origin": _origin(random), "inertia": dict(_INERTIA)}
-    return link | random.choice(({}, {"inertial": inertial}))
-
-
-def _shape(group: str, random: Random) -> Data:
-    geometry = copy.deepcopy(random.choice((*_SHAPES, *_SHAPES[3:])))
-    shape = {"geometry": geometry, "origin": _origin(random), "name": random.choice(("", "", "cover"))}
-    color = {"rgba": list(random.choice(([1.0, 0.0, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0])))}
-    look = random.choice((None, {}, color, {"texture": "t.png"}))
-    return shape if group == "collisions" or look is None else {**shape, "material": {"name": "red"} | look}
-
-
-def _joint(random: Random) -> Data:
-    """All of a joint but its place in the tree."""
-    blocks = {
-        "limit": {"lower": -1.0, "upper": 1.0, **random.choice(({}, {"effort": 2.0}))},
-        "dynamics": {"damping": 0.0, "friction": 0.0},
-        "calibration": random.choice(({}, {"rising": 0.5})),
-        "safety_controller": dict(_SAFETY),
-    }
-    joint = {"type": random.choice(TYPES), "origin": _origin(random), "axis": [0.0, 0.0, 1.0]}
-    return joint | {name: block for name, block in blocks.items() if random.random() < 0.4}
-
-
-def _origin(random: Random) -> Data:
-    return {"xyz": [float(random.randint(0, 2)), 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
 
 
 def _leaders(snapshot: Data, follower: str) -> list[str]:
@@ -153,10 +116,10 @@ def _numbers(value: Any) -> list[tuple[Any, Any]]:
 
 
 def _take_over(snapshot: Data, random: Random) -> None:
-    """An element gets, or loses, something that another one has or lacks: a type, limits, inertia, shapes."""
-    part, other = random.choice((("links", _link(random)), ("joints", _joint(random))))
-    if snapshot[part]:
-        element = random.choice(list(snapshot[part].values()))
+    """An element gets, or loses, something that one of another robot has or lacks: a type, limits, inertia, shapes."""
+    part, donor = random.choice(("links", "joints")), _donor(random)
+    if snapshot[part] and donor[part]:
+        element, other = (random.choice(list(robot[part].values())) for robot in (snapshot, donor))
         key = random.choice(sorted((element.keys() | other.keys()) - {"parent", "child", "mimic", "actuated"}))
         element.pop(key, None)
         element |= {key: other[key]} if key in other else {}
@@ -179,18 +142,19 @@ def _toggle_drive(snapshot: Data, random: Random) -> None:
 
 
 def _change_shapes(snapshot: Data, random: Random) -> None:
-    group = random.choice(GROUPS)
-    shapes, new = random.choice(list(snapshot["links"].values()))[group], _shape(group, random)
+    group = random.choice(("visuals", "collisions"))
+    shapes = random.choice(list(snapshot["links"].values()))[group]
     place = random.randrange(len(shapes) + 1)
+    others = [shape for link in _donor(random)["links"].values() for shape in link[group]]
     match random.choice(("insert", "drop", "shuffle", "geometry", "name", "material", "material")):
         case "insert":
-            shapes.insert(place, new)
+            shapes[place:place] = others[:1]
         case "drop":
             del shapes[place : place + 1]
         case "shuffle":
             random.shuffle(shapes)
         case what:
-            for shape in shapes[place : place + 1]:
+            for shape, new in zip(shapes[place : place + 1], others, strict=False):
                 shape.pop(what, None)
                 shape |= {what: new[what]} if what in new else {}
 
@@ -201,16 +165,17 @@ def _rename(snapshot: Data, random: Random) -> None:
         rename(snapshot, part, random.choice(list(snapshot[part])), new)
 
 
-def _add_leaf(snapshot: Data, random: Random, name: str = "") -> None:
-    free = [name] if name else [name for name in NAMES if name not in snapshot["links"]]
-    if free:
-        child, others = random.choice(free), list(snapshot["links"])
-        snapshot["links"][child] = _link(random)
-        if others:
-            joint = random.choice([name for name in NAMES if name not in snapshot["joints"]])
-            snapshot["joints"][joint] = _joint(random) | {"parent": random.choice(others), "child": child}
-            if random.random() < 0.4 and (leaders := _leaders(snapshot, joint)):
-                snapshot["joints"][joint]["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
+def _add_leaf(snapshot: Data, random: Random) -> None:
+    """A link and a joint of another robot, which is a leaf here."""
+    donor, links = _donor(random), list(snapshot["links"])
+    for name, joint in donor["joints"].items():
+        if name not in snapshot["joints"] and joint["child"] not in links:
+            joint.pop("mimic", None)
+            snapshot["links"][joint["child"]] = donor["links"][joint["child"]]
+            snapshot["joints"][name] = {**joint, "parent": random.choice(links)}
+            if random.random() < 0.4 and (leaders := _leaders(snapshot, name)):
+                snapshot["joints"][name]["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
+            return
 
 
 def _remove_leaf(snapshot: Data, random: Random) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from support import urdfs
 from support.modelica import Run, Task, execute
 from support.packages import Package, generate
 from urdfsync.check.results import agrees, largest
@@ -14,7 +15,6 @@ from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import free_joints, motion, probe
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
@@ -89,9 +89,7 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviatio
 
 def pinocchio_series(urdf: str) -> dict[str, list[float]]:
     """What a simulation of the probe would give if it were Pinocchio's; free joints stay as they begin."""
-    found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
-    assert found is not None
-    skeleton = KinematicTree.of(found)
+    skeleton = KinematicTree.of(urdfs.parsed(urdf))
     axes, free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
     names = [[joint.name for joint in joints] for joints in (axes, free)]
     reference = Reference(read(urdf.encode(), "robot.urdf"), *names)

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from urdfsync.domain import Version
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.snapshot import to_snapshot
+
 
 def robot(*elements: str, name: str = "own") -> str:
     """A URDF of links and joints."""
@@ -20,6 +25,11 @@ def link(name: str, mass: float | None = None, *, center: str = "0.02 -0.05 0.1"
     return f'<link name="{name}"><inertial>{inertial}</inertial></link>'
 
 
+def links(**masses: float | None) -> list[str]:
+    """Links by their names, with these masses."""
+    return [link(name, mass) for name, mass in masses.items()]
+
+
 def joint(
     name: str,
     kind: str,
@@ -31,11 +41,17 @@ def joint(
     axis: str = "",
     inside: Iterable[str] = (),
 ) -> str:
-    """A joint away from its parent and turned against it; `inside` holds further elements."""
+    """A joint away from its parent and turned against it; `inside` holds further elements.
+
+    A joint that needs limits has wide ones, if `inside` has none.
+    """
     parts = [f'<origin xyz="{xyz}" rpy="{rpy}"/>', f'<parent link="{parent}"/>', f'<child link="{child}"/>']
     if axis:
         parts.append(f'<axis xyz="{axis}"/>')
-    return f'<joint name="{name}" type="{kind}">{"".join([*parts, *inside])}</joint>'
+    parts += inside
+    if kind in ("revolute", "prismatic") and not any(part.startswith("<limit") for part in parts):
+        parts.append(limit())
+    return f'<joint name="{name}" type="{kind}">{"".join(parts)}</joint>'
 
 
 def limit(lower: float = -3, upper: float = 3, velocity: float = 10, effort: float = 1000) -> str:
@@ -53,3 +69,15 @@ def mimic(leader: str, multiplier: float | None = None, offset: float | None = N
     numbers = {"multiplier": multiplier, "offset": offset}
     attributes = "".join(f' {key}="{value!r}"' for key, value in numbers.items() if value is not None)
     return f'<mimic joint="{leader}"{attributes}/>'
+
+
+def parsed(urdf: str) -> Robot:
+    """The robot of a URDF without errors."""
+    found = read_robot(urdf.encode(), "own.urdf", cross_check=False)
+    assert found.robot is not None, found.diagnostics
+    return found.robot
+
+
+def version(*elements: str) -> Version:
+    """A robot of elements, as it is recorded."""
+    return Version(to_snapshot(parsed(robot(*elements))))

@@ -63,16 +63,13 @@ SILENT = [joint("wheel"), *CART[1:7], *CART[9:]]
 """Without any drive."""
 
 
-@pytest.mark.parametrize(
-    ("joints", "names", "driven", "passive"),
-    [
-        pytest.param(CART, None, DRIVEN, {"caster"}, id="others have a drive"),
-        pytest.param(SILENT, None, {*DRIVEN, "caster"}, set(), id="nobody has one"),
-        pytest.param(CART, (), set(), {"caster"}, id="none is asked for"),
-        pytest.param(CART, ("caster", "caster", "mast"), {"caster", "mast"}, {"caster"}, id="two are asked for"),
-        pytest.param(CART, ("mast", "slave", "weld", "glide", "fly", "gone"), {"mast"}, {"caster"}, id="no axes"),
-    ],
-)
+@pytest.mark.parametrize(("joints", "names", "driven", "passive"), [
+    pytest.param(CART, None, DRIVEN, {"caster"}, id="others have a drive"),
+    pytest.param(SILENT, None, {*DRIVEN, "caster"}, set(), id="nobody has one"),
+    pytest.param(CART, (), set(), {"caster"}, id="none is asked for"),
+    pytest.param(CART, ("caster", "caster", "mast"), {"caster", "mast"}, {"caster"}, id="two are asked for"),
+    pytest.param(CART, ("mast", "slave", "weld", "glide", "fly", "gone"), {"mast"}, {"caster"}, id="no axes"),
+])  # fmt: skip
 def test_driven_and_passive_joints(
     joints: Sequence[Joint], names: tuple[str, ...] | None, driven: set[str], passive: set[str]
 ) -> None:

@@ -9,8 +9,8 @@ import msgspec
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.urdfs import parsed
 
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, Link, Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -57,18 +57,12 @@ def sorted_by_name(robot: Robot) -> Robot:
     )
 
 
-def read(text: str) -> Robot:
-    robot = read_robot(text.encode(), "a.urdf", cross_check=False).robot
-    assert robot is not None
-    return robot
-
-
 def test_a_snapshot_as_an_example() -> None:
     zero = {"xyz": [0.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
     sphere = {"kind": "sphere", "radius": 1.0}
     red = {"name": "red", "rgba": [1.0, 0.0, 0.0, 1.0]}
     inertia = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
-    assert to_snapshot(read(ARM)) == {
+    assert to_snapshot(parsed(ARM)) == {
         "name": "arm",
         "links": {
             "a": {"visuals": [], "collisions": []},
@@ -101,17 +95,14 @@ def test_nothing_is_lost_on_the_way_through_json(robot: Robot) -> None:
     assert json.dumps(to_snapshot(from_snapshot(written))) == json.dumps(snapshot)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        ARM.replace("\n", "\n\n<!-- c -->"),
-        ARM.replace('xyz="1 2 3"', "rpy = '0 0  -0'\n xyz=\" 1.0 2e0\t+3 \""),
-        ARM.replace("<gazebo/>", "<gazebo >\n  </gazebo>"),
-        ARM.replace("\n", "\r\n"),
-    ],
-)
+@pytest.mark.parametrize("text", [
+    ARM.replace("\n", "\n\n<!-- c -->"),
+    ARM.replace('xyz="1 2 3"', "rpy = '0 0  -0'\n xyz=\" 1.0 2e0\t+3 \""),
+    ARM.replace("<gazebo/>", "<gazebo >\n  </gazebo>"),
+    ARM.replace("\n", "\r\n"),
+])  # fmt: skip
 def test_what_is_no_change_at_all(text: str) -> None:
-    assert json.dumps(to_snapshot(read(text))) == json.dumps(to_snapshot(read(ARM)))
+    assert json.dumps(to_snapshot(parsed(text))) == json.dumps(to_snapshot(parsed(ARM)))
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,7 @@ from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
 PLANAR = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("puck", 1),
-    urdfs.link("lever", 1),
+    *urdfs.links(base=1, puck=1, lever=1),
     urdfs.joint("glide", "planar", "base", "puck", axis="0 0 1"),
     urdfs.joint("swing", "continuous", "puck", "lever", axis="0 0 1"),
 )
@@ -22,16 +20,13 @@ FREE_ROOT = urdfs.robot(
     urdfs.link("world"), urdfs.link("drone", 1), urdfs.joint("fly", "floating", "world", "drone"), name="drone"
 )
 FREE_INSIDE = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("boat", 1),
-    urdfs.link("mast", 1),
+    *urdfs.links(base=1, boat=1, mast=1),
     urdfs.joint("drift", "floating", "base", "boat"),
     urdfs.joint("lean", "continuous", "base", "mast", axis="1 0 0"),
 )
 STATUE = urdfs.robot(urdfs.link("base", 1), urdfs.link("head", 1), urdfs.joint("neck", "fixed", "base", "head"))
 LIGHT = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("arm", 1),
+    *urdfs.links(base=1, arm=1),
     *map(urdfs.link, ("hand", "finger", "knob", "dial")),
     urdfs.link("thumb", 1),
     urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0"),
@@ -46,9 +41,7 @@ FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
 )
 TWINS = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("ring"),
-    urdfs.link("arm", 1),
+    *urdfs.links(base=1, ring=None, arm=1),
     urdfs.joint("first", "continuous", "base", "ring", axis="0.6 0 0.8"),
     urdfs.joint("second", "continuous", "ring", "arm", axis="-0.6 0 -0.8", xyz="0.3 0 0.4", rpy="0 0 0"),
 )
@@ -113,17 +106,13 @@ def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
 
 DRIVE = '<transmission name="t"><joint name="wheel"/></transmission>'
 CART = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("tyre", 1),
-    urdfs.link("roller"),
+    *urdfs.links(base=1, tyre=1, roller=None),
     urdfs.joint("wheel", "continuous", "base", "tyre", axis="0 1 0", xyz="0 0 0.1"),
     urdfs.joint("caster", "continuous", "base", "roller", axis="0 0 1"),
 ).replace("</robot>", f"{DRIVE}</robot>")
 """Going by the source, the wheel is driven and the caster is passive."""
 CLUTCH = urdfs.robot(
-    urdfs.link("base", 1),
-    urdfs.link("ring"),
-    urdfs.link("arm", 1),
+    *urdfs.links(base=1, ring=None, arm=1),
     urdfs.joint("first", "continuous", "base", "ring", axis="0 0 1"),
     urdfs.joint("second", "continuous", "ring", "arm", axis="0 0 1", xyz="0 0 0.3", rpy="0 0 0"),
 )

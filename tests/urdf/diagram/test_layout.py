@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
 import itertools
 import random
 import sys
@@ -10,15 +9,16 @@ from collections import defaultdict
 from types import FrameType
 from typing import TypeAlias
 
+import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.skeletons import skeleton
+from support.robots import random_robot, tree
 
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Mimic, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType
 
 PORTS = {
     "frame_a": (-1.0, 0.0),
@@ -28,33 +28,23 @@ PORTS = {
     "leader": (-1.0, 0.0),
     "follower": (1.0, 0.0),
 }
-TYPES: tuple[JointType, ...] = ("fixed", "revolute", "prismatic", "planar")
+TYPES: tuple[JointType, ...] = ("fixed", "fixed", "revolute", "revolute", "prismatic", "continuous", "planar")
 
 Segment: TypeAlias = tuple[Point, Point]
 
 
-def random_robot(random_: random.Random, links: int, depth: int, mimics: float) -> tuple[KinematicTree, Connectors]:
-    """A random tree: every joint starts at one of the last `depth` links; followers and leaders in any order."""
-    count = links - 1
-    types = random_.choices(TYPES, (2, 5, 2, 1), k=count)
-    movers = [index for index in range(count) if types[index] in MOTION_KINDS]
-    rank = {mover: place for place, mover in enumerate(random_.sample(movers, len(movers)))}
-    joints = []
-    for index, kind in enumerate(types):
-        mimic = None
-        if index in rank and random_.random() < mimics:
-            choice = [leader for leader in movers if rank[leader] < rank[index]]
-            mimic = Mimic(f"j{random_.choice(choice)}") if choice else None
-        parent = random_.randrange(max(0, index + 1 - depth), index + 1)
-        joints.append(Joint(f"j{index}", kind, f"l{parent}", f"l{index + 1}", mimic=mimic))
-    tree = KinematicTree.of(Robot("r", tuple(Link(f"l{index}") for index in range(links)), tuple(joints)))
-    framed = tuple(f"l{index}" for index in range(links) if random_.random() < mimics / 2)
+def random_names(random_: random.Random, links: int, reach: int, mimics: float) -> tuple[KinematicTree, Connectors]:
+    """A random robot; some of its inner links have frames, too."""
+    names = [f"l{index}" for index in range(links)]
+    tree = KinematicTree.of(random_robot(random_, TYPES, names=names, mimics=mimics, reach=reach))
+    framed = tuple(name for name in names if random_.random() < mimics / 2)
     return tree, connector_names(tree, Options(frames=framed))
 
 
 def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
     """What the robot model has to connect, said independently of the layout; here components have URDF's names."""
     ends = {("frame_a", f"{tree.links[0].name}.frame_a")}
+    moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
     ends |= {(f"{link}.frame_a", frame) for link, frame in names.frames.items()}
     for joint in tree.joints:
         ends |= {
@@ -63,10 +53,9 @@ def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
         }
         if joint.type in MOTION_KINDS and joint.mimic:
             coupling = f"{joint.name}Mimic"
-            ends |= {
-                (f"{coupling}.leader", f"{joint.mimic.joint}.axis"),
-                (f"{coupling}.follower", f"{joint.name}.axis"),
-            }
+            ends |= {(f"{coupling}.follower", f"{joint.name}.axis")}
+            if joint.mimic.joint in moving:
+                ends |= {(f"{coupling}.leader", f"{joint.mimic.joint}.axis")}
         elif joint.type in MOTION_KINDS:
             ends |= {(f"{joint.name}.{end}", f"{joint.name}{end.capitalize()}") for end in ("axis", "support")}
     return ends
@@ -83,20 +72,12 @@ def port(diagram: Diagram, end: str) -> tuple[float, float]:
 
 
 def touching(placements: dict[str, Placement]) -> list[tuple[str, str]]:
-    """Pairs of components that overlap or touch: a sweep from left to right over the rectangles' edges."""
-    edges = [(place.x1, 0, name) for name, place in placements.items()]
-    edges += [(place.x2, 1, name) for name, place in placements.items()]
-    active: list[tuple[int, int, str]] = []
+    """Pairs of components that overlap or touch."""
+    names, (left, low, right, high) = list(placements), np.array(list(placements.values())).T
     found = []
-    for _, closes, name in sorted(edges):
-        span = (placements[name].y1, placements[name].y2, name)
-        at = bisect.bisect_left(active, span)
-        if closes:
-            active.remove(span)
-            continue
-        found += [(other[2], name) for other in active[max(0, at - 1) : at] if other[1] >= span[0]]
-        found += [(other[2], name) for other in active[at : at + 1] if other[0] <= span[1]]
-        active.insert(at, span)
+    for index, name in enumerate(names):
+        others = (left <= right[index]) & (right >= left[index]) & (low <= high[index]) & (high >= low[index])
+        found += [(name, names[other]) for other in np.flatnonzero(others) if other != index]
     return found
 
 
@@ -167,8 +148,8 @@ def steps(tree: KinematicTree, names: Connectors) -> int:
 
 def test_one_joint_in_full() -> None:
     """frame_a at (-100, 0), base, shoulder, arm, its frame: joints on the spine, links below, connectors above."""
-    tree = skeleton(Joint("shoulder", "revolute", "base", "arm"))
-    diagram = layout(tree, connector_names(tree, Options()))
+    skeleton = tree(Joint("shoulder", "revolute", "base", "arm"))
+    diagram = layout(skeleton, connector_names(skeleton, Options()))
     assert diagram.extent == (-116, -44, 36, 34)
     assert diagram.placements == {
         "frame_a": Placement(-116, -16, -84, 16),
@@ -191,8 +172,8 @@ def test_one_joint_in_full() -> None:
 
 @settings(deadline=None, max_examples=200)
 @given(st.randoms(use_true_random=False), st.integers(1, 40), st.integers(1, 40), st.sampled_from([0.0, 0.2, 0.8]))
-def test_any_robot_is_drawn_well(random_: random.Random, links: int, depth: int, mimics: float) -> None:
-    tree, names = random_robot(random_, links, depth, mimics)
+def test_any_robot_is_drawn_well(random_: random.Random, links: int, reach: int, mimics: float) -> None:
+    tree, names = random_names(random_, links, reach, mimics)
     diagram = layout(tree, names)
     assert set(diagram.lines) == connections(tree, names)
     inner = {link.name for link in tree.links} | {joint.name for joint in tree.joints} | {*names.couplings.values()}
@@ -217,11 +198,11 @@ def test_any_robot_is_drawn_well(random_: random.Random, links: int, depth: int,
 
 def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
     """3000 links: no recursion, and no work that grows with their square."""
-    for depth in (1, 40, 3000):
-        tree, names = random_robot(random.Random(depth), 3000, depth, 0.0)
+    for reach in (1, 40, 3000):
+        tree, names = random_names(random.Random(reach), 3000, reach, 0.0)
         diagram = layout(tree, names)
         assert set(diagram.lines) == connections(tree, names)
         assert touching(dict(diagram.placements)) == []
         assert max(len(points) for _, points in diagram.lines.values()) <= 7
-        small, large = (steps(*random_robot(random.Random(1), links, depth, 0.2)) for links in (100, 800))
+        small, large = (steps(*random_names(random.Random(1), links, reach, 0.2)) for links in (100, 800))
         assert large < 10 * small

@@ -4,26 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import support.urdfs as urdfs
-from support.packages import read
+from support.urdfs import joint, links, version
 
 from urdfsync.domain import ElementKey, Target, Version
 from urdfsync.urdf.diff.interface import interface
 from urdfsync.urdf.options import Options
 
 TARGET = Target("Robot", "Robot")
-STAR = tuple(urdfs.link(name, 1.0) for name in ("base", "a", "b", "c"))
-
-
-def version(*elements: str) -> Version:
-    snapshot = read(urdfs.robot(*elements).encode()).snapshot
-    assert snapshot is not None
-    return Version(snapshot)
-
-
-def joint(name: str, kind: str, parent: str, child: str, *inside: str) -> str:
-    limit = ['<limit lower="0" upper="1" effort="1" velocity="1"/>'] if kind in ("revolute", "prismatic") else []
-    return urdfs.joint(name, kind, parent, child, inside=[*limit, *inside])
+STAR = links(base=1.0, a=1.0, b=1.0, c=1.0)
 
 
 def changed(

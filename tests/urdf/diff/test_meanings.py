@@ -196,14 +196,11 @@ def mesh_change(
         yield str(change), change.kind, change.change_class
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "kind", "reach"),
-    [
-        (import_("a"), import_("b"), CHANGED, PARAMETER),
-        (None, import_("a"), ADDED, STRUCTURAL),
-        (import_("a"), None, REMOVED, STRUCTURAL),
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "kind", "reach"), [
+    (import_("a"), import_("b"), CHANGED, PARAMETER),
+    (None, import_("a"), ADDED, STRUCTURAL),
+    (import_("a"), None, REMOVED, STRUCTURAL),
+])  # fmt: skip
 def test_the_content_of_a_mesh_is_a_parameter_its_presence_structure(
     old: Import | None, new: Import | None, kind: ChangeKind, reach: ChangeClass
 ) -> None:
@@ -259,64 +256,48 @@ def tags(*links: str) -> list[str]:
 
 def said(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> set[str]:
     """The changes from one robot to another: with both values where a drive changed."""
-    one, two = (read(urdfs.robot(*elements).encode()).snapshot for elements in (old, new))
-    assert one is not None
-    assert two is not None
-    found = compare(Version(one, {}), Version(two, {}), DOMAIN, options).changes
+    found = compare(urdfs.version(*old), urdfs.version(*new), DOMAIN, options).changes
     return {
         f"{each}: {f'{each.old} → {each.new}' if each.path[-1] == 'drive' else each.kind}, {each.change_class}"
         for each in found
     }
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "expected"),
-    [
-        pytest.param(
-            CASTERS, (*CASTERS, WHEEL),
-            {"joint caster / drive: driven → passive, structural", "robot / extensions: added, unmodelled"},
-            id="the first drive makes casters passive",
-        ),
-        pytest.param(
-            (*CASTERS, WHEEL), (*CASTERS, WHEEL, MAST), {"robot / transmission mast drive: added, unmodelled"},
-            id="a joint that is driven anyway",
-        ),
-        pytest.param(
-            (*CASTERS, WHEEL), (*CASTERS, WHEEL.replace("</trans", "<actuator name='m'/></trans")),
-            {"robot / transmission wheel drive: changed, unmodelled"},
-            id="another text about a drive",
-        ),
-        pytest.param(
-            (*CASTERS, WHEEL), with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"},
-            id="a caster that is fixed has no drive to speak of",
-        ),
-        pytest.param(
-            (*CASTERS, WHEEL), with_caster('"two"/>', '"two"/><mimic joint="wheel"/>'),
-            {"joint caster / mimic: added, structural"},
-            id="nor has one that follows",
-        ),
-        pytest.param(
-            (*CASTERS, WHEEL), (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
-            {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
-            id="a rename that the transmission has missed",
-        ),
-        pytest.param(
-            (*PAIR, *tags("b")), (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"},
-            id="extensions are told apart by what they are about",
-        ),
-        pytest.param(
-            (*PAIR, "<gazebo><a/></gazebo>"), (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>"),
-            {"robot / gazebo (2): added, unmodelled"},
-            id="or by their number",
-        ),
-        pytest.param(
-            ('<link name="a"/>', EYE, PAIR[1]),
-            ('<link name="a"/>', EYE.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"')),
-            {"link b: renamed, structural"},
-            id="and go with their element",
-        ),
-    ],
-)  # fmt: skip
+DRIVES = {
+    "the first drive makes casters passive": (
+        CASTERS,
+        (*CASTERS, WHEEL),
+        {"joint caster / drive: driven → passive, structural", "robot / extensions: added, unmodelled"},
+    ),
+    "a joint that is driven anyway": ((*CASTERS, WHEEL),
+        (*CASTERS, WHEEL, MAST), {"robot / transmission mast drive: added, unmodelled"}),
+    "another text about a drive": (
+        (*CASTERS, WHEEL),
+        (*CASTERS, WHEEL.replace("</trans", "<actuator name='m'/></trans")),
+        {"robot / transmission wheel drive: changed, unmodelled"},
+    ),
+    "a caster that is fixed has no drive to speak of": ((*CASTERS, WHEEL),
+        with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"}),
+    "nor has one that follows": ((*CASTERS, WHEEL),
+        with_caster('"two"/>', '"two"/><mimic joint="wheel"/>'), {"joint caster / mimic: added, structural"}),
+    "a rename that the transmission has missed": (
+        (*CASTERS, WHEEL),
+        (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
+        {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
+    ),
+    "extensions are told apart by what they are about": ((*PAIR, *tags("b")),
+        (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"}),
+    "or by their number": ((*PAIR, "<gazebo><a/></gazebo>"),
+        (*PAIR, "<gazebo><a/></gazebo>", "<gazebo><b/></gazebo>"), {"robot / gazebo (2): added, unmodelled"}),
+    "and go with their element": (
+        ('<link name="a"/>', EYE, PAIR[1]),
+        ('<link name="a"/>', EYE.replace('"b"', '"head"'), PAIR[1].replace('"b"', '"head"')),
+        {"link b: renamed, structural"},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "expected"), DRIVES.values(), ids=DRIVES)
 def test_drives_and_extensions(old: Sequence[str], new: Sequence[str], expected: set[str]) -> None:
     assert said(old, new) == expected
 

@@ -62,17 +62,14 @@ def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
     return data
 
 
-@pytest.mark.parametrize(
-    "names",
-    [
-        {("link", "upper"): "arm"},
-        {("joint", "elbow"): "bend"},
-        {("link", "base"): "foot"},
-        {("joint", "shoulder"): "s", ("link", "upper"): "u"},
-        {("joint", "shoulder"): "s", ("link", "upper"): "u", ("joint", "elbow"): "e", ("link", "lower"): "l"},
-        {("link", "base"): "b", ("link", "upper"): "u", ("link", "lower"): "l"},
-    ],
-)
+@pytest.mark.parametrize("names", [
+    {("link", "upper"): "arm"},
+    {("joint", "elbow"): "bend"},
+    {("link", "base"): "foot"},
+    {("joint", "shoulder"): "s", ("link", "upper"): "u"},
+    {("joint", "shoulder"): "s", ("link", "upper"): "u", ("joint", "elbow"): "e", ("link", "lower"): "l"},
+    {("link", "base"): "b", ("link", "upper"): "u", ("link", "lower"): "l"},
+])  # fmt: skip
 def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str]) -> None:
     old = snapshot(*ARM)
     new = with_names(old, names)

@@ -12,13 +12,10 @@ from support import urdfs
 
 from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.source import read_robot
 
 
 def found(urdf: str, free: set[str] | None = None) -> list[str]:
-    robot = read_robot(urdf.encode(), "own.urdf").robot
-    assert robot is not None
-    return list(find_massless_joints(KinematicTree.of(robot), free))
+    return list(find_massless_joints(KinematicTree.of(urdfs.parsed(urdf)), free))
 
 
 def is_singular(urdf: str) -> bool:
@@ -49,13 +46,12 @@ def test_joints_on_one_axis(
     kind: str, axis: str, xyz: str, next_kind: str, next_axis: str, mass: float | None, expected: list[str]
 ) -> None:
     """Somewhere on a moving arm, and followed by a third joint that has a mass of its own."""
-    inside = [urdfs.limit()]
     urdf = urdfs.robot(
         *(urdfs.link(name, one) for name, one in {"base": 5, "arm": 2, "ring": mass, "tool": 1, "tip": 0.5}.items()),
-        urdfs.joint("lift", "continuous", "base", "arm", axis="0.6 0 0.8", inside=inside),
-        urdfs.joint("first", kind, "arm", "ring", axis=axis, inside=inside),
-        urdfs.joint("second", next_kind, "ring", "tool", axis=next_axis, xyz=xyz, rpy="0 0 0.7", inside=inside),
-        urdfs.joint("third", "revolute", "tool", "tip", axis="0 1 0", inside=inside),
+        urdfs.joint("lift", "continuous", "base", "arm", axis="0.6 0 0.8"),
+        urdfs.joint("first", kind, "arm", "ring", axis=axis),
+        urdfs.joint("second", next_kind, "ring", "tool", axis=next_axis, xyz=xyz, rpy="0 0 0.7"),
+        urdfs.joint("third", "revolute", "tool", "tip", axis="0 1 0"),
     )
     assert found(urdf) == expected
     assert is_singular(urdf) == bool(expected)
@@ -92,8 +88,8 @@ def test_whoever_is_named_makes_the_mass_matrix_singular(
 ) -> None:
     links, moving = [urdfs.link("link 0", 1)], []
     for i, (kind, axis, xyz, rpy, mass, branch) in enumerate(joints, 1):
-        parent, limits = f"link {max(0, i - 1 - branch)}", [urdfs.limit()]
+        parent = f"link {max(0, i - 1 - branch)}"
         links.append(urdfs.link(f"link {i}", mass))
-        moving.append(urdfs.joint(f"joint {i}", kind, parent, f"link {i}", axis=axis, xyz=xyz, rpy=rpy, inside=limits))
+        moving.append(urdfs.joint(f"joint {i}", kind, parent, f"link {i}", axis=axis, xyz=xyz, rpy=rpy))
     urdf = urdfs.robot(*links, *moving)
     assert is_singular(urdf) or not found(urdf)

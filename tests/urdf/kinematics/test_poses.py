@@ -12,7 +12,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from support.trees import NUMBERS, SCALAR, robots
+from support.robots import SCALAR, robots, urdf
 
 from urdfsync.urdf.kinematics.poses import (
     Pose,
@@ -28,34 +28,16 @@ from urdfsync.urdf.robot import (
     Link,
     Mimic,
     Robot,
-    Vector,
 )
 
 Array = NDArray[np.float64]
+NUMBERS = st.floats(-3, 3)
 
 
 def homogeneous(value: Pose) -> Array:
     result = np.eye(4)
     result[:3, :3], result[:3, 3] = value
     return result
-
-
-def text(vector: Vector) -> str:
-    return " ".join(map(repr, vector))
-
-
-def urdf(robot: Robot) -> str:
-    """A URDF with the poses and axes of the robot."""
-    lines = [f'<link name="{link.name}"/>' for link in robot.links]
-    for joint in robot.joints:
-        kind = "continuous" if joint.type == "revolute" else joint.type
-        inside = (
-            f'<origin xyz="{text(joint.origin.xyz)}" rpy="{text(joint.origin.rpy)}"/><axis xyz="{text(joint.axis)}"/>'
-        )
-        ends = f'<parent link="{joint.parent}"/><child link="{joint.child}"/>'
-        limit = '<limit lower="-9" upper="9" effort="1" velocity="1"/>'
-        lines.append(f'<joint name="{joint.name}" type="{kind}">{inside}{ends}{limit}</joint>')
-    return "\n".join(['<robot name="r">', *lines, "</robot>"])
 
 
 def configuration(model: pin.Model, robot: Robot, positions: dict[str, float]) -> Array:
@@ -73,7 +55,7 @@ def configuration(model: pin.Model, robot: Robot, positions: dict[str, float]) -
 
 
 @settings(deadline=None)
-@given(robots((*SCALAR, "fixed"), mimics=False), st.lists(NUMBERS, min_size=7, max_size=7))
+@given(robots(("continuous", "prismatic", "fixed"), mimics=0.0), st.lists(NUMBERS, min_size=7, max_size=7))
 def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) -> None:
     positions = {joint.name: value for joint, value in zip(robot.joints, values, strict=False)}
     with warnings.catch_warnings():

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hypothesis import given
-from hypothesis import strategies as st
-from support.trees import robots
+from support.robots import robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
 
 
 def walk(robot: Robot, link: str) -> Iterator[Joint]:
@@ -22,37 +21,11 @@ def walk(robot: Robot, link: str) -> Iterator[Joint]:
 
 @given(robots())
 def test_links_and_joints_stand_depth_first(robot: Robot) -> None:
+    """However they stand in the file."""
     skeleton = KinematicTree.of(robot)
     (root,) = {link.name for link in robot.links} - {joint.child for joint in robot.joints}
     assert list(skeleton.joints) == list(walk(robot, root))
     assert [link.name for link in skeleton.links] == [root, *(joint.child for joint in skeleton.joints)]
-
-
-@given(robots(), st.randoms(use_true_random=False))
-def test_the_order_of_elements_makes_no_difference(robot: Robot, random: st.DataObject) -> None:
-    links, joints = list(robot.links), list(robot.joints)
-    random.shuffle(links)  # type: ignore[attr-defined]
-    random.shuffle(joints)  # type: ignore[attr-defined]
-    assert KinematicTree.of(Robot("shuffled", tuple(links), tuple(joints))) == KinematicTree.of(robot)
-
-
-@given(robots())
-def test_every_joint_with_an_axis_is_driven_or_follows(robot: Robot) -> None:
-    skeleton = KinematicTree.of(robot)
-    driven = [joint.name for motion in ("rotational", "translational") for joint in skeleton.axes(motion)]
-    following = [joint.name for joint, _ in skeleton.followers()]
-    assert sorted(driven + following) == sorted(joint.name for joint in robot.joints if joint.type in MOTION_KINDS)
-    grouped = skeleton.followers_by_leader()
-    assert sorted(joint.name for group in grouped.values() for joint, _ in group) == sorted(following)
-    assert all(mimic.joint == leader for leader, group in grouped.items() for _, mimic in group)
-
-
-@given(robots())
-def test_leaders_come_before_those_that_follow_them(robot: Robot) -> None:
-    order = KinematicTree.of(robot).leaders_first()
-    place = {joint.name: number for number, joint in enumerate(order)}
-    assert sorted(place) == sorted(joint.name for joint in robot.joints)
-    assert all(place[joint.mimic.joint] < place[joint.name] for joint in order if joint.mimic)
 
 
 def test_a_chain_may_be_longer_than_python_recurses() -> None:

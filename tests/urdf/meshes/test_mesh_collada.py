@@ -63,15 +63,12 @@ def test_box_has_twelve_triangles_that_look_outwards() -> None:
     assert bounds(corners.reshape(-1, 3)) == [[0, 0, 0], [1, 2, 3]]
 
 
-@pytest.mark.parametrize(
-    ("asset", "metres"),
-    [
-        ('<unit name="inch" meter="0.0254"/>', 0.0254),
-        ('<unit name="millimeter" meter="1e-3"/>', 0.001),
-        ('<unit name="meter"/>', 1),
-        *((f"<up_axis>{axis}_UP</up_axis>", 1) for axis in "XYZ"),
-    ],
-)
+@pytest.mark.parametrize(("asset", "metres"), [
+    ('<unit name="inch" meter="0.0254"/>', 0.0254),
+    ('<unit name="millimeter" meter="1e-3"/>', 0.001),
+    ('<unit name="meter"/>', 1),
+    *((f"<up_axis>{axis}_UP</up_axis>", 1) for axis in "XYZ"),
+])  # fmt: skip
 def test_the_unit_is_applied_and_the_up_axis_is_not(asset: str, metres: float) -> None:
     assert _bounds(_dae(asset=asset)) == [[0, 0, 0], [metres, 2 * metres, 3 * metres]]
 
@@ -138,30 +135,27 @@ def test_skin_stands_as_it_is_bound() -> None:
     assert _bounds(content) == [[4, 5, 6], [5, 7, 9]]
 
 
-@pytest.mark.parametrize(
-    ("content", "reason"),
-    [
-        (b"", "well-formed"),
-        (b"solid a\nendsolid a\n", "well-formed"),
-        (_dae()[:900], "well-formed"),
-        (b"<a/>", "no scene"),
-        (b"<!DOCTYPE a [<!ENTITY e 'e'>]><a>&e;</a>", "document type"),
-        (_dae(asset='<unit meter="inch"/>'), "'inch' metres"),
-        (_dae(asset='<unit meter="0"/>'), "'0' metres"),
-        (_dae(asset='<unit meter="nan"/>'), "'nan' metres"),
-        (_dae('<node><instance_geometry url="#other"/></node>'), "#other"),
-        (_dae('<node><instance_geometry url="other.dae#box"/></node>'), "other.dae#box"),
-        (_dae('<node><instance_geometry url="#box"/><instance_node url="#other"/></node>'), "#other"),
-        (_dae("<node><skew>1 0 0 0 1 0 0</skew></node>"), "skewed"),
-        (_dae().replace(b"<polylist", b"<polygons><ph><p/><h/></ph></polygons><polylist"), "holes"),
-        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 8"), "index"),
-        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 -2"), "index"),
-        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 x"), "index"),
-        (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3"), "damaged"),
-        (_dae().replace(b'offset="0"', b""), "damaged"),
-        (_dae().replace(b">0 0 0", b">0 0 x"), "float array"),
-    ],
-)
+@pytest.mark.parametrize(("content", "reason"), [
+    (b"", "well-formed"),
+    (b"solid a\nendsolid a\n", "well-formed"),
+    (_dae()[:900], "well-formed"),
+    (b"<a/>", "no scene"),
+    (b"<!DOCTYPE a [<!ENTITY e 'e'>]><a>&e;</a>", "document type"),
+    (_dae(asset='<unit meter="inch"/>'), "'inch' metres"),
+    (_dae(asset='<unit meter="0"/>'), "'0' metres"),
+    (_dae(asset='<unit meter="nan"/>'), "'nan' metres"),
+    (_dae('<node><instance_geometry url="#other"/></node>'), "#other"),
+    (_dae('<node><instance_geometry url="other.dae#box"/></node>'), "other.dae#box"),
+    (_dae('<node><instance_geometry url="#box"/><instance_node url="#other"/></node>'), "#other"),
+    (_dae("<node><skew>1 0 0 0 1 0 0</skew></node>"), "skewed"),
+    (_dae().replace(b"<polylist", b"<polygons><ph><p/><h/></ph></polygons><polylist"), "holes"),
+    (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 8"), "index"),
+    (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 -2"), "index"),
+    (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 x"), "index"),
+    (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3"), "damaged"),
+    (_dae().replace(b'offset="0"', b""), "damaged"),
+    (_dae().replace(b">0 0 0", b">0 0 x"), "float array"),
+])  # fmt: skip
 def test_what_cannot_be_read_is_said(content: bytes, reason: str) -> None:
     with pytest.raises(MeshError, match=reason):
         _read(content)

@@ -81,19 +81,16 @@ def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
     assert facets[1][:3] == (0, 0, 0)
 
 
-@pytest.mark.parametrize(
-    ("uri", "content", "scale", "reason"),
-    [
-        ("package://arm/box.stl", b"", UNIT, "it has no triangles"),
-        ("package://arm/box.stl", b"garbage", UNIT, "it has no triangles"),
-        ("package://arm/box.dae", b"<COLLADA", UNIT, "it isn't well-formed XML: "),
-        ("package://arm/box.ply", b"ply\n", UNIT, "it is damaged or of another format "),
-        ("package://arm/box.step", b"ISO-10303-21;", UNIT, "its format isn't one of "),
-        ("package://arm/box.obj", CONTENTS[".obj"], (1e300, 1.0, 1.0), "its coordinates are too large"),
-        ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
-        ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
-    ],
-)
+@pytest.mark.parametrize(("uri", "content", "scale", "reason"), [
+    ("package://arm/box.stl", b"", UNIT, "it has no triangles"),
+    ("package://arm/box.stl", b"garbage", UNIT, "it has no triangles"),
+    ("package://arm/box.dae", b"<COLLADA", UNIT, "it isn't well-formed XML: "),
+    ("package://arm/box.ply", b"ply\n", UNIT, "it is damaged or of another format "),
+    ("package://arm/box.step", b"ISO-10303-21;", UNIT, "its format isn't one of "),
+    ("package://arm/box.obj", CONTENTS[".obj"], (1e300, 1.0, 1.0), "its coordinates are too large"),
+    ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
+    ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
+])  # fmt: skip
 def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vector, reason: str) -> None:
     with pytest.raises(SourceError) as caught:
         _convert(uri, content, scale)

@@ -19,58 +19,47 @@ LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/
 scales = st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3)
 
 
-@pytest.mark.parametrize(
-    ("uri", "paths"),
-    [
-        ("package://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("package://gripper/a.stl", ["/opt/robots/gripper/a.stl", "/opt/gripper/a.stl", "/ws/src/gripper/a.stl"]),
-        ("package://assets/a.stl", ["/opt/robots/assets/a.stl", "/ws/src/arm/urdf/assets/a.stl"]),
-        ("package:///a.stl", ["/ws/src/arm/urdf/a.stl", "/ws/src/arm/a.stl", "/opt/robots/a.stl"]),
-        ("package:///arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/opt/robots/arm/meshes/a.stl"]),
-        ("package://arm//meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("Package://arm/a.stl", ["/opt/robots/arm/a.stl", "/ws/src/arm/a.stl"]),
-        ("package:/arm/a.stl", ["/ws/src/arm/urdf/arm/a.stl", "/ws/src/arm/a.stl", "/opt/robots/arm/a.stl"]),
-        ("package://arm\\meshes\\a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("package://arm/a%20b.stl", ["/opt/robots/arm/a%20b.stl", "/ws/src/arm/a%20b.stl", "/ws/src/arm/a b.stl"]),
-        ("model://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("$(find arm)/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("file://$(find-pkg-share arm)/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("file:///data/a.stl", ["/data/a.stl"]),
-        ("file:////data/a.stl", ["/data/a.stl"]),
-        ("file:/data/a.stl", ["/data/a.stl"]),
-        ("file://localhost/data/a.stl", ["/data/a.stl"]),
-        ("file://meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("/data/a.stl", ["/data/a.stl"]),
-        ("meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl", "/opt/robots/meshes/a.stl"]),
-        ("./meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-        ("../meshes/a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
-        ("..\\meshes\\a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
-        ("  a.stl ", ["/ws/src/arm/urdf/a.stl"]),
-    ],
-)
+@pytest.mark.parametrize(("uri", "paths"), [
+    ("package://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("package://gripper/a.stl", ["/opt/robots/gripper/a.stl", "/opt/gripper/a.stl", "/ws/src/gripper/a.stl"]),
+    ("package://assets/a.stl", ["/opt/robots/assets/a.stl", "/ws/src/arm/urdf/assets/a.stl"]),
+    ("package:///a.stl", ["/ws/src/arm/urdf/a.stl", "/ws/src/arm/a.stl", "/opt/robots/a.stl"]),
+    ("package:///arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/opt/robots/arm/meshes/a.stl"]),
+    ("package://arm//meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("Package://arm/a.stl", ["/opt/robots/arm/a.stl", "/ws/src/arm/a.stl"]),
+    ("package:/arm/a.stl", ["/ws/src/arm/urdf/arm/a.stl", "/ws/src/arm/a.stl", "/opt/robots/arm/a.stl"]),
+    ("package://arm\\meshes\\a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("package://arm/a%20b.stl", ["/opt/robots/arm/a%20b.stl", "/ws/src/arm/a%20b.stl", "/ws/src/arm/a b.stl"]),
+    ("model://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("$(find arm)/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("file://$(find-pkg-share arm)/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("file:///data/a.stl", ["/data/a.stl"]),
+    ("file:////data/a.stl", ["/data/a.stl"]),
+    ("file:/data/a.stl", ["/data/a.stl"]),
+    ("file://localhost/data/a.stl", ["/data/a.stl"]),
+    ("file://meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("/data/a.stl", ["/data/a.stl"]),
+    ("meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl", "/opt/robots/meshes/a.stl"]),
+    ("./meshes/a.stl", ["/ws/src/arm/urdf/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+    ("../meshes/a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
+    ("..\\meshes\\a.stl", ["/ws/src/arm/urdf/../meshes/a.stl"]),
+    ("  a.stl ", ["/ws/src/arm/urdf/a.stl"]),
+])  # fmt: skip
 def test_uri_is_looked_for_in_this_order(uri: str, paths: list[str]) -> None:
     found = [str(path) for path in candidates(uri, LOOKUP)]
     assert found[0] == paths[0]
     assert [path for path in found if path in paths] == paths
 
 
-@pytest.mark.parametrize(
-    ("uri", "paths"),
-    [
-        ("modelica://Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/arm/urdf/Meshes/a.stl", "/ws/Meshes/a.stl"]),
-        ("Modelica://Meshes//a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
-        ("modelica:/Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
-        (
-            "modelica://Meshes/Resources/a%20b.stl",
-            ["/lib/Meshes 1.2/Resources/a%20b.stl", "/lib/Meshes 1.2/Resources/a b.stl"],
-        ),
-        (
-            "modelica://Meshes.Arms/a.stl",
-            ["/lib/Meshes 1.2/Arms/a.stl", "/lib/Meshes 1.2/a.stl", "/ws/Meshes/Arms/a.stl"],
-        ),
-        ("modelica://arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
-    ],
-)
+@pytest.mark.parametrize(("uri", "paths"), [
+    ("modelica://Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/arm/urdf/Meshes/a.stl", "/ws/Meshes/a.stl"]),
+    ("Modelica://Meshes//a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
+    ("modelica:/Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
+    ("modelica://Meshes/Resources/a%20b.stl",
+     ["/lib/Meshes 1.2/Resources/a%20b.stl", "/lib/Meshes 1.2/Resources/a b.stl"]),
+    ("modelica://Meshes.Arms/a.stl", ["/lib/Meshes 1.2/Arms/a.stl", "/lib/Meshes 1.2/a.stl", "/ws/Meshes/Arms/a.stl"]),
+    ("modelica://arm/meshes/a.stl", ["/ws/src/arm/urdf/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
+])  # fmt: skip
 def test_modelica_uri_is_looked_for_in_the_library_and_then_around_the_source(uri: str, paths: list[str]) -> None:
     known = msgspec.structs.replace(LOOKUP, libraries={"Meshes": Path("/lib/Meshes 1.2")})
     found = [str(path) for path in candidates(uri, known)]
@@ -88,32 +77,29 @@ def test_an_encoded_step_upwards_is_not_taken() -> None:
     assert all(".." not in path.parts for path in candidates("modelica://Meshes/%2e%2e/%2E%2E/a.stl", known))
 
 
-@pytest.mark.parametrize(
-    "uri",
-    [
-        "",
-        " ",
-        "package://",
-        "package://arm",
-        "http://example.org/a.stl",
-        "https://example.org/a.stl",
-        "data:model/stl;base64,AAAA",
-        "meshes/a\0.stl",
-        "meshes/a\n.stl",
-        "meshes/a\ud800.stl",
-        "meshes/" + "a" * 300 + ".stl",
-        "a/" * 3000 + "a.stl",
-        "modelica://",
-        "modelica://Meshes",
-        "modelica://Meshes/",
-        "modelica:///a.stl",
-        "modelica://Meshes/../other/a.stl",
-        "modelica://Meshes/Resources/../../../a.stl",
-        "modelica://Meshes/..\\a.stl",
-        "modelica://../a.stl",
-        "modelica://Meshes../a.stl",
-    ],
-)
+@pytest.mark.parametrize("uri", [
+    "",
+    " ",
+    "package://",
+    "package://arm",
+    "http://example.org/a.stl",
+    "https://example.org/a.stl",
+    "data:model/stl;base64,AAAA",
+    "meshes/a\0.stl",
+    "meshes/a\n.stl",
+    "meshes/a\ud800.stl",
+    "meshes/" + "a" * 300 + ".stl",
+    "a/" * 3000 + "a.stl",
+    "modelica://",
+    "modelica://Meshes",
+    "modelica://Meshes/",
+    "modelica:///a.stl",
+    "modelica://Meshes/../other/a.stl",
+    "modelica://Meshes/Resources/../../../a.stl",
+    "modelica://Meshes/..\\a.stl",
+    "modelica://../a.stl",
+    "modelica://Meshes../a.stl",
+])  # fmt: skip
 def test_uri_that_names_no_file_or_leads_out_of_a_library_has_no_candidates(uri: str) -> None:
     known = msgspec.structs.replace(LOOKUP, libraries={"Meshes": Path("/lib/Meshes")})
     assert candidates(uri, known) == ()
@@ -157,22 +143,19 @@ def test_what_is_no_key_is_refused(text: str) -> None:
         mesh(text)
 
 
-@pytest.mark.parametrize(
-    ("uri", "scale", "name", "kept"),
-    [
-        ("package://arm/meshes/Upper Arm.STL", (1.0, 1.0, 1.0), r"Upper_Arm_\w{8}\.stl", True),
-        ("meshes/base.obj", (1.0, 1.0, 1.0), r"base_\w{8}\.obj", True),
-        ("meshes/base.obj", (0.001, 0.001, 0.001), r"base_\w{8}\.stl", False),
-        ("meshes/base.stl", (1.0, 1.0, -1.0), r"base_\w{8}\.stl", False),
-        ("meshes/base.DAE", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
-        ("C:\\robots\\base.stl", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", True),
-        ("package://arm/%C3%A4%20b.stl", (1.0, 1.0, 1.0), r"b_\w{8}\.stl", True),
-        ("ä.stl", (1.0, 1.0, 1.0), r"mesh_\w{8}\.stl", True),
-        ("a" * 90 + ".stl", (1.0, 1.0, 1.0), r"a{40}_\w{8}\.stl", True),
-        ('a".stl', (1.0, 1.0, 1.0), r"a_\w{8}\.stl", True),
-        ("base", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
-    ],
-)
+@pytest.mark.parametrize(("uri", "scale", "name", "kept"), [
+    ("package://arm/meshes/Upper Arm.STL", (1.0, 1.0, 1.0), r"Upper_Arm_\w{8}\.stl", True),
+    ("meshes/base.obj", (1.0, 1.0, 1.0), r"base_\w{8}\.obj", True),
+    ("meshes/base.obj", (0.001, 0.001, 0.001), r"base_\w{8}\.stl", False),
+    ("meshes/base.stl", (1.0, 1.0, -1.0), r"base_\w{8}\.stl", False),
+    ("meshes/base.DAE", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
+    ("C:\\robots\\base.stl", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", True),
+    ("package://arm/%C3%A4%20b.stl", (1.0, 1.0, 1.0), r"b_\w{8}\.stl", True),
+    ("ä.stl", (1.0, 1.0, 1.0), r"mesh_\w{8}\.stl", True),
+    ("a" * 90 + ".stl", (1.0, 1.0, 1.0), r"a{40}_\w{8}\.stl", True),
+    ('a".stl', (1.0, 1.0, 1.0), r"a_\w{8}\.stl", True),
+    ("base", (1.0, 1.0, 1.0), r"base_\w{8}\.stl", False),
+])  # fmt: skip
 def test_target_tells_the_name_and_the_format(
     uri: str, scale: tuple[float, float, float], name: str, kept: bool
 ) -> None:

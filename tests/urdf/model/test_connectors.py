@@ -6,31 +6,27 @@ from typing import Literal
 
 import pytest
 from hypothesis import given
-from support.skeletons import skeleton
-from support.trees import robots
+from support.robots import robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Mimic, Robot
 
-HAND = skeleton(
+HAND = tree(
     Joint("j2", "fixed", "palm", "thumb"),
     Joint("j1", "fixed", "palm", "index"),
     Joint("j3", "fixed", "index", "index tip"),
 )
 
 
-@pytest.mark.parametrize(
-    ("frames", "names"),
-    [
-        ("leaves", ["index tip", "thumb"]),
-        ("all", ["palm", "index", "index tip", "thumb"]),
-        ((), ["index tip", "thumb"]),
-        (("palm",), ["palm", "index tip", "thumb"]),
-        (("thumb", "index", "index", "gone", "j1"), ["index", "index tip", "thumb"]),
-    ],
-)
+@pytest.mark.parametrize(("frames", "names"), [
+    ("leaves", ["index tip", "thumb"]),
+    ("all", ["palm", "index", "index tip", "thumb"]),
+    ((), ["index tip", "thumb"]),
+    (("palm",), ["palm", "index tip", "thumb"]),
+    (("thumb", "index", "index", "gone", "j1"), ["index", "index tip", "thumb"]),
+])  # fmt: skip
 def test_frames_are_those_of_leaves_and_what_is_asked_for_in_canonical_order(
     frames: Literal["leaves", "all"] | tuple[str, ...], names: list[str]
 ) -> None:
@@ -38,7 +34,7 @@ def test_frames_are_those_of_leaves_and_what_is_asked_for_in_canonical_order(
 
 
 def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
-    robot = skeleton(
+    robot = tree(
         Joint("elbow", "revolute", "elbowAxis", "hand"),
         Joint("wrist", "revolute", "hand", "handFrame"),
         Joint("follow", "revolute", "handFrame", "followMimic", mimic=Mimic("elbow")),
@@ -55,9 +51,9 @@ def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
 
 @given(robots())
 def test_no_two_components_have_one_name(robot: Robot) -> None:
-    tree = KinematicTree.of(robot)
-    names = connector_names(tree, Options(frames="all"))
+    skeleton = KinematicTree.of(robot)
+    names = connector_names(skeleton, Options(frames="all"))
     assert len(names.frames) == len(robot.links)
     connectors = [*names.frames.values(), *names.axes.values(), *names.supports.values(), *names.couplings.values()]
-    every = [name.lower() for name in (*connectors, *(identifier.component for identifier in tree.names.values()))]
+    every = [name.lower() for name in (*connectors, *(identifier.component for identifier in skeleton.names.values()))]
     assert len(every) == len(set(every))

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from support.records import record_components, record_text
-from support.skeletons import skeleton
-from support.trees import robots
+from support.robots import robots, tree
 
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -65,22 +64,19 @@ UNLIMITED = ", ".join(
 )
 
 
-@pytest.mark.parametrize(
-    ("kind", "full", "bare"),
-    [
-        ("revolute", GROUPS, {"limits": UNLIMITED}),
-        ("prismatic", GROUPS, {"limits": UNLIMITED}),
-        ("continuous", GROUPS | {"limits": UNLIMITED.rpartition("= ")[0] + "= 30"}, {"limits": UNLIMITED}),
-        ("planar", {"translation": LOSSES, "rotation": LOSSES}, {}),
-        ("fixed", {}, {}),
-        ("floating", {}, {}),
-    ],
-)
+@pytest.mark.parametrize(("kind", "full", "bare"), [
+    ("revolute", GROUPS, {"limits": UNLIMITED}),
+    ("prismatic", GROUPS, {"limits": UNLIMITED}),
+    ("continuous", GROUPS | {"limits": UNLIMITED.rpartition("= ")[0] + "= 30"}, {"limits": UNLIMITED}),
+    ("planar", {"translation": LOSSES, "rotation": LOSSES}, {}),
+    ("fixed", {}, {}),
+    ("floating", {}, {}),
+])  # fmt: skip
 def test_a_joint_has_the_groups_of_its_type(kind: JointType, full: dict[str, str], bare: dict[str, str]) -> None:
     leader = Joint("leader", "revolute", "a", "l")
     for parts, groups in ((EVERYTHING, full), ({}, bare)):
         joint = Joint('a "b"', kind, "a", "b", Origin((1, 2, 3)), axis=(0, 0, 1), **parts)
-        record, text = record_components(skeleton(leader, joint))["a__b_"]
+        record, text = record_components(tree(leader, joint))["a__b_"]
         assert record == f"{kind.capitalize()}Joint"
         start = 'name = "a \\"b\\"", origin( xyz = {1, 2, 3}, rpy = {0, 0, 0})'
         assert text.startswith(f"{start}, axis = {{0, 0, 1}}" if JOINT_KINDS[kind].has_axis else start)

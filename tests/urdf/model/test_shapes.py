@@ -11,8 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from support.skeletons import skeleton
-from support.trees import ORIGINS
+from support.robots import any_number, origin, tree
 
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import pose
@@ -38,6 +37,7 @@ from urdfsync.urdf.robot import (
 Array = NDArray[np.float64]
 
 SIZES = st.floats(0.01, 3)
+ORIGINS = st.randoms(use_true_random=False).map(lambda random: origin(random, any_number))
 MESH = Mesh("meshes/a.stl")
 POINTS = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]
 
@@ -54,15 +54,12 @@ def shapes_of(
     return link_shapes(link, imports or {}, "Plant.Arm", Options(**options))
 
 
-@pytest.mark.parametrize(
-    ("material", "color", "opacity"),
-    [
-        (None, GREY, 1),
-        (Material("textured", texture="t.png"), GREY, 1),
-        (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
-        (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
-    ],
-)
+@pytest.mark.parametrize(("material", "color", "opacity"), [
+    (None, GREY, 1),
+    (Material("textured", texture="t.png"), GREY, 1),
+    (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
+    (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
+])  # fmt: skip
 def test_colours_are_integers_that_tools_take(
     material: Material | None, color: tuple[int, ...], opacity: float
 ) -> None:
@@ -125,7 +122,7 @@ SHAPES = st.one_of(
 def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder | Capsule, origin: Origin) -> None:
     rotation, place = map(np.array, pose(origin))
     lowest = (surface(shape) @ rotation.T + place)[:, 2].min()
-    height = standing_height(skeleton(links=(Link("a", collisions=(Collision(shape, origin),)),)), {})
+    height = standing_height(tree(links=(Link("a", collisions=(Collision(shape, origin),)),)), {})
     assert height is not None
     assert -height <= lowest + 1e-11
     assert -height >= lowest - 1e-3 * (1 + np.abs(surface(shape)).max())
@@ -133,12 +130,12 @@ def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder 
 
 def test_joints_are_at_their_start_and_shapes_turn_with_them() -> None:
     leg = Joint("leg", "prismatic", "a", "b", Origin((0, 0, -1)), axis=(0, 0, -1), limit=Limit(0.5, 2))
-    assert standing_height(skeleton(leg, links=(body("a", Sphere(0.1)), body("b", Sphere(0.25)))), {}) == 1.75
+    assert standing_height(tree(leg, links=(body("a", Sphere(0.1)), body("b", Sphere(0.25)))), {}) == 1.75
     wheel = Joint("wheel", "continuous", "a", "b", Origin((0, 0, -1), (math.pi / 2, 0, 0)), axis=(0, 0, 1))
-    assert standing_height(skeleton(wheel, links=(Link("a"), body("b", Cylinder(0.25, 0.05)))), {}) == 1.25
+    assert standing_height(tree(wheel, links=(Link("a"), body("b", Cylinder(0.25, 0.05)))), {}) == 1.25
 
 
 def test_there_is_no_height_without_a_shape_or_beyond_all_numbers() -> None:
-    assert standing_height(skeleton(links=(body("a", MESH),)), {}) is None
+    assert standing_height(tree(links=(body("a", MESH),)), {}) is None
     joints = [Joint(b, "fixed", a, b, Origin((0, 0, 1.7e308))) for a, b in ("ab", "bc")]
-    assert standing_height(skeleton(*joints, links=(body("c", Sphere(1)),)), {}) is None
+    assert standing_height(tree(*joints, links=(body("c", Sphere(1)),)), {}) is None

@@ -11,12 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.records import record_components, record_tables
-from support.skeletons import GRIPPER, skeleton
-from support.trees import SCALAR, robots
+from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import has_tables, tables
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Mimic, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Mimic, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
@@ -48,7 +47,16 @@ def moving(of: KinematicTree) -> list[Joint]:
 
 
 def test_the_text_of_a_gripper() -> None:
-    found = texts_of(GRIPPER)
+    """Fingers and a pinion that follow, and a joint that follows one that never moves."""
+    gripper = tree(
+        Joint("slide", "prismatic", "palm", "left", limit=Limit(0, 0.1)),
+        Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
+        Joint("turn", "continuous", "base", "palm"),
+        Joint("mount", "fixed", "palm", "camera"),
+        Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
+        Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
+    )
+    found = texts_of(gripper)
     assert found["movingJoints"] == "5"
     assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
     assert found["turning"] == "{1, 2, 5}"
@@ -72,7 +80,7 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
             Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=Mimic(f"j{n - 1}", 0.5, 0.1))
             for n in range(10001, 10000 + count)
         )
-        return sum(map(len, record_tables(skeleton(Joint("j10000", "revolute", "l10000", "l10001"), *followers))))
+        return sum(map(len, record_tables(tree(Joint("j10000", "revolute", "l10000", "l10001"), *followers))))
 
     small, middle, large = (length(count) for count in (200, 400, 800))
     assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
@@ -80,9 +88,9 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
 
 def test_a_robot_that_does_not_move_is_one_body() -> None:
     assert has_tables([])
-    found = tables(skeleton(Joint("j", "fixed", "a", "b")))
+    found = tables(tree(Joint("j", "fixed", "a", "b")))
     assert (found.link_bodies, found.joint_tree, found.first_joints) == ([1, 1], [], [1])
-    text = texts_of(skeleton(Joint("j", "fixed", "a", "b")))
+    text = texts_of(tree(Joint("j", "fixed", "a", "b")))
     assert text["linkBodies"] == "{1, 1}"
     assert not {"movingJoints", "jointTree", "nextJoints", "jointAxes"} & text.keys()
 

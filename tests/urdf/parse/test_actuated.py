@@ -25,50 +25,36 @@ def actuated(reading: RobotReading) -> list[str]:
     return sorted(joint.name for joint in reading.robot.joints if joint.actuated)
 
 
-@pytest.mark.parametrize(
-    ("element", "names"),
-    [
-        pytest.param(
-            """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+FORMS = {
+    "with an interface": ("""<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
             <joint name="elbow"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
             <actuator name="m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>""",
-            ["elbow"],
-            id="with an interface",
-        ),
-        pytest.param(
-            """<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
+        ["elbow"]),
+    "as for the PR2": ("""<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
             <joint name="elbow"/><mechanicalReduction>1</mechanicalReduction></transmission>""",
-            ["elbow"],
-            id="as for the PR2",
-        ),
-        pytest.param(
-            '<transmission><joint name="elbow"/><joint name="drive wheel"/></transmission>',
-            ["drive wheel", "elbow"],
-            id="a differential",
-        ),
-        pytest.param("<transmission><joint/><actuator name='elbow'/></transmission>", [], id="no joint"),
-        pytest.param("<transmission><group><joint name='elbow'/></group></transmission>", [], id="not its own joint"),
-        pytest.param(
-            f"""<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware>
+        ["elbow"]),
+    "a differential": ('<transmission><joint name="elbow"/><joint name="drive wheel"/></transmission>',
+        ["drive wheel", "elbow"]),
+    "no joint": ("<transmission><joint/><actuator name='elbow'/></transmission>", []),
+    "not its own joint": ("<transmission><group><joint name='elbow'/></group></transmission>", []),
+    "ros2_control, with a joint that is measured only": (
+        f"""<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware>
             <joint name="elbow">{COMMAND}{STATE}</joint><joint name="roll">{STATE}</joint></ros2_control>""",
-            ["elbow"],
-            id="ros2_control, with a joint that is measured only",
-        ),
-        pytest.param(
-            f"""<ros2_control name="c" type="system"><joint name="roll">{STATE}</joint>
+        ["elbow"],
+    ),
+    "a transmission of ros2_control": (f"""<ros2_control name="c" type="system"><joint name="roll">{STATE}</joint>
             <transmission name="t"><plugin>p</plugin><actuator name="m" role="a"/><joint name="elbow" role="j"/>
             </transmission></ros2_control>""",
-            ["elbow"],
-            id="a transmission of ros2_control",
-        ),
-        pytest.param(
-            f'<ros2_control name="c" type="sensor"><joint name="roll">{STATE}</joint></ros2_control>',
-            [],
-            id="ros2_control of a sensor",
-        ),
-        pytest.param('<gazebo><transmission><joint name="elbow"/></transmission></gazebo>', [], id="of a simulator"),
-    ],
-)
+        ["elbow"]),
+    "ros2_control of a sensor": (
+        f'<ros2_control name="c" type="sensor"><joint name="roll">{STATE}</joint></ros2_control>',
+        [],
+    ),
+    "of a simulator": ('<gazebo><transmission><joint name="elbow"/></transmission></gazebo>', []),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("element", "names"), FORMS.values(), ids=FORMS)
 def test_forms(element: str, names: list[str]) -> None:
     reading = read(element)
     assert actuated(reading) == names

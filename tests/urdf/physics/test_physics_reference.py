@@ -1,4 +1,7 @@
-"""The reference against other ways to the same numbers: forward dynamics, and derivatives of momentum."""
+"""The reference against other ways to the same numbers: forward dynamics, and derivatives of momentum.
+
+That it moves and pushes as generated robots do, planar joints and followers too, tests/modelica/test_joints.py shows.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
-from support.urdfs import dynamics, joint, limit, link, mimic, robot
+from support.urdfs import dynamics, joint, link, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.physics.free_joints import FrameMotion
 from urdfsync.urdf.physics.reading import read
@@ -21,23 +23,16 @@ from urdfsync.urdf.robot import Joint
 Array = NDArray[np.float64]
 
 DRIVEN = robot(
-    link("base", 4.0),
-    link("upper", 2.5),
-    link("hand", 0.7),
-    link("finger", 0.2),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit()]),
-    joint("slide", "prismatic", "upper", "hand", axis="-2 0 0", inside=[limit()]),
+    *links(base=4.0, upper=2.5, hand=0.7, finger=0.2),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0"),
+    joint("slide", "prismatic", "upper", "hand", axis="-2 0 0"),
     joint("grip", "continuous", "hand", "finger", axis="0 1 1", inside=[mimic("shoulder", -1.5, 0.2)]),
 )
 FREE = robot(
-    link("base", 4.0),
-    link("carrier", 1.0),
-    link("drone", 3.0),
-    link("arm", 1.0),
-    link("puck", 0.5),
-    joint("rail", "prismatic", "base", "carrier", axis="0 1 1", inside=[limit(), dynamics(0.3, 0.1)]),
+    *links(base=4.0, carrier=1.0, drone=3.0, arm=1.0, puck=0.5),
+    joint("rail", "prismatic", "base", "carrier", axis="0 1 1", inside=[dynamics(0.3, 0.1)]),
     joint("air", "floating", "carrier", "drone"),
-    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[limit(), dynamics(0.2, 0.1)]),
+    joint("turn", "revolute", "drone", "arm", axis="1 0 0", inside=[dynamics(0.2, 0.1)]),
     joint("tray", "planar", "arm", "puck", axis="0.3 1 -0.2", inside=[dynamics(0.4, 0.3)]),
 )
 """A floating joint and a planar one, each moved by a driven one."""
@@ -47,9 +42,7 @@ class Bot:
     """A reference, and the state that the motion gives it."""
 
     def __init__(self, urdf: str) -> None:
-        found = read_robot(urdf.encode(), "robot.urdf", cross_check=False).robot
-        assert found is not None
-        skeleton = KinematicTree.of(found)
+        skeleton = KinematicTree.of(parsed(urdf))
         self.axes, self.free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
         self.starts = {j.name: self.reference.start(j.name, free_joints.free_start(j)) for j in self.free}
@@ -113,33 +106,6 @@ def momentum(bot: Bot, time: float) -> Array:
     return np.concatenate([about_centre.linear, shifted])
 
 
-@pytest.mark.parametrize("urdf", [DRIVEN, FREE], ids=["driven", "free"])
-def test_velocities_are_derivatives_of_places(urdf: str) -> None:
-    """Free joints move as they begin: on straight lines, with constant turning in the joint frame."""
-    bot, step = Bot(urdf), 1e-5
-    starts = dict(bot.starts)
-    now = bot.instant()
-    frames = []
-    for time in (-step, step):
-        bot.starts = {name: moved(start, time) for name, start in starts.items()}
-        frames.append({frame: bot.instant(time).frame(frame) for frame in links_of(bot)})
-    for name in links_of(bot):
-        frame = now.frame(name)
-        velocity = (frames[1][name].place - frames[0][name].place) / (2 * step)
-        turning = pin.log3(frames[0][name].axes.T @ frames[1][name].axes) / (2 * step)
-        assert frame.velocity == pytest.approx(velocity, abs=1e-8)
-        assert frame.axes.T @ frame.turning == pytest.approx(turning, abs=1e-8)
-
-
-def moved(start: FrameMotion, time: float) -> FrameMotion:
-    axes = pin.exp3(start.turning * time) @ start.axes
-    return FrameMotion(start.place + start.velocity * time, axes, start.velocity, start.turning)
-
-
-def links_of(bot: Bot) -> list[str]:
-    return [frame.name for frame in bot.reference.model.frames if frame.type == pin.BODY and "__" not in frame.name]
-
-
 def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     bot = Bot(FREE)
     state, instant = bot.state(), bot.instant()
@@ -147,18 +113,6 @@ def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames, in_world=True)
     assert again.q == pytest.approx(state.q, abs=1e-12)
     assert again.v == pytest.approx(state.v, abs=1e-12)
-
-
-def test_followers_move_with_their_leader_and_load_it() -> None:
-    bot = Bot(DRIVEN)
-    state, model = bot.state(), bot.reference.model
-    (shoulder, _) = [motion.axis_course(joint) for joint in bot.axes]
-    grip = model.joints[model.getJointId("grip")]
-    angle = np.arctan2(state.q[grip.idx_q + 1], state.q[grip.idx_q])
-    assert angle == pytest.approx(-1.5 * shoulder.position + 0.2)
-    efforts = pin.rnea(model, model.createData(), state.q, state.v, state.a)
-    both = efforts[model.joints[model.getJointId("shoulder")].idx_v] - 1.5 * efforts[grip.idx_v]
-    assert bot.instant().efforts[0] == pytest.approx(both)
 
 
 def test_free_joints_without_inertia_are_singular() -> None:
