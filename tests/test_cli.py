@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.networks import LADDER, ROBOT, configure, edit, source
 
 from urdfsync import cli, config
 from urdfsync.__main__ import main as program
@@ -36,15 +37,9 @@ NEXT = [
 def edited(project: Path, capsys: Capture) -> Path:
     """A built project with one edited model."""
     cli.main(["build"])
-    model = project / "modelica/Ladder/Ladder.mo"
-    model.write_text(model.read_text() + "// mine\n")
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;\n", "end Ladder;\n// mine\n")
     capsys.readouterr()
     return project
-
-
-def change(project: Path, old: str = "220.5", new: str = "330") -> None:
-    source = project / "ladder.json"
-    source.write_text(source.read_text().replace(old, new))
 
 
 # build
@@ -58,7 +53,7 @@ def test_build_in_words(project: Path, capsys: Capture) -> None:
 
 
 def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
-    change(edited)
+    source("220.5", "330")
     assert cli.main(["build"]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "ladder: 1 file written, 1 kept because you edited it",
@@ -76,8 +71,7 @@ def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
     assert cli.main(["build", "--dry-run"]) == 0
     assert snapshot_of(project) == before
     cli.main(["build"])
-    model = project / "modelica/Ladder/Ladder.mo"
-    model.write_text(model.read_text() + "// mine\n")
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;\n", "end Ladder;\n// mine\n")
     assert cli.main(["build", "--check"]) == 0, "an edit is in step"
 
 
@@ -103,7 +97,7 @@ def test_quiet_says_nothing_if_all_is_well(project: Path, capsys: Capture) -> No
 
 
 def test_findings_go_to_the_error_stream(project: Path, capsys: Capture) -> None:
-    change(project, '"R2"', '"r2"')
+    source('"R2"', '"r2"')
     (project / "step.csv").unlink()
     assert cli.main(["build"]) == 2
     streams = capsys.readouterr()
@@ -115,8 +109,7 @@ def test_findings_go_to_the_error_stream(project: Path, capsys: Capture) -> None
 
 
 def test_robots_are_chosen_by_name(project: Path, capsys: Capture) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    configure(ROBOT.format("other", "Other"))
     for arguments in (["build", "other"], ["build", "--robot", "other"]):
         assert cli.main(arguments) == 0
         assert capsys.readouterr().out.startswith("other: ")
@@ -161,7 +154,11 @@ def test_svg(project: Path, capsys: Capture) -> None:
 
 
 @pytest.mark.parametrize(
-    "arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["build", "--nothing"], ["build", "--dry"]]
+    "arguments",
+    [
+        *([], ["biuld"], ["build", "--svg", "--check"], ["build", "--nothing"], ["build", "--dry"]),
+        *(["status", "--dry-run"], ["status", "--wait", "soon"]),
+    ],
 )
 def test_bad_usage(arguments: list[str], capsys: Capture) -> None:
     """Options are spelled out, too."""
@@ -293,7 +290,7 @@ def test_whatever_the_system_refuses_is_one_line(
 
 
 def test_conflict(edited: Path, capsys: Capture) -> None:
-    change(edited, '"R2"', '"R3"')
+    source('"R2"', '"R3"')
     model = Path("modelica/Ladder/Ladder.mo")
     for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
         assert cli.main(arguments) == 3

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
-from support.networks import ROBOT, Snapshot
+from support.networks import LADDER, RECORD, ROBOT, Snapshot, edit, rename, resistor
 
 from urdfsync import cli
+from urdfsync.diff.changes import Changes
+from urdfsync.diff.comparison import Comparison, exit_code
+from urdfsync.outcome import Exit, Result
 
 Capture = pytest.CaptureFixture[str]
 
@@ -58,12 +62,6 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def change(folder: Path, old: str = "220.5", new: str = "330", source: str = "ladder.json") -> None:
-    text = (folder / source).read_text()
-    assert old in text
-    (folder / source).write_text(text.replace(old, new))
-
-
 def said(capsys: Capture, *arguments: str) -> tuple[int, list[str]]:
     """Exit code and output of a command that has nothing to complain about."""
     code = cli.main(["diff", *arguments])
@@ -93,7 +91,7 @@ def test_nothing_changed(built: Path, capsys: Capture, snapshot_of: Snapshot) ->
 
 
 def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    change(built)
+    edit("ladder.json", "220.5", "330")
     before = snapshot_of(built)
     assert said(capsys, "ladder", "--quiet") == (1, [])
     assert said(capsys, "ladder.json") == (
@@ -110,10 +108,40 @@ def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, sn
     assert snapshot_of(built) == before
 
 
+def _conflict() -> None:
+    edit(RECORD, "100", "110")
+    resistor(120)
+
+
+OUT_OF_STEP: dict[str, tuple[Callable[[], object], Exit]] = {
+    "an edit": (lambda: edit(RECORD, "end R1", "// mine\nend R1"), Exit.IN_STEP),
+    "a deleted file": (Path(LADDER, "Ladder.mo").unlink, Exit.OUT_OF_STEP),
+    "a conflict": (_conflict, Exit.OUT_OF_STEP),
+    "a structural change": (lambda: rename("R2", "R3"), Exit.OUT_OF_STEP),
+    "another option": (lambda: edit("urdfsync.toml", "domain", 'prefix = "pin"\ndomain'), Exit.OUT_OF_STEP),
+}
+
+
+@pytest.mark.parametrize("name", OUT_OF_STEP)
+def test_the_exit_code_says_whether_a_build_has_something_to_do(built: Path, capsys: Capture, name: str) -> None:
+    change, code = OUT_OF_STEP[name]
+    change()
+    assert said(capsys)[0] == code
+
+
+def test_an_error_comes_before_a_lock_and_a_lock_before_being_out_of_step() -> None:
+    results = [Result("arm", "Arm", Path("Arm"), Path(), **more) for more in (  # type: ignore[arg-type]
+        {"failed": True}, {"failed": True, "locked": True}, {"changes": Changes(generator=True)}, {}
+    )]  # fmt: skip
+    found = [Comparison(result, "arm.urdf") for result in results]
+    codes = [exit_code(found[first:]) for first in range(4)]
+    assert codes == [Exit.ERROR, Exit.LOCKED, Exit.OUT_OF_STEP, Exit.IN_STEP]
+
+
 def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
     with (built / "urdfsync.toml").open("a") as file:
         file.write(ROBOT.format("other", "Other"))
-    change(built)
+    edit("ladder.json", "220.5", "330")
     for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
         _, lines = said(capsys, *arguments)
         heads = [line for line in lines if line.startswith(("ladder:", "other:"))]
@@ -172,7 +200,7 @@ def test_a_revision_with_the_mesh_as_it_was(arm: Path, capsys: Capture, monkeypa
     repository.commit()
     assert said(capsys, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
     (arm / "tip.stl").write_text(MESH.format(size=2))
-    change(arm, 'effort="54"', 'effort="60"', "arm.urdf")
+    edit("arm.urdf", 'effort="54"', 'effort="60"')
     code, lines = said(capsys, "arm.urdf", "--against", "HEAD")
     assert code == 1
     assert [lines[1], lines[3]] == ["  joint elbow", "  mesh tip.stl"]
@@ -257,9 +285,8 @@ def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: 
 
 
 def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
-    change(arm, "</robot>", '<transmission name="t"/></robot>', "arm.urdf")
-    change(arm, 'effort="60"', 'effort="54"', "new.urdf")
-    change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
+    edit("arm.urdf", "</robot>", '<transmission name="t"/></robot>')
+    (arm / "new.urdf").write_text(ARM)
     code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
     assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
     assert lines[-1] == "    not modelled  1 change"

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from support.corpus import REPOSITORY
 from support.daemon import Daemons
+from support.networks import edit
 
 from urdfsync import cli, registry
 from urdfsync.outcome import Exit
@@ -41,11 +42,6 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.chdir(folder)
     yield folder
     sys.modules.pop("parts_domain", None)
-
-
-def edit(path: Path, old: str, new: str) -> None:
-    assert old in path.read_text()
-    path.write_text(path.read_text().replace(old, new))
 
 
 def test_the_domain_has_at_most_a_hundred_lines() -> None:

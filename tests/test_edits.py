@@ -88,18 +88,6 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
     assert portable(conflict) == aside
 
 
-def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path) -> None:
-    run()
-    mine = Path(R1).read_bytes()
-    kept = run(choices={R1: Choice.KEEP})
-    assert kinds(kept)[R1] is Kind.KEEP
-    assert not kept.conflicts
-    assert kinds(run()) == {R1: Kind.KEEP}
-    assert Path(R1).read_bytes() == mine
-    source('"farad": 1e-9', '"ohm": 7')
-    assert kinds(run())[R1] is Kind.CONFLICT
-
-
 def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
     waited = run()
     assert RECORD in {action.path for action in waited.actions if action.held}, "its parameter has another name"
@@ -131,22 +119,6 @@ def test_a_file_that_was_there_before_is_a_conflict_that_has_no_merge(project: P
     assert not conflicts(choices={R1: choice} if choice else {})
     assert (Path(R1).read_text() == mine) is (choice is Choice.KEEP)
     assert kinds(run()) == ({R1: Kind.KEEP} if choice is Choice.KEEP else {})
-
-
-@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
-def test_an_orphan_is_let_go_or_deleted_with_its_record_and_its_lines(project: Path, choice: Choice) -> None:
-    run()
-    for path in (R1, C1):
-        edit(path, "equation", "// mine\nequation")
-    drop("R1", "C1")
-    found = kinds(run())
-    assert (found[R1], found[RECORD], found[C1]) == (Kind.ORPHAN, Kind.NEEDED, Kind.ORPHAN)
-    run(choices={R1: choice, C1: Choice.TAKE})
-    kept = choice is Choice.KEEP
-    assert (Path(R1).exists(), Path(RECORD).exists(), Path(C1).exists()) == (kept, kept, False)
-    lines = set(Path(f"{LADDER}/Elements/package.order").read_text().split())
-    assert lines & {"R1", "R1Parameters", "C1", "C1Parameters"} == ({"R1", "R1Parameters"} if kept else set())
-    assert kinds(run()) == {}
 
 
 # Merges

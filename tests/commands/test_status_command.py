@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import edit
+from support.networks import LADDER, Snapshot, edit
 
 from urdfsync import cli
 from urdfsync.state.lock import build_lock
 
 Capture = pytest.CaptureFixture[str]
-Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
-
-PACKAGE = "modelica/Ladder"
 
 
 @pytest.fixture
@@ -68,8 +64,8 @@ def test_never_built(project: Path, capsys: Capture, snapshot_of: Snapshot) -> N
 
 def test_files_of_every_kind(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
     edit(built / "ladder.json", "220.5", "330")
-    edit(built / PACKAGE / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
-    (built / PACKAGE / "Elements/C1.mo").unlink()
+    edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    (built / LADDER / "Elements/C1.mo").unlink()
     before = snapshot_of(built)
     assert shown(capsys) == [
         "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
@@ -87,7 +83,7 @@ def test_files_of_every_kind(built: Path, capsys: Capture, snapshot_of: Snapshot
 
 def test_a_conflict(built: Path, capsys: Capture) -> None:
     edit(built / "ladder.json", "220.5", "330")
-    edit(built / PACKAGE / "Elements/R2Parameters.mo", "220.5", "221")
+    edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
     conflict = "  conflict   modelica/Ladder/Elements/R2Parameters.mo  you edited it"
     lines = shown(capsys, code=3)
     assert any(line.startswith(conflict) for line in lines)
@@ -138,12 +134,3 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, capsys: Capture) -> 
     with build_lock(built, built / ".urdfsync", 0) as lock:
         lock.acquire()
         assert shown(capsys) == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
-
-
-# The process
-
-
-@pytest.mark.parametrize("arguments", [["--dry-run"], ["--wait", "soon"]])
-def test_bad_usage(built: Path, capsys: Capture, arguments: list[str]) -> None:
-    assert shown(capsys, *arguments, code=2) == []
-    assert "[usage]" in warned(capsys, *arguments)[-1]
