@@ -15,7 +15,7 @@ from random import Random
 from typing import IO
 
 import pytest
-from support import crashes, replay
+from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
 from support.networks import LADDER, edit
 
@@ -28,7 +28,11 @@ REMOVED = f"{LADDER}/Elements/R2.mo"
 ADDED = f"{LADDER}/Elements/R3.mo"
 MINE = b"\n// mine\n"
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.usefixtures("in_haste"),
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
+]
 
 Wanted = tuple[list[str], Mapping[str, bytes | None]]
 """The files that conflict after a build, and all files."""
@@ -36,13 +40,6 @@ Wanted = tuple[list[str], Mapping[str, bytes | None]]
 
 def phase(project: Path) -> Phase | None:
     return JournalFolder(project, project / ".urdfsync/journal").phase()
-
-
-@pytest.fixture(autouse=True)
-def _in_haste() -> Iterator[None]:
-    """Only a power failure makes a difference between what is on the disk and what the system says is there."""
-    with replay.in_haste():
-        yield
 
 
 @pytest.fixture

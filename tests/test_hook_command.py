@@ -60,18 +60,13 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str
     return lines
 
 
-def git(*arguments: str) -> str:
-    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
-
-
 def run(line: str) -> None:
     """Run a command line that a hook has printed."""
     for command in line.strip().split(" && "):
-        program, *arguments = command.split(" ")
-        if program == "urdfsync":
-            assert cli.main(arguments) == 0
+        if command.startswith("urdfsync "):
+            assert cli.main(command.split(" ")[1:]) == 0
         else:
-            git(*arguments)
+            subprocess.run(command.split(" "), check=True, capture_output=True)
 
 
 def staged(repo: Repository) -> None:
@@ -164,7 +159,7 @@ def test_a_source_with_later_changes_keeps_a_build_from_writing(
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
     run("git commit -qm staged")
-    assert "120" in git("show", f"HEAD:{RECORD}")
+    assert "120" in repo.git("show", f"HEAD:{RECORD}")
 
 
 def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> None:
@@ -176,7 +171,7 @@ def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> Non
     assert "Ladder.mo" not in lines[-1], "the rest of the edits stays where it is"
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
-    assert git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
+    assert repo.git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
 
 
 @pytest.mark.parametrize("is_alone", [True, False])
@@ -192,8 +187,8 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
     assert (line == "  git add .urdfsync/robots modelica/Ladder") is is_alone
     assert ("modelica/Ladder/Elements/R2.mo" in line.split(" ")) is not is_alone
     run(line)
-    assert "D  modelica/Ladder/Elements/R2.mo\n" in git("status", "--porcelain")
-    assert ("?? modelica/Ladder/notes.txt" in git("status", "--porcelain")) is not is_alone
+    assert "D  modelica/Ladder/Elements/R2.mo\n" in repo.git("status", "--porcelain")
+    assert ("?? modelica/Ladder/notes.txt" in repo.git("status", "--porcelain")) is not is_alone
     assert said(capsys, "check", code=0) == []
 
 
@@ -490,7 +485,7 @@ def test_whatever_passes_is_in_step_in_a_clone(
     run(said(capsys, "build")[-1])
     assert said(capsys, "check", code=0) == []
     repo.git("commit", "-qm", "next")
-    git("clone", "-q", ".", "../clone")
+    repo.git("clone", "-q", ".", "../clone")
     monkeypatch.chdir("../clone")
     assert cli.main(["build", "--check", "--quiet"]) == 0
     assert said(capsys, "check", code=0) == []

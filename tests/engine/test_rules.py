@@ -50,10 +50,6 @@ def test_decision_table(base: str | None, mine: OnDisk, generated: str | None, k
     assert decide_file(base, mine, generated) is kind
 
 
-hashes = st.sampled_from("abc")
-found = st.one_of(st.just(ABSENT), st.just(FOLDER), hashes.map(on_disk))
-
-
 # Files whose element has another name
 
 
