@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from support.commands import Execute
@@ -177,18 +178,12 @@ def test_the_line_of_library_is_for_eval(
 
 
 def test_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(arguments: list[str]) -> int:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("urdfsync.uptodate.print_answer", interrupted)
+    monkeypatch.setattr("urdfsync.uptodate.print_answer", mock.Mock(side_effect=KeyboardInterrupt))
     assert program() == 130
 
 
 def test_a_working_folder_that_is_gone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    def gone() -> str:
-        raise FileNotFoundError(2, "No such file or directory")
-
-    monkeypatch.setattr(os, "getcwd", gone)
+    monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError(2, "No such file or directory")))
     assert config.shown(project) == str(project)
     for command in ("build", "init"):
         message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"
@@ -262,10 +257,8 @@ def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.Monk
 def test_whatever_the_system_refuses_is_one_line(
     project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(*_: object) -> None:
-        raise PermissionError(13, "Permission denied", "somewhere")
-
-    monkeypatch.setattr(config, "load", refuse)
+    error = PermissionError(13, "Permission denied", "somewhere")
+    monkeypatch.setattr(config, "load", mock.Mock(side_effect=error))
     assert execute("build", code=2).err == "somewhere: error: Permission denied [system]\n"
 
 

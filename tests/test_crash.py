@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
 from typing import IO
+from unittest import mock
 
 import pytest
 from support import crashes
@@ -146,11 +147,9 @@ def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed:
 def test_killed_builds_on_lesser_file_systems(
     changed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, missing: str
 ) -> None:
-    def refuse(*paths: Path, **options: bool) -> None:
-        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
-
     if missing == "links":
-        monkeypatch.setattr(os, "link", refuse)
+        error = PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+        monkeypatch.setattr(os, "link", mock.Mock(side_effect=error))
     monkeypatch.setattr(file_operations, "_rename", lambda path, target, flag: False)
     wanted = expected(changed, tmp_path / "clean")
     for operation, project in every(changed, tmp_path / "work", CHANGES):

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from support.commands import Execute
@@ -91,9 +92,6 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     command: list[str],
     error: Exception,
 ) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise error
-
     repository = Repository(tmp_path / "project", monkeypatch)
     monkeypatch.chdir(repository.folder)
     Path("arm.urdf").write_text(URDF)
@@ -103,7 +101,7 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     repository.commit()
     before = contents(repository.folder)
     capsys.readouterr()
-    monkeypatch.setattr(UrdfDomain, "read", fail)
+    monkeypatch.setattr(UrdfDomain, "read", mock.Mock(side_effect=error))
     said = execute(*command, code=2).err
     assert len([line for line in said.splitlines() if "error: " in line]) == 1, said
     assert "[internal]" in said
@@ -115,10 +113,7 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
 def test_verbose_shows_the_traceback(
     project: Path, traces: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fail(*_: object) -> None:
-        raise ValueError("no number")
-
-    monkeypatch.setattr(config, "load", fail)
+    monkeypatch.setattr(config, "load", mock.Mock(side_effect=ValueError("no number")))
     said = execute("build", "--verbose", code=2).err
     assert said.startswith("Traceback ")
     assert said.endswith("please report it with the traceback above [internal]\n")

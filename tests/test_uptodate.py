@@ -72,19 +72,24 @@ def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
     assert saved(*BUILD) is None
 
 
-def test_the_answer_belongs_to_the_folder_and_the_environment(
-    folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+SURROUNDINGS: dict[str, Callable[[pytest.MonkeyPatch], object]] = {
+    "paths look different from here": lambda patch: patch.chdir("robots"),
+    "folders of packages": lambda patch: patch.setenv("ROS_PACKAGE_PATH", str(Path.cwd())),
+    "folders of libraries": lambda patch: patch.setenv("MODELICAPATH", str(Path.cwd())),
+    "another urdfsync": lambda patch: patch.setattr(uptodate, "__version__", "0.0.1"),
+    "another user, who may not read all that": lambda patch: patch.setattr(os, "geteuid", lambda: 12345, raising=False),
+    "a user of other groups": lambda patch: patch.setattr(os, "getgroups", lambda: [12345], raising=False),
+}
+
+
+def test_the_answer_belongs_to_the_folder_the_environment_and_the_program(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     save(*BUILD)
-    with monkeypatch.context() as patch:
-        patch.chdir("robots")
-        assert saved(*BUILD) is None, "paths look different from here"
-    with monkeypatch.context() as patch:
-        patch.setenv("ROS_PACKAGE_PATH", str(folder))
-        assert saved(*BUILD) is None
-    with monkeypatch.context() as patch:
-        patch.setenv("MODELICAPATH", str(folder))
-        assert saved(*BUILD) is None
+    for name, change in SURROUNDINGS.items():
+        with monkeypatch.context() as patch:
+            change(patch)
+            assert saved(*BUILD) is None, name
     assert saved(*BUILD) is not None
 
 
@@ -200,19 +205,6 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     assert saved(*BUILD) is not None
     _edit("write", "libraries/LegMeshes 2.0/package.mo")(folder)
     assert saved(*BUILD) is None
-
-
-def test_so_does_another_program(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    save(*BUILD)
-    with monkeypatch.context() as patch:
-        patch.setattr(uptodate, "__version__", "0.0.1")
-        assert saved(*BUILD) is None
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "geteuid", lambda: 12345, raising=False)
-        assert saved(*BUILD) is None, "another user may not be allowed to read all that"
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "getgroups", lambda: [12345], raising=False)
-        assert saved(*BUILD) is None, "nor one of other groups"
 
 
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
@@ -466,10 +458,9 @@ def imported(*arguments: str, code: int = 0) -> tuple[set[str], str]:
 
 
 def test_nothing_heavy_is_imported(folder: Path) -> None:
-    end = time.monotonic() + answers.LIMIT
+    save_by_program(BUILD)
     anyway, _ = imported("-c", "import runpy")
-    while "urdfsync.cli" in (names := imported("-m", "urdfsync", *BUILD))[0]:
-        assert time.monotonic() < end, "no answer was saved"
+    names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
     ours = {f"urdfsync.{name}" for name in ("uptodate", "dependencies", "streams")}
     light = {"__future__", "_contextvars", "collections.abc", "contextvars", "errno", "runpy", "time"}
@@ -487,21 +478,19 @@ def started(code: str, command: list[str], **options: Any) -> subprocess.Popen[b
 
 def save_by_program(command: list[str]) -> None:
     """Let the whole program run until it has saved an answer."""
-    end = time.monotonic() + answers.LIMIT
-    while not Path(STAMP).exists():
+
+    def run() -> None:
         with started(FULL, command, stdout=subprocess.PIPE) as process:
             process.communicate()
-        assert time.monotonic() < end, "no answer was saved"
+
+    answers.until(Path(STAMP).exists, run)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
 @pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
 def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
     said = {_on_terminal(FULL, variables)}
-    end = time.monotonic() + answers.LIMIT
-    while not Path(STAMP).exists():
-        said.add(_on_terminal(FULL, variables))
-        assert time.monotonic() < end, "no answer was saved"
+    answers.until(Path(STAMP).exists, lambda: said.add(_on_terminal(FULL, variables)))
     said.add(_on_terminal(SHORT.replace("sys.exit(main())", "main(); assert 'argparse' not in sys.modules"), variables))
     (same,) = said
     assert ("\x1b[" in same) is not bool(variables)

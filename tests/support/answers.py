@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from urdfsync import cli, uptodate
@@ -65,13 +66,18 @@ def built(folder: Path) -> Path:
     return folder
 
 
-def save(*arguments: str) -> None:
-    """Run a command until its answer is saved: not as long as its dependencies are racy."""
+def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
+    """Repeat a step until an answer is saved: that takes as long as its dependencies are racy."""
     end = time.monotonic() + LIMIT
-    while saved(*arguments) is None:
-        time.sleep(0.06)
-        assert cli.main(arguments) == 0
+    while not is_done():
+        step()
         assert time.monotonic() < end, "no answer was saved"
+        time.sleep(0.06)
+
+
+def save(*arguments: str) -> None:
+    """Run a command until its answer is saved."""
+    until(lambda: saved(*arguments) is not None, lambda: cli.main(arguments))
 
 
 def saved(*arguments: str) -> list[str] | None:

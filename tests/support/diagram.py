@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 
 from support.corpus import REPOSITORY
 from support.packages import Package
-from support.words import Word, words
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -38,6 +38,14 @@ STANDARD_LIBRARY: Mapping[str, Mapping[str, Point]] = {
     "Blocks.Sources.Cosine": {"y": (110, 0)},
 }
 """Where classes of the standard library have their connectors, on their icons."""
+
+
+_NUMBER = r"-?\d+(?:\.\d+)?"
+_PREFIXES = "equation|protected|public|parameter|final|constant|inner|outer|replaceable|redeclare|input|output"
+_EXTENDS = re.compile(r"\s*extends\s+([\w.]+)")
+_DECLARATION = re.compile(rf"\s*(?:(?:{_PREFIXES})\s+)*([\w.]+)\s+(\w+)")
+_CONNECT = re.compile(r"\s*(?:equation\s+)?connect\((.*?)\)\s*annotation.*?points\s*=\s*(\{\{.*?\}\})", re.DOTALL)
+_SUBSCRIPTS = re.compile(r"\[(?:[^\[\]]|\[[^\[\]]*\])*\]")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,20 +114,21 @@ def read(text: str, find: Find) -> Diagram:
     components: list[Component] = []
     lines: list[Line] = []
     ports: dict[str, Point] = {}
-    for statement in _statements(words(text)):
-        first = statement[0].text
-        if first == "extends":
-            base = find(_name(statement[1:]))
+    for statement in _code(text).split(";"):
+        if found := _EXTENDS.match(statement):
+            base = find(found[1])
             extent, icon = base.extent, base.icon
             ports |= base.ports
             components += base.components
             lines += base.lines
-        elif first == "connect":
-            lines.append(_line(statement))
-        elif first == "annotation":
-            extent, icon = _system(statement, "Diagram") or extent, _system(statement, "Icon") or icon
-        elif box := _extent(statement, "transformation"):
-            components.append(_component(statement, box))
+        elif found := _CONNECT.match(statement):
+            start, end = _SUBSCRIPTS.sub("", found[1]).replace(" ", "").split(",")  # a vector stands in one place
+            lines.append(Line(start, end, tuple(_points(found[2]))))
+        elif re.match(r"\s*annotation\b", statement):
+            extent = _extent(statement, r"Diagram\(\s*coordinateSystem") or extent
+            icon = _extent(statement, r"Icon\(\s*coordinateSystem") or icon
+        elif (box := _extent(statement, "transformation")) and (found := _DECLARATION.match(statement)):
+            components.append(Component(found[2], found[1], box, _extent(statement, "iconTransformation") or box))
     ports |= {c.name: _center(c.icon) for c in components if c.is_connector}
     return Diagram(extent, icon, tuple(components), tuple(lines), ports)
 
@@ -163,83 +172,23 @@ def corners(component: Component) -> tuple[Point, ...]:
     return (_center(component.box),) if component.is_connector else ((left, bottom), (right, top))
 
 
-def _statements(sequence: Sequence[Word]) -> Iterator[Sequence[Word]]:
-    """Declarations, equations and annotations of the one class in a text, without the words that go before them."""
-    begin = next(k for k, word in enumerate(sequence) if word.text in ("model", "block", "package", "record"))
-    statement: list[Word] = []
-    depth = 0
-    for word in sequence[begin + (3 if sequence[begin + 2].kind == "string" else 2) :]:
-        depth += (word.text in "({[") - (word.text in ")}]") if word.kind == "mark" else 0
-        if word.text == ";" and not depth:
-            yield statement
-            statement = []
-        elif statement or word.text not in _PREFIXES:
-            statement.append(word)
+def _code(text: str) -> str:
+    """The class in a text from its first element on, without comments, and with nothing in its strings."""
+    code = re.sub(r"//[^\n]*", "", re.sub(r'"(?:[^"\\]|\\.)*"', '""', text, flags=re.DOTALL))
+    return re.split(r'\b(?:model|block|package|record) \w+\s*(?:"")?', code, maxsplit=1)[1]
 
 
-_PREFIXES = frozenset(
-    "equation protected public parameter final constant inner outer replaceable redeclare input output".split()
-)
-
-
-def _component(statement: Sequence[Word], box: Box) -> Component:
-    type_name = _name(statement)
-    name = statement[2 * type_name.count(".") + 1].text
-    return Component(name, type_name, box, _extent(statement, "iconTransformation") or box)
-
-
-def _name(statement: Sequence[Word]) -> str:
-    """The name with all its dots that begins here."""
-    end = 1
-    while end < len(statement) and statement[end].text == ".":
-        end += 2
-    return "".join(word.text for word in statement[:end])
-
-
-def _line(statement: Sequence[Word]) -> Line:
-    texts = [word.text for word in statement]
-    middle, end = texts.index(","), texts.index("annotation")
-    while texts[2:middle].count("[") != texts[2:middle].count("]"):
-        middle = texts.index(",", middle + 1)
-    numbers = _numbers(statement, texts.index("points", end))
-    points = tuple(zip(numbers[::2], numbers[1::2], strict=True))
-    return Line(_reference(texts[2:middle]), _reference(texts[middle + 1 : end - 1]), points)
-
-
-def _reference(texts: Sequence[str]) -> str:
-    """A connector's name without subscripts: all connectors of a vector stand in one place."""
-    text = "".join(texts)
-    while "[" in text:
-        text = text[: text.index("[")] + text[text.index("]") + 1 :]
-    return text
-
-
-def _system(statement: Sequence[Word], owner: str) -> Box | None:
-    """The coordinate system of an icon or a diagram, if the annotation has one for it."""
-    texts = [word.text for word in statement]
-    stated = owner in texts and texts[texts.index(owner) + 1 :][:2] == ["(", "coordinateSystem"]
-    return _extent(statement, owner) if stated else None
-
-
-def _extent(statement: Sequence[Word], owner: str) -> Box | None:
-    texts = [word.text for word in statement]
-    if owner not in texts:
+def _extent(statement: str, owner: str) -> Box | None:
+    """The first extent after the owner's name, if the statement has that name."""
+    found = re.search(rf"\b{owner}\b.*?extent\s*=\s*\{{(\{{.*?\}},\s*\{{.*?\}})\}}", statement, re.DOTALL)
+    if not found:
         return None
-    x1, y1, x2, y2 = _numbers(statement, texts.index("extent", texts.index(owner)))
+    (x1, y1), (x2, y2) = _points(found[1])
     return min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2)
 
 
-def _numbers(statement: Sequence[Word], start: int) -> list[float]:
-    """The numbers in the braces after `start`."""
-    numbers, depth, sign = [], 0, 1
-    for word in statement[start + 2 :]:
-        depth += (word.text == "{") - (word.text == "}")
-        if word.kind == "number":
-            numbers.append(sign * float(word.text))
-        sign = -1 if word.text == "-" else 1
-        if depth == 0:
-            break
-    return numbers
+def _points(text: str) -> list[Point]:
+    return [(float(x), float(y)) for x, y in re.findall(rf"\{{({_NUMBER}),\s*({_NUMBER})\}}", text)]
 
 
 def _center(box: Box) -> Point:

@@ -18,6 +18,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 import watchdog.observers
@@ -602,10 +603,7 @@ def test_a_command_after_builds_that_changed_something(start: Start, capfd: pyte
 
 
 def test_a_command_that_can_not_be_started_is_told(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: Any, **__: Any) -> None:
-        raise OSError(errno.ENOMEM, "no memory")
-
-    monkeypatch.setattr(subprocess, "Popen", fail)
+    monkeypatch.setattr(subprocess, "Popen", mock.Mock(side_effect=OSError(errno.ENOMEM, "no memory")))
     daemon = start(command="true")
     assert (
         daemon.wait(events.Noted).diagnostics[0].message.endswith("the command of --exec can't be started: no memory")
