@@ -5,8 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,7 +13,6 @@ import pytest
 from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
-from urdfsync import files
 from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
 from urdfsync.files import text_digest
@@ -72,27 +69,6 @@ def test_a_build_elsewhere_gives_the_same_bytes(
     assert contents[0] == contents[1]
     assert noted[0] != noted[1]
     assert str(tmp_path).encode() not in b"".join(contents[0].values())
-
-
-def test_a_no_op_of_a_urdf_imports_nothing_heavy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    mesh = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
-    Path("arm.urdf").write_text(f'<robot name="arm"><link name="base">{mesh}</link></robot>')
-    Path("tip.stl").write_text(
-        "solid tip\nfacet normal 0 0 1\nouter loop\n"
-        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
-    )
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    run()
-    code = (
-        "import sys; from urdfsync.cli import main; code = main(['build']); "
-        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
-    )
-    environment = os.environ | {"PYTHONPATH": str(Path(files.__file__).parents[1])}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    headline, heavy = done.stdout.splitlines()
-    assert headline.startswith("arm: in step, ")
-    assert heavy == "[]"
 
 
 @pytest.mark.parametrize(("old", "new"), [("  ", "    "), ("\n", "\r\n")], ids=["blanks", "line ends"])

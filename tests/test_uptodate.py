@@ -467,6 +467,14 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     assert names[0] - anyway - ours <= {"urdfsync", *light}
 
 
+def test_a_build_that_has_no_answer_and_nothing_to_do_imports_no_library(folder: Path) -> None:
+    assert cli.main(BUILD) == 0  # the first one in a copy notes that it wrote this folder
+    Path(STAMP).unlink(missing_ok=True)
+    names, said = imported("-c", FULL, *BUILD)
+    assert said == f"{IN_STEP}\n"
+    assert not names & {"jinja2", "rich", "lxml", "numpy", "yourdfpy", "deepdiff"}
+
+
 FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
 SHORT = "import sys; from urdfsync.__main__ import main; sys.exit(main())"
 
