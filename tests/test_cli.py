@@ -83,12 +83,6 @@ def test_explain_names_each_file_on_one_line(edited: Path, execute: Execute) -> 
     assert len(execute("build", "--explain", "--verbose", "--dry-run").lines) == 15
 
 
-def test_quiet_says_nothing_if_all_is_well(project: Path, execute: Execute) -> None:
-    (project / "step.csv").unlink()
-    streams = execute("build", "--quiet")
-    assert (streams.out, streams.err) == ("", "")
-
-
 def test_findings_go_to_the_error_stream(project: Path, execute: Execute) -> None:
     source('"R2"', '"r2"')
     (project / "step.csv").unlink()

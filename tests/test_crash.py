@@ -18,7 +18,7 @@ from unittest import mock
 import pytest
 from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
-from support.networks import LADDER, edit
+from support.networks import LADDER, configure, edit
 
 from urdfsync.state import file_operations
 from urdfsync.state.journal import FORMAT, JournalFolder, Phase
@@ -75,8 +75,7 @@ def renamed(project: Path) -> Path:
 def moved(project: Path) -> Path:
     """A network whose package has another name and another parent now."""
     run(project)
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write("create_parents = true\n")
+    configure("create_parents = true\n")
     edit(project / "urdfsync.toml", '"Ladder"', '"Plant.Filters.Ladder"')
     return project
 

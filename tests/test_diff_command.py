@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, RECORD, ROBOT, Snapshot, edit, rename, resistor
+from support.networks import LADDER, RECORD, ROBOT, Snapshot, configure, edit, rename, resistor
 
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.comparison import Comparison, exit_code
@@ -134,8 +134,7 @@ def test_an_error_comes_before_a_lock_and_a_lock_before_being_out_of_step() -> N
 
 
 def test_every_robot_of_a_source(built: Path, execute: Execute) -> None:
-    with (built / "urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("other", "Other"))
+    configure(ROBOT.format("other", "Other"))
     edit("ladder.json", "220.5", "330")
     for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
         _, lines = said(execute, *arguments)
@@ -274,8 +273,7 @@ def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
 
 def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:
     shutil.copy(project / "ladder.json", project / "copy.json")
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
+    configure(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
     assert "one file can't be the older version of 2 sources" in refused(execute, "--against", "step.csv")
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, edit, resistor
+from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, configure, edit, resistor
 
 from urdfsync import cli, hook
 from urdfsync.hooks.index import Index
@@ -195,8 +195,7 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
 def add_robot(repo: Repository) -> None:
     """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    with Path("urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
+    configure(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import LADDER, Snapshot, edit
+from support.networks import LADDER, Snapshot, configure, edit
 
 from urdfsync.state.lock import build_lock
 
@@ -77,8 +77,7 @@ def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Exec
 
 
 def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute) -> None:
-    with (built / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "no.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    configure('[robots.other]\nsource = "no.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     assert execute("status", code=2).lines == ["ladder: in step, 14 files"]
     assert "the source no.json does not exist" in execute("status", code=None).errors[0]
     assert execute("status", code=None).errors[1] == "other: 1 error, so nothing can be said of its files"

@@ -71,5 +71,6 @@ def test_templates_that_have_a_use(project: Path) -> None:
 def test_warnings_are_shown_by_a_build(project: Path, execute: Execute) -> None:
     warnings(project, robots(1, 'package_paths = ["gone"]\n'))
     assert "[no-package-path]" in execute("build").err
-    assert execute("build", "--quiet").err == ""
+    quiet = execute("build", "--quiet")
+    assert (quiet.out, quiet.err) == ("", "")
     assert '"code": "no-package-path"' in execute("build", "--json", code=None).out

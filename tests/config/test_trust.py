@@ -12,6 +12,7 @@ import pytest
 from support.commands import Execute
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
+from support.networks import configure
 
 
 @pytest.fixture(autouse=True)
@@ -29,8 +30,7 @@ def outside(project: Path, tmp_path: Path) -> Path:
     """A folder beside the project, which the project builds to."""
     folder = tmp_path / "elsewhere"
     folder.mkdir()
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('output = "../elsewhere"\n')
+    configure('output = "../elsewhere"\n')
     return folder
 
 

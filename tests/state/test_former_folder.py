@@ -13,7 +13,7 @@ import tomli
 import tomli_w
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, edit
+from support.networks import MANIFEST, configure, edit
 from support.replay import contents
 
 from urdfsync.diagnostics import OutputError
@@ -131,8 +131,7 @@ def _rename_robot(project: Path) -> None:
 
 
 def _move_output(project: Path) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('output = "packages"\n')
+    configure('output = "packages"\n')
 
 
 @pytest.mark.parametrize("steps", [[_rename_robot, move], [move, _rename_robot], [_move_output], [_move_output, move]])
@@ -150,8 +149,7 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
 
 
 def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, execute: Execute) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write("create_parents = true\n")
+    configure("create_parents = true\n")
     move(project, "Plant.Ladder")
     execute("build")
     order = project / "modelica/Plant/package.order"

@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
-from support.networks import edit
+from support.networks import configure, edit
 
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
@@ -61,8 +61,7 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         running.append(Daemons(rests=False))
         return running[-1]
 
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('on_build = "check"\n')
+    configure('on_build = "check"\n')
     yield begin
     for daemon in running:
         daemon.stop()
@@ -155,8 +154,7 @@ OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rc
 @pytest.fixture
 def other(project: Path, start: Start) -> None:
     """Another robot to check."""
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(OTHER)
+    configure(OTHER)
 
 
 @pytest.mark.usefixtures("other")
@@ -211,8 +209,7 @@ def stuck(project: Path, rc_site: Path, tmp_path: Path, modelica_library: Path) 
     (tmp_path / "site").mkdir()
     (tmp_path / "site" / "rumoca.py").write_text("import time\n\nwhile True:\n    time.sleep(60)\n")
     home = {name: str(tmp_path / "home") for name in ("HOME", "XDG_CACHE_HOME", "PRE_COMMIT_HOME")}
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
+    configure(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
     path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
     with Watch(project, path=path, **home) as watch:
         yield watch

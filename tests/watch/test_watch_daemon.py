@@ -24,6 +24,7 @@ import pytest
 import watchdog.observers
 from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, until
 from support.git import NEEDS_GIT, Repository
+from support.networks import configure
 
 from urdfsync import cli, registry
 from urdfsync.engine.actions import Kind
@@ -260,8 +261,7 @@ def test_an_imported_file_changes_vanishes_and_comes_back(start: Start) -> None:
 
 def test_a_template_of_the_users_changes(start: Start) -> None:
     Path("templates").mkdir()
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('templates = "templates"\n')
+    configure('templates = "templates"\n')
     daemon = start()
     own = (REPOSITORY / "tests/rcnetwork/templates/element/model.mo.jinja").read_text()
     with building(daemon, wanted=has_files):
