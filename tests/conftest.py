@@ -165,12 +165,9 @@ def in_haste() -> Iterator[None]:
 @pytest.fixture
 def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     """A function that gives time of change and content of every file below a folder."""
+    from support import files
 
-    def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-        files = sorted(path for path in folder.rglob("*") if path.is_file())
-        return {path.relative_to(folder).as_posix(): (path.stat().st_mtime_ns, path.read_bytes()) for path in files}
-
-    return snapshot
+    return files.snapshot
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
+from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, RECORD, ROBOT, Snapshot, configure, edit, rename, resistor
+from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.comparison import Comparison, exit_code
@@ -78,29 +79,27 @@ def refused(execute: Execute, *arguments: str) -> str:
 # the last build
 
 
-def test_nothing_changed(built: Path, execute: Execute, snapshot_of: Snapshot) -> None:
-    before = snapshot_of(built)
-    assert said(execute, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
-    assert said(execute) == said(execute, "ladder") == said(execute, "--robot", "ladder")
-    assert snapshot_of(built) == before
+def test_nothing_changed(built: Path, execute: Execute) -> None:
+    with unchanged(built):
+        assert said(execute, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
+        assert said(execute) == said(execute, "ladder") == said(execute, "--robot", "ladder")
 
 
-def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute, snapshot_of: Snapshot) -> None:
+def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute) -> None:
     edit("ladder.json", "220.5", "330")
-    before = snapshot_of(built)
-    assert said(execute, "ladder", "--quiet") == (1, [])
-    assert said(execute, "ladder.json") == (
-        1,
-        [
-            "ladder: 1 parameter change since the last build",
-            "  R2",
-            "    ohm  220.5 → 330 Ω  +49.7 %",
-            "",
-            "A build: 1 file to write",
-            f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
-        ],
-    )
-    assert snapshot_of(built) == before
+    with unchanged(built):
+        assert said(execute, "ladder", "--quiet") == (1, [])
+        assert said(execute, "ladder.json") == (
+            1,
+            [
+                "ladder: 1 parameter change since the last build",
+                "  R2",
+                "    ohm  220.5 → 330 Ω  +49.7 %",
+                "",
+                "A build: 1 file to write",
+                f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
+            ],
+        )
 
 
 def _conflict() -> None:
@@ -147,27 +146,26 @@ def test_every_robot_of_a_source(built: Path, execute: Execute) -> None:
 # another file
 
 
-def test_two_files_without_a_configuration(arm: Path, execute: Execute, snapshot_of: Snapshot) -> None:
-    before = snapshot_of(arm)
-    assert said(execute, "new.urdf", "--against", "arm.urdf") == (
-        1,
-        [
-            "new.urdf: 2 parameter changes since arm.urdf",
-            "  link tip",
-            "    inertial / mass  2 → 3 kg     +50 %",
-            "  joint elbow",
-            "    limit / effort   54 → 60 N·m  +11.1 %",
-            "",
-            "Effects",
-            "    robot mass  2 → 3 kg  +50 %",
-            "",
-            "2 files of the package differ",
-            f"  update     {Path('Joints/ElbowParameters.mo')}",
-            f"  update     {Path('Links/TipParameters.mo')}",
-        ],
-    )
-    assert said(execute, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
-    assert snapshot_of(arm) == before
+def test_two_files_without_a_configuration(arm: Path, execute: Execute) -> None:
+    with unchanged(arm):
+        assert said(execute, "new.urdf", "--against", "arm.urdf") == (
+            1,
+            [
+                "new.urdf: 2 parameter changes since arm.urdf",
+                "  link tip",
+                "    inertial / mass  2 → 3 kg     +50 %",
+                "  joint elbow",
+                "    limit / effort   54 → 60 N·m  +11.1 %",
+                "",
+                "Effects",
+                "    robot mass  2 → 3 kg  +50 %",
+                "",
+                "2 files of the package differ",
+                f"  update     {Path('Joints/ElbowParameters.mo')}",
+                f"  update     {Path('Links/TipParameters.mo')}",
+            ],
+        )
+        assert said(execute, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
 
 
 def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, execute: Execute) -> None:

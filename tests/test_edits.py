@@ -13,13 +13,13 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+from support.files import unchanged
 from support.networks import (
     C1,
     LADDER,
     MANIFEST,
     R1,
     RECORD,
-    Snapshot,
     configure,
     edit,
     kinds,
@@ -148,7 +148,7 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     assert "elementR9" in found.rejected
 
 
-def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapshot_of: Snapshot) -> None:
+def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None:
     run()
     edit(RECORD, "100", "150")
     edit(RECORD, "end R1", MAY)
@@ -156,9 +156,8 @@ def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapsho
     mine = Path(RECORD).read_bytes()
     assert kinds(run())[RECORD] is Kind.INCLUDED
     assert Path(RECORD).read_bytes() == mine
-    before = snapshot_of(project)
-    assert kinds(run()) == {RECORD: Kind.KEEP}
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        assert kinds(run()) == {RECORD: Kind.KEEP}
 
 
 @pytest.mark.parametrize("edited", [False, True])
@@ -180,19 +179,18 @@ def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) 
 
 
 @pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
-def test_merge_markers_are_never_taken_for_an_edit(project: Path, snapshot_of: Snapshot, path: str) -> None:
+def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str) -> None:
     merging()
     run()
     text = Path(path).read_text()
     Path(path).write_text(f"<<<<<<< HEAD\n{text}=======\n{text}>>>>>>> theirs\n")
     resistor(150)
-    before = snapshot_of(project)
-    for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):
-        (result,) = run_all(**request)
-        (found,) = result.diagnostics
-        assert exit_code([result]) is Exit.ERROR
-        assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):
+            (result,) = run_all(**request)
+            (found,) = result.diagnostics
+            assert exit_code([result]) is Exit.ERROR
+            assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
 
 
 # Renames

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import json
 import os
@@ -12,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pytest
+from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, configure, edit, resistor
 
@@ -99,17 +101,15 @@ RECORDED = f"{OUT}what urdfsync recorded of it is out of date"
     ],
 )  # fmt: skip
 def test_what_is_not_in_step_is_told_with_the_command_that_mends_it(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot,
-    change: tuple[str, ...], commands: str, mode: str, words: str, command: str,
+    repo: Repository, capsys: Capture, change: tuple[str, ...], commands: str, mode: str, words: str, command: str,
 ) -> None:  # fmt: skip
     """The source is changed, and the commands have been run. The check writes nothing."""
     if change:
         edit("ladder.json", *change)
     run(commands)
-    before = snapshot_of(repo.folder)
     heading = "build, then add to the commit:" if command.startswith("urdfsync") else "add to the commit:"
-    assert said(capsys, mode) == [words, heading, f"  {command}"]
-    assert mode == "build" or snapshot_of(repo.folder) == before
+    with contextlib.nullcontext() if mode == "build" else unchanged(repo.folder):
+        assert said(capsys, mode) == [words, heading, f"  {command}"]
     run(command)
     assert said(capsys, "build", code=0) == said(capsys, "check", code=0) == []
 
@@ -142,19 +142,16 @@ def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capt
     passes("the configuration")
 
 
-def test_a_source_with_later_changes_keeps_a_build_from_writing(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot
-) -> None:
+def test_a_source_with_later_changes_keeps_a_build_from_writing(repo: Repository, capsys: Capture) -> None:
     staged(repo)
     resistor(130, before=120)
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "build")
-    assert lines == [
-        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
-        "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
-        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
-    ]
-    assert snapshot_of(repo.folder) == before
+    with unchanged(repo.folder):
+        lines = said(capsys, "build")
+        assert lines == [
+            "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+            "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
+            f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
+        ]
     run("git stash push --keep-index")
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
@@ -243,14 +240,13 @@ def test_a_source_that_the_commit_deletes(repo: Repository, capsys: Capture) -> 
         assert "does not exist" in said(capsys, mode, code=2)[0]
 
 
-def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
     edit("urdfsync.toml", 'domain = "rcnetwork"', 'domain = "rcnetwork"\nprefix = "joint"')
     repo.git("add", "urdfsync.toml")
     edit("urdfsync.toml", "joint", "point")
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "build")
-    assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
-    assert snapshot_of(repo.folder) == before
+    with unchanged(repo.folder):
+        lines = said(capsys, "build")
+        assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
     edit("urdfsync.toml", "point", "joint")
     run(said(capsys, "build")[-1])
     assert said(capsys, "build", code=0) == []
@@ -431,7 +427,7 @@ def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
 
 
 def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
-    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stash(*paths: str) -> None:
         monkeypatch.setattr(precommit, "find_stash", lambda _: (Path("patch"), 1))
@@ -439,15 +435,14 @@ def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
 
     resistor(120)
     repo.git("add", ".")
-    before = snapshot_of(repo.folder / "modelica")
-    for path in ("ladder.json", "step.csv", RECORD, MANIFEST, "urdfsync.toml"):
-        stash(path)
-        line = f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
-        assert said(capsys, "build")[0] == line
-    repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
-    stash()
-    said(capsys, "build")
-    assert snapshot_of(repo.folder / "modelica") == before, "a roll-back must not leave an untracked state alone"
+    with unchanged(repo.folder / "modelica"):
+        for path in ("ladder.json", "step.csv", RECORD, MANIFEST, "urdfsync.toml"):
+            stash(path)
+            line = f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
+            assert said(capsys, "build")[0] == line
+        repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
+        stash()
+        said(capsys, "build")
     repo.git("add", ".urdfsync")
     assert said(capsys, "build")[0] == "ladder: out of step: 1 file written"
 

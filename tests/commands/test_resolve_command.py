@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, configure, edit
+from support.files import unchanged
+from support.networks import LADDER, MANIFEST, ROBOT, configure, edit
 
 from urdfsync import cli
 from urdfsync.engine.rules import sides_hash
@@ -24,10 +25,6 @@ def more(name: str) -> None:
     """One more resistor between two nodes that are there: a structural change that renames nothing."""
     last = '"farad": 4.7e-6}'
     edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
-
-
-def files(snapshot: dict[str, tuple[int, bytes]]) -> dict[str, tuple[int, bytes]]:
-    return {path: entry for path, entry in snapshot.items() if path != ".urdfsync/lock"}
 
 
 @pytest.fixture
@@ -87,27 +84,23 @@ def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory
     assert Path(MODEL).read_text() == mine
 
 
-def test_a_merge_that_is_not_offered_changes_nothing(
-    execute: Execute, contradictory: Path, snapshot_of: Snapshot
-) -> None:
+def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradictory: Path) -> None:
     execute("build", code=3)
-    before = files(snapshot_of(contradictory))
-    proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
-    assert execute("resolve", MODEL, "--merge", code=2).err == (
-        f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
-        f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
-    )
-    assert MINE in proposal.read_text()
-    assert files(snapshot_of(contradictory)) == before
+    with unchanged(contradictory, but=".urdfsync/lock"):
+        proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
+        assert execute("resolve", MODEL, "--merge", code=2).err == (
+            f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
+            f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
+        )
+        assert MINE in proposal.read_text()
 
 
-def test_a_dry_run_writes_nothing(clean: Path, execute: Execute, snapshot_of: Snapshot) -> None:
-    before = files(snapshot_of(clean))
-    assert (
-        execute("resolve", MODEL, "--merge", "--dry-run").lines[0]
-        == "ladder: 3 files to write, 1 to merge with your edits"
-    )
-    assert files(snapshot_of(clean)) == before
+def test_a_dry_run_writes_nothing(clean: Path, execute: Execute) -> None:
+    with unchanged(clean, but=".urdfsync/lock"):
+        assert (
+            execute("resolve", MODEL, "--merge", "--dry-run").lines[0]
+            == "ladder: 3 files to write, 1 to merge with your edits"
+        )
 
 
 # Several files
@@ -138,14 +131,11 @@ def test_a_folder_stands_for_all_below_it(several: Path, execute: Execute) -> No
     assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
-def test_several_files_are_settled_together_or_not_at_all(
-    several: Path, execute: Execute, snapshot_of: Snapshot
-) -> None:
-    before = files(snapshot_of(several))
-    record = f"{LADDER}/Elements/R1Parameters.mo"
-    execute("resolve", MODEL, record, "--merge", code=2)
-    execute("resolve", MODEL, "nothing.mo", "--keep", code=2)
-    assert files(snapshot_of(several)) == before
+def test_several_files_are_settled_together_or_not_at_all(several: Path, execute: Execute) -> None:
+    with unchanged(several, but=".urdfsync/lock"):
+        record = f"{LADDER}/Elements/R1Parameters.mo"
+        execute("resolve", MODEL, record, "--merge", code=2)
+        execute("resolve", MODEL, "nothing.mo", "--keep", code=2)
     execute("resolve", MODEL, record, "--keep", code=3)
     assert conflicts(execute) == ["Resources/step.txt"]
 
@@ -182,19 +172,17 @@ def unsourced(execute: Execute, project: Path) -> Path:
 
 
 @pytest.mark.parametrize("options", [[], ["--dry-run"]])
-def test_what_nobody_has_cant_be_taken(
-    unsourced: Path, options: list[str], execute: Execute, snapshot_of: Snapshot
-) -> None:
-    before = files(snapshot_of(unsourced))
-    assert execute("resolve", SIGNAL, "--take", *options, code=2).err == (
-        f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
-        f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
-    )
-    assert [
-        found["code"] for found in execute("resolve", LADDER, "--take", *options, "--json", code=2).json["diagnostics"]
-    ] == ["no-take"]
-    execute("resolve", "--all", "--take", *options, code=3)
-    assert files(snapshot_of(unsourced)) == before
+def test_what_nobody_has_cant_be_taken(unsourced: Path, options: list[str], execute: Execute) -> None:
+    with unchanged(unsourced, but=".urdfsync/lock"):
+        assert execute("resolve", SIGNAL, "--take", *options, code=2).err == (
+            f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
+            f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
+        )
+        assert [
+            found["code"]
+            for found in execute("resolve", LADDER, "--take", *options, "--json", code=2).json["diagnostics"]
+        ] == ["no-take"]
+        execute("resolve", "--all", "--take", *options, code=3)
 
 
 def test_what_nobody_has_is_not_offered(unsourced: Path, execute: Execute) -> None:
@@ -234,12 +222,11 @@ def test_paths_count_from_the_working_folder(
     execute("resolve", typed.format(project=clean), "--merge")
 
 
-def test_a_path_that_is_no_conflict(execute: Execute, clean: Path, snapshot_of: Snapshot) -> None:
-    before = files(snapshot_of(clean))
-    for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
-        words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
-        assert execute("resolve", typed, "--keep", code=2).err == words
-    assert files(snapshot_of(clean)) == before
+def test_a_path_that_is_no_conflict(execute: Execute, clean: Path) -> None:
+    with unchanged(clean, but=".urdfsync/lock"):
+        for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
+            words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
+            assert execute("resolve", typed, "--keep", code=2).err == words
 
 
 def test_of_many_conflicts_a_few_are_named(clean: Path, execute: Execute) -> None:

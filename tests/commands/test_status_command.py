@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import LADDER, Snapshot, configure, edit
+from support.files import unchanged
+from support.networks import LADDER, configure, edit
 
 from urdfsync.state.lock import build_lock
 
@@ -27,30 +28,28 @@ def test_in_step(built: Path, execute: Execute) -> None:
     assert execute("status", "--quiet").lines == []
 
 
-def test_never_built(project: Path, execute: Execute, snapshot_of: Snapshot) -> None:
-    before = snapshot_of(project)
-    assert execute("status").lines == ["ladder: not built yet", "  a build: 14 files to write"]
-    assert len(execute("status", "--verbose").lines) == 2 + 14
-    assert snapshot_of(project) == before
+def test_never_built(project: Path, execute: Execute) -> None:
+    with unchanged(project):
+        assert execute("status").lines == ["ladder: not built yet", "  a build: 14 files to write"]
+        assert len(execute("status", "--verbose").lines) == 2 + 14
 
 
-def test_files_of_every_kind(built: Path, execute: Execute, snapshot_of: Snapshot) -> None:
+def test_files_of_every_kind(built: Path, execute: Execute) -> None:
     edit(built / "ladder.json", "220.5", "330")
     edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
     (built / LADDER / "Elements/C1.mo").unlink()
-    before = snapshot_of(built)
-    assert execute("status").lines == [
-        "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
-        "  1 parameter change in the source",
-        "  a build: 1 file to write, 1 to restore",
-        "  edited     modelica/Ladder/Ladder.mo",
-        "  missing    modelica/Ladder/Elements/C1.mo  it was deleted; written again",
-        "  stale      modelica/Ladder/Elements/R2Parameters.mo  what it is made from changed",
-    ]
-    everything = execute("status", "--verbose").lines
-    assert len(everything) == 3 + 14
-    assert "  in step    modelica/Ladder/Elements/C1Parameters.mo" in everything
-    assert snapshot_of(built) == before
+    with unchanged(built):
+        assert execute("status").lines == [
+            "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
+            "  1 parameter change in the source",
+            "  a build: 1 file to write, 1 to restore",
+            "  edited     modelica/Ladder/Ladder.mo",
+            "  missing    modelica/Ladder/Elements/C1.mo  it was deleted; written again",
+            "  stale      modelica/Ladder/Elements/R2Parameters.mo  what it is made from changed",
+        ]
+        everything = execute("status", "--verbose").lines
+        assert len(everything) == 3 + 14
+        assert "  in step    modelica/Ladder/Elements/C1Parameters.mo" in everything
 
 
 def test_a_conflict(built: Path, execute: Execute) -> None:
