@@ -10,6 +10,7 @@ import pytest
 from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
+from support.meshes import stl
 from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
 from urdfsync.diff.changes import Changes
@@ -27,16 +28,6 @@ ARM = """<robot name="arm">
   </joint>
 </robot>
 """
-MESH = """solid tip
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex {size} 0 0
-vertex 0 {size} 0
-endloop
-endfacet
-endsolid tip
-"""
 
 
 @pytest.fixture
@@ -51,7 +42,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder, also the working one, with an arm, its mesh and a changed version, and without a configuration."""
     folder = tmp_path / "arm"
     folder.mkdir()
-    (folder / "tip.stl").write_text(MESH.format(size=1))
+    (folder / "tip.stl").write_text(stl(1))
     (folder / "arm.urdf").write_text(ARM)
     (folder / "new.urdf").write_text(
         ARM.replace('effort="54"', 'effort="60"').replace('mass value="2"', 'mass value="3"')
@@ -175,7 +166,7 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
         0,
         ["arm.urdf: nothing changed since old/arm.urdf"],
     )
-    (arm / "old/tip.stl").write_text(MESH.format(size=2))
+    (arm / "old/tip.stl").write_text(stl(2))
     code, lines = said(execute, "arm.urdf", "--against", "old/arm.urdf")
     assert code == 1
     assert lines[1] == "  mesh tip.stl"
@@ -191,7 +182,7 @@ def test_a_revision_with_the_mesh_as_it_was(arm: Path, execute: Execute, monkeyp
     repository = Repository(arm, monkeypatch)
     repository.commit()
     assert said(execute, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
-    (arm / "tip.stl").write_text(MESH.format(size=2))
+    (arm / "tip.stl").write_text(stl(2))
     edit("arm.urdf", 'effort="54"', 'effort="60"')
     code, lines = said(execute, "arm.urdf", "--against", "HEAD")
     assert code == 1

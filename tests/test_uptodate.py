@@ -17,6 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from support import answers
 from support.answers import save, saved
+from support.meshes import stl
 from support.screen import print_on_terminal
 
 from urdfsync import cli, dependencies, streams, uptodate
@@ -162,7 +163,7 @@ EDITS: dict[str, Edit] = {
             *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
     },
-    "a mesh that is better placed": _edit("write", "robots/arm_meshes/base.stl", answers.TETRAHEDRON),
+    "a mesh that is better placed": _edit("write", "robots/arm_meshes/base.stl", stl()),
     "a package that hides another": _edit("write", "ros/a/package.xml", "<name>arm_meshes</name>"),
     "a folder to be ignored": _edit("write", "ros/group/COLCON_IGNORE"),
     "a template": _edit("write", "own/link.mo.jinja", "<< this >>"),
