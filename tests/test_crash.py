@@ -20,6 +20,7 @@ from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
 from support.networks import LADDER, configure, edit
 
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.state import file_operations
 from urdfsync.state.journal import FORMAT, JournalFolder, Phase
 from urdfsync.state.record import Choice
@@ -379,17 +380,22 @@ def crashed(changed: Path, tmp_path: Path) -> Path:
     return changed
 
 
+def refused(project: Path, **request: bool) -> list[Diagnostic]:
+    """What a build says that fails and changes nothing."""
+    before = contents(project)
+    result = run(project, **request)
+    assert result.failed
+    assert contents(project) == before
+    return list(result.diagnostics)
+
+
 def test_what_was_recovered_is_said(crashed: Path) -> None:
     codes = [(found.code, found.message) for found in run(crashed).diagnostics]
     assert codes[0] == ("recovered", "the last build of robot `ladder` was interrupted; it is finished")
 
 
 def test_a_dry_run_says_that_a_build_was_interrupted(crashed: Path) -> None:
-    before = contents(crashed)
-    result = run(crashed, dry=True)
-    assert [found.code for found in result.diagnostics] == ["interrupted"]
-    assert result.failed
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed, dry=True)] == ["interrupted"]
 
 
 def test_another_robot_recovers_as_well(crashed: Path) -> None:
@@ -426,10 +432,7 @@ def test_a_journal_can_not_reach_other_files(crashed: Path, tmp_path: Path, plac
     (tmp_path / "victim.mo").write_text("precious")
     (crashed / "linked").symlink_to(tmp_path)
     rewrite(crashed / ".urdfsync/journal/apply.json", "modelica/Ladder/Elements/R3.mo", place)
-    before = contents(crashed)
-    result = run(crashed)
-    assert [found.code for found in result.diagnostics] == [code]
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed)] == [code]
     assert (tmp_path / "victim.mo").read_text() == "precious"
 
 
@@ -448,11 +451,9 @@ def test_a_journal_that_was_not_written_here_is_refused(crashed: Path, phase: st
         journal.write_text("{")
     else:
         rewrite(journal, '"token":"', '"token":"../')
-    before = contents(crashed)
-    (found,) = run(crashed).diagnostics
+    (found,) = refused(crashed)
     assert (found.code, found.file) == ("broken-journal", str(Path(f".urdfsync/journal/{phase}.json")))
     assert "--repair" in found.hint
-    assert contents(crashed) == before
     left = sorted(crashed.rglob("*.urdfsync-tmp"))
     repaired = run(crashed, repair=True)
     assert "refused-journal" in [found.code for found in repaired.diagnostics]
@@ -465,10 +466,8 @@ def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> 
     run(project)
     journal = project / ".urdfsync/journal" / name
     journal.write_text('{"robot":"ladder","token":"12","steps":[],"format":2}')
-    before = contents(project)
-    (found,) = run(project).diagnostics
+    (found,) = refused(project)
     assert (found.code, found.message) == ("broken-journal", "an older urdfsync was interrupted here")
-    assert contents(project) == before
     assert not run(project, repair=True).failed
     assert journal.with_name("refused.json").read_text().endswith('"format":2}')
     assert run(project).in_step
@@ -476,9 +475,7 @@ def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> 
 
 def test_a_journal_of_a_newer_urdfsync_is_left_alone(crashed: Path) -> None:
     rewrite(crashed / ".urdfsync/journal/apply.json", f'"format":{FORMAT}', f'"format":{FORMAT + 1}')
-    before = contents(crashed)
-    assert [found.code for found in run(crashed, repair=True).diagnostics] == ["newer-state"]
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed, repair=True)] == ["newer-state"]
 
 
 @pytest.fixture

@@ -97,9 +97,7 @@ def test_the_daemon_watches_it(project: Path) -> None:
     daemon = Daemons()
     try:
         daemon.wait(events.Built)
-        since = len(daemon.events)
-        edit(project / "parts.yaml", "1.2", "1.4")
-        daemon.wait(events.Built, since)
+        daemon.after(lambda: edit(project / "parts.yaml", "1.2", "1.4"), events.Built)
     finally:
         daemon.stop()
     assert "mass = 1.4" in (project / "modelica/Gearbox/MotorParameters.mo").read_text()

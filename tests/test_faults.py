@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import itertools
 import os
 import re
 import shutil
@@ -101,33 +102,25 @@ def a_link_to_nothing(path: Path, outside: Path) -> None:
     path.symlink_to(outside / "nothing")
 
 
-@pytest.mark.parametrize("command", ["build", "resolve"])
-@pytest.mark.parametrize("replace", [a_folder, a_link, a_link_to_nothing])
-@pytest.mark.parametrize("place", [MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json"])
-def test_a_file_that_is_something_else(
-    stale: Path, tmp_path: Path, execute: Execute, place: str, replace: Callable[[Path, Path], None], command: str
+FILES = (MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json")
+FOLDERS = (LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots")
+COMMANDS = (["build"], ["resolve", "--all", "--take"])
+LINKS = (a_link, a_link_to_nothing)
+
+
+@pytest.mark.parametrize(
+    ("place", "replace", "command"),
+    [*itertools.product(FILES, (a_folder, *LINKS), COMMANDS), *itertools.product(FOLDERS, LINKS, COMMANDS[:1])],
+)
+def test_a_file_or_folder_that_is_something_else(
+    stale: Path, tmp_path: Path, execute: Execute, place: str, replace: Callable[[Path, Path], None], command: list[str]
 ) -> None:
     outside = tmp_path / "outside"
     outside.mkdir()
     replace(stale / place, outside)
     before = contents(tmp_path)
-    arguments = [command, "--all", "--take"] if command == "resolve" else [command]
-    assert_error(
-        execute, arguments, f"{place}: error: {'a folder' if replace is a_folder else 'a symbolic link'} is where "
-    )
-    assert contents(tmp_path) == before
-
-
-@pytest.mark.parametrize("replace", [a_link, a_link_to_nothing])
-@pytest.mark.parametrize("place", [LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots"])
-def test_a_folder_that_is_a_link(
-    stale: Path, tmp_path: Path, execute: Execute, place: str, replace: Callable[[Path, Path], None]
-) -> None:
-    outside = tmp_path / "outside"
-    outside.mkdir()
-    replace(stale / place, outside)
-    before = contents(tmp_path)
-    assert_error(execute, ["build"], f"{place}: error: a symbolic link is where ")
+    kind = "a folder" if replace is a_folder else "a symbolic link"
+    assert_error(execute, command, f"{place}: error: {kind} is where ")
     assert contents(tmp_path) == before
 
 

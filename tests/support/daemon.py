@@ -195,6 +195,12 @@ class Daemons(Listener):
         self.until(lambda: found() is not None)
         return found()
 
+    def after(self, act: Callable[[], object], kind: type, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
+        """Do something, and wait for the first event of this kind that is wanted from then on."""
+        since = self.mark
+        act()
+        return self.wait(kind, since, wanted)
+
     def kinds(self, since: int = 0) -> list[str]:
         """The names of the events from the one with this number on."""
         return [type(event).__name__ for event in self.events[since:]]

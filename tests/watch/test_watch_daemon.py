@@ -197,9 +197,7 @@ def test_a_folder_is_deleted_and_made_again(start: Start) -> None:
     put("a/b/ladder.json", 220.5)
     Path("urdfsync.toml").write_text(CONFIG.format("ladder", "a/b/ladder.json", "Ladder"))
     daemon = start(times=PATIENT)
-    since = daemon.mark
-    shutil.rmtree("a")
-    daemon.wait(events.Waiting, since)
+    daemon.after(lambda: shutil.rmtree("a"), events.Waiting)
     with building(daemon, 330, has_files):
         put("a/b/ladder.json", 330)
 
@@ -316,9 +314,7 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
     daemon = start(rescan=0.02)
-    since = daemon.mark
-    MODEL.write_text(MODEL.read_text() + "// mine\n")
-    kept = daemon.wait(events.Built, since).result.actions
+    kept = daemon.after(lambda: MODEL.write_text(MODEL.read_text() + "// mine\n"), events.Built).result.actions
     assert [action.path for action in kept if action.kind is Kind.KEEP] == [str(MODEL)]
     probe(daemon)
     assert MODEL.read_text().endswith("// mine\n")
@@ -329,11 +325,9 @@ def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.Monke
     assert built.result.conflicts[0].path == str(RECORD)
     assert "1000" in RECORD.read_text()
     daemon.rest()
-    since = daemon.mark
     whole = json.loads(ladder(330))
-    kept = [element for element in whole["elements"] if element["name"] != "R2"]
-    Path("ladder.json").write_text(json.dumps({**whole, "elements": kept}))
-    orphans = daemon.wait(events.Built, since).result.actions
+    less = json.dumps({**whole, "elements": [element for element in whole["elements"] if element["name"] != "R2"]})
+    orphans = daemon.after(lambda: Path("ladder.json").write_text(less), events.Built).result.actions
     assert [action.path for action in orphans if action.kind is Kind.ORPHAN] == [str(MODEL), str(RECORD)]
     daemon.rest()
     since = daemon.mark
@@ -383,9 +377,7 @@ def test_what_is_in_the_way_is_told_once_and_recovers(start: Start, change: Call
     change(RECORD)
     found = daemon.wait(events.Failed).result.diagnostics
     assert [one.code for one in found] == ["output-in-the-way"]
-    since = daemon.mark
-    RECORD.rmdir() if change is _to_folder else RECORD.unlink()
-    assert daemon.wait(events.Built, since).recovered
+    assert daemon.after(RECORD.rmdir if change is _to_folder else RECORD.unlink, events.Built).recovered
     assert RECORD.is_file()
     assert daemon.kinds().count("Failed") == 1
 
@@ -519,15 +511,11 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
         return real(self, *arguments, **options)
 
     monkeypatch.setattr(type(domain), place, broken)
-    since = daemon.mark
-    put("ladder.json", 330)
-    (found,) = daemon.wait(events.Failed, since).result.diagnostics
+    (found,) = daemon.after(lambda: put("ladder.json", 330), events.Failed).result.diagnostics
     assert found.code == "internal"
     assert "ZeroDivisionError in test_watch_daemon.py" in found.message
     assert "by nothing" in found.message
-    since = daemon.mark
-    put("ladder.json", 331)
-    assert daemon.wait(events.Built, since).recovered
+    assert daemon.after(lambda: put("ladder.json", 331), events.Built).recovered
 
 
 def test_a_source_with_crlf_that_is_built_is_not_parsed_again(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -595,8 +583,7 @@ def test_a_command_after_builds_that_changed_something(start: Start, capfd: pyte
     daemon = start(command=f"{note}; echo noise; exit 3")
     assert daemon.wait(events.Ran).code == 3
     since = daemon.mark
-    probe(daemon)
-    daemon.wait(events.Ran, since)
+    daemon.after(lambda: probe(daemon), events.Ran)
     assert "ended with exit code 3" in daemon.wait(events.Noted, since).diagnostics[0].message
     assert Path("log").read_text().splitlines()[-1] == "ladder Ladder R2Parameters.mo"
     assert capfd.readouterr() == ("", "noise\nnoise\n")
