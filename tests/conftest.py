@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 from support import audit
+from support.commands import Execute, Printed
 
 from urdfsync.check.libraries import LibraryError, find_standard_library
 
@@ -129,6 +130,21 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     return folder
 
 
+@pytest.fixture
+def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
+    """A function that runs a command, which has to end with this code unless that is None; what it printed."""
+    from urdfsync import cli
+
+    def run(*arguments: object, code: int | None = 0) -> Printed:
+        capsys.readouterr()
+        found = cli.main(list(map(str, arguments)))
+        printed = Printed(found, *capsys.readouterr())
+        assert code in (None, found), printed
+        return printed
+
+    return run
+
+
 @pytest.fixture(scope="session")
 def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A project with all that a decision may look at, built; tests work on copies of it."""
@@ -138,14 +154,20 @@ def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
+def in_haste() -> Iterator[None]:
+    """Builds leave it to the system when the disk gets to know: only a power failure makes a difference."""
+    from support import replay
+
+    with replay.in_haste():
+        yield
+
+
+@pytest.fixture
 def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     """A function that gives time of change and content of every file below a folder."""
+    from support import files
 
-    def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-        files = sorted(path for path in folder.rglob("*") if path.is_file())
-        return {path.relative_to(folder).as_posix(): (path.stat().st_mtime_ns, path.read_bytes()) for path in files}
-
-    return snapshot
+    return files.snapshot
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -5,17 +5,15 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.files import unchanged
 from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
-from urdfsync import files
 from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
 from urdfsync.files import text_digest
@@ -53,10 +51,9 @@ def test_a_first_build_writes_the_package_and_a_second_one_nothing(project: Path
     assert (project / LADDER / "package.order").read_text() == "Elements\nLadder\n"
     assert "R = 220.5" in (project / LADDER / "Elements/R2Parameters.mo").read_text()
     assert (project / LADDER / "Resources/step.txt").read_text().startswith("#1\ndouble signal(4, 2)\n")
-    before = snapshot_of(project)
-    assert run().in_step
-    assert run(full=True).in_step
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        assert run().in_step
+        assert run(full=True).in_step
 
 
 def test_a_build_elsewhere_gives_the_same_bytes(
@@ -74,36 +71,14 @@ def test_a_build_elsewhere_gives_the_same_bytes(
     assert str(tmp_path).encode() not in b"".join(contents[0].values())
 
 
-def test_a_no_op_of_a_urdf_imports_nothing_heavy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    mesh = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
-    Path("arm.urdf").write_text(f'<robot name="arm"><link name="base">{mesh}</link></robot>')
-    Path("tip.stl").write_text(
-        "solid tip\nfacet normal 0 0 1\nouter loop\n"
-        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid\n"
-    )
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    run()
-    code = (
-        "import sys; from urdfsync.cli import main; code = main(['build']); "
-        "print([name for name in ('jinja2', 'rich', 'lxml', 'numpy', 'yourdfpy', 'deepdiff') if name in sys.modules])"
-    )
-    environment = os.environ | {"PYTHONPATH": str(Path(files.__file__).parents[1])}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    headline, heavy = done.stdout.splitlines()
-    assert headline.startswith("arm: in step, ")
-    assert heavy == "[]"
-
-
 @pytest.mark.parametrize(("old", "new"), [("  ", "    "), ("\n", "\r\n")], ids=["blanks", "line ends"])
-def test_changed_white_space_touches_nothing(project: Path, snapshot_of: Snapshot, old: str, new: str) -> None:
+def test_changed_white_space_touches_nothing(project: Path, old: str, new: str) -> None:
     """So that two machines that check out text in their own way record the same, too."""
     run()
     place = LADDER if new.isspace() and old == "  " else "."
     edit("ladder.json", old, new)
-    before = snapshot_of(project / place)
-    assert run().in_step
-    assert snapshot_of(project / place) == before
+    with unchanged(project / place):
+        assert run().in_step
     assert run().in_step
 
 
@@ -333,19 +308,16 @@ REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
 
 
 @pytest.mark.parametrize("message", REFUSED)
-def test_what_stops_a_build_is_told_with_its_place_and_changes_nothing(
-    project: Path, snapshot_of: Snapshot, message: str
-) -> None:
+def test_what_stops_a_build_is_told_with_its_place_and_changes_nothing(project: Path, message: str) -> None:
     run()
     keys, change = REFUSED[message]
     configure(**keys)
     change()
-    before = snapshot_of(project)
-    begin, _, end = message.partition("…")
-    found = failure(trusted=True)
-    assert found.startswith(begin)
-    assert end in found
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        begin, _, end = message.partition("…")
+        found = failure(trusted=True)
+        assert found.startswith(begin)
+        assert end in found
 
 
 @pytest.mark.parametrize(
@@ -386,15 +358,12 @@ def test_a_gitignore_of_the_user_stays(project: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["toml", "json"])
-def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(
-    project: Path, snapshot_of: Snapshot, name: str
-) -> None:
+def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(project: Path, name: str) -> None:
     run()
     path = Path(MANIFEST).with_suffix(f".{name}")
     edit(path, "\n", "\r\n")
-    before = snapshot_of(project)
-    assert run().in_step
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        assert run().in_step
     path.write_bytes(b"\xff")
     assert "not UTF-8" in failure()
 
@@ -423,16 +392,15 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     assert kinds(run()) == {"Resources/step.txt": Kind.CREATE, "Ladder.mo": Kind.UPDATE}
 
 
-def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path, snapshot_of: Snapshot) -> None:
+def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path) -> None:
     run()
-    before = snapshot_of(project / LADDER)
-    Path("step.csv").unlink()
-    assert run().in_step
-    for request in ({"full": True}, {"full": True, "dry": True}):
-        result = run(**request)
-        assert [found.code for found in result.diagnostics] == ["table-not-found-kept"]
-        assert result.in_step
-    assert snapshot_of(project / LADDER) == before
+    with unchanged(project / LADDER):
+        Path("step.csv").unlink()
+        assert run().in_step
+        for request in ({"full": True}, {"full": True, "dry": True}):
+            result = run(**request)
+            assert [found.code for found in result.diagnostics] == ["table-not-found-kept"]
+            assert result.in_step
     resistor(120)
     assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.UPDATE}
     configure(package='"Filter"')

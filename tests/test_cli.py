@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import io
-import json
 import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest import mock
 
 import pytest
+from support.commands import Execute
+from support.networks import LADDER, ROBOT, configure, edit, source
 
 from urdfsync import cli, config
 from urdfsync.__main__ import main as program
@@ -33,80 +35,58 @@ NEXT = [
 
 
 @pytest.fixture
-def edited(project: Path, capsys: Capture) -> Path:
+def edited(project: Path) -> Path:
     """A built project with one edited model."""
     cli.main(["build"])
-    model = project / "modelica/Ladder/Ladder.mo"
-    model.write_text(model.read_text() + "// mine\n")
-    capsys.readouterr()
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;\n", "end Ladder;\n// mine\n")
     return project
-
-
-def change(project: Path, old: str = "220.5", new: str = "330") -> None:
-    source = project / "ladder.json"
-    source.write_text(source.read_text().replace(old, new))
 
 
 # build
 
 
-def test_build_in_words(project: Path, capsys: Capture) -> None:
-    assert cli.main(["build"]) == 0
-    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", *NEXT]
-    assert cli.main(["build"]) == 0
-    assert capsys.readouterr().out == "ladder: in step, 14 files\n"
+def test_build_in_words(project: Path, execute: Execute) -> None:
+    assert execute("build").lines == ["ladder: 14 files written", *NEXT]
+    assert execute("build").out == "ladder: in step, 14 files\n"
 
 
-def test_build_of_what_was_edited(edited: Path, capsys: Capture) -> None:
-    change(edited)
-    assert cli.main(["build"]) == 0
-    assert capsys.readouterr().out.splitlines() == [
+def test_build_of_what_was_edited(edited: Path, execute: Execute) -> None:
+    source("220.5", "330")
+    assert execute("build").lines == [
         "ladder: 1 file written, 1 kept because you edited it",
         "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
     ]
 
 
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
-    project: Path, capsys: Capture, snapshot_of: Callable[[Path], object]
+    project: Path, execute: Execute, snapshot_of: Callable[[Path], object]
 ) -> None:
     before = snapshot_of(project)
-    assert cli.main(["build", "--check"]) == 1
-    assert capsys.readouterr().out == "ladder: 14 files to write\n"
+    assert execute("build", "--check", code=1).out == "ladder: 14 files to write\n"
     assert snapshot_of(project) == before
     assert cli.main(["build", "--dry-run"]) == 0
     assert snapshot_of(project) == before
     cli.main(["build"])
-    model = project / "modelica/Ladder/Ladder.mo"
-    model.write_text(model.read_text() + "// mine\n")
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;\n", "end Ladder;\n// mine\n")
     assert cli.main(["build", "--check"]) == 0, "an edit is in step"
 
 
-def test_explain_names_each_file_on_one_line(edited: Path, capsys: Capture) -> None:
+def test_explain_names_each_file_on_one_line(edited: Path, execute: Execute) -> None:
     (edited / "modelica/Ladder/Elements/R1.mo").unlink()
-    assert cli.main(["build", "--explain", "--dry-run"]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    lines = execute("build", "--explain", "--dry-run").lines
     assert lines[0] == "ladder: 1 to restore, 1 kept because you edited it"
     folder = Path("modelica/Ladder")
     assert f"  keep       {folder / 'Ladder.mo'}  you edited it; there is nothing new for it" in lines
     assert f"  restore    {folder / 'Elements' / 'R1.mo'}  it was deleted; written again" in lines
     assert lines[-1] == "  12 unchanged files; --verbose names each"
     assert len(lines) == 4
-    assert cli.main(["build", "--explain", "--verbose", "--dry-run"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 15
+    assert len(execute("build", "--explain", "--verbose", "--dry-run").lines) == 15
 
 
-def test_quiet_says_nothing_if_all_is_well(project: Path, capsys: Capture) -> None:
+def test_findings_go_to_the_error_stream(project: Path, execute: Execute) -> None:
+    source('"R2"', '"r2"')
     (project / "step.csv").unlink()
-    assert cli.main(["build", "--quiet"]) == 0
-    streams = capsys.readouterr()
-    assert (streams.out, streams.err) == ("", "")
-
-
-def test_findings_go_to_the_error_stream(project: Path, capsys: Capture) -> None:
-    change(project, '"R2"', '"r2"')
-    (project / "step.csv").unlink()
-    assert cli.main(["build"]) == 2
-    streams = capsys.readouterr()
+    streams = execute("build", code=2)
     assert streams.out == ""
     assert streams.err.splitlines() == [
         "ladder.json:8: error: 'r2' is no class name [element-name]",
@@ -114,31 +94,27 @@ def test_findings_go_to_the_error_stream(project: Path, capsys: Capture) -> None
     ]
 
 
-def test_robots_are_chosen_by_name(project: Path, capsys: Capture) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+def test_robots_are_chosen_by_name(execute: Execute, project: Path) -> None:
+    configure(ROBOT.format("other", "Other"))
     for arguments in (["build", "other"], ["build", "--robot", "other"]):
-        assert cli.main(arguments) == 0
-        assert capsys.readouterr().out.startswith("other: ")
-    assert cli.main(["build", "othr"]) == 2
+        assert execute(*arguments).out.startswith("other: ")
     message = "error: no robot `othr` in the configuration; did you mean `other`? [unknown-robot]"
-    assert capsys.readouterr().err == f"urdfsync.toml: {message}\n"
+    assert execute("build", "othr", code=2).err == f"urdfsync.toml: {message}\n"
 
 
 def test_the_configuration_is_found_or_named(
-    project: Path, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    project: Path, tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (project / "deep").mkdir()
     monkeypatch.chdir(project / "deep")
     assert cli.main(["build"]) == 0
     assert (project / "modelica/Ladder").is_dir()
     monkeypatch.chdir(tmp_path)
-    assert cli.main(["build", "--config", "project/urdfsync.toml"]) == 0
-    capsys.readouterr()
-    assert cli.main(["build"]) == 2
-    assert capsys.readouterr().err.startswith("error: no urdfsync.toml in ")
-    assert cli.main(["build", "--config", "nothing.toml"]) == 2
-    assert capsys.readouterr().err.startswith("nothing.toml: error: the configuration does not exist")
+    execute("build", "--config", "project/urdfsync.toml")
+    assert execute("build", code=2).err.startswith("error: no urdfsync.toml in ")
+    assert execute("build", "--config", "nothing.toml", code=2).err.startswith(
+        "nothing.toml: error: the configuration does not exist"
+    )
 
 
 def test_ros_package_path_is_searched(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -148,33 +124,32 @@ def test_ros_package_path_is_searched(project: Path, tmp_path: Path, monkeypatch
     assert (project / "modelica/Ladder/Resources/step.txt").exists()
 
 
-def test_svg(project: Path, capsys: Capture) -> None:
-    assert cli.main(["build", "--svg"]) == 0
+def test_svg(execute: Execute, project: Path) -> None:
     drawing = Path(".urdfsync/svg/ladder.svg")
-    assert capsys.readouterr().out.splitlines() == ["ladder: 14 files written", f"  diagram: {drawing}", *NEXT]
+    assert execute("build", "--svg").lines == ["ladder: 14 files written", f"  diagram: {drawing}", *NEXT]
     assert drawing.exists()
-    assert cli.main(["build", "--svg"]) == 0
-    assert capsys.readouterr().out.splitlines() == ["ladder: in step, 14 files", f"  diagram: {drawing}"]
+    assert execute("build", "--svg").lines == ["ladder: in step, 14 files", f"  diagram: {drawing}"]
 
 
 # other commands
 
 
 @pytest.mark.parametrize(
-    "arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["build", "--nothing"], ["build", "--dry"]]
+    "arguments",
+    [
+        *([], ["biuld"], ["build", "--svg", "--check"], ["build", "--nothing"], ["build", "--dry"]),
+        *(["status", "--dry-run"], ["status", "--wait", "soon"]),
+    ],
 )
-def test_bad_usage(arguments: list[str], capsys: Capture) -> None:
+def test_bad_usage(arguments: list[str], execute: Execute) -> None:
     """Options are spelled out, too."""
-    assert cli.main(arguments) == 2
-    assert capsys.readouterr().err.startswith("usage: urdfsync")
+    assert execute(*arguments, code=2).err.startswith("usage: urdfsync")
 
 
-def test_library(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert cli.main(["library", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
+def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    told = execute("library", "--json").json
     assert (Path(told["folder"]) / "UrdfSync").is_dir()
-    assert cli.main(["library"]) == 0
-    assert capsys.readouterr().out == f"{told['line']}\n"
+    assert execute("library").out == f"{told['line']}\n"
     screen = Terminal()
     monkeypatch.setattr(sys, "stdout", screen)
     assert cli.main(["library"]) == 0
@@ -186,35 +161,27 @@ def test_library(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     ("name", "before", "after"), [("a'b\"c", "", ""), ("two $HOME `id` \\n", "/lib one:/two", ":/lib one:/two")]
 )
 def test_the_line_of_library_is_for_eval(
-    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, name: str, before: str, after: str
+    tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, name: str, before: str, after: str
 ) -> None:
     monkeypatch.setattr(config, "library_folder", lambda: tmp_path / name)
-    cli.main(["library"])
     script = 'eval "$1"; printf %s "$MODELICAPATH"'
-    command = ["bash", "-c", script, "bash", capsys.readouterr().out]
+    command = ["bash", "-c", script, "bash", execute("library").out]
     environment = os.environ | {"MODELICAPATH": before}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert done.stdout == f"{tmp_path / name}{after}"
 
 
-def test_an_interruption(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(arguments: list[str]) -> int:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("urdfsync.uptodate.print_answer", interrupted)
+def test_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("urdfsync.uptodate.print_answer", mock.Mock(side_effect=KeyboardInterrupt))
     assert program() == 130
 
 
-def test_a_working_folder_that_is_gone(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    def gone() -> str:
-        raise FileNotFoundError(2, "No such file or directory")
-
-    monkeypatch.setattr(os, "getcwd", gone)
+def test_a_working_folder_that_is_gone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError(2, "No such file or directory")))
     assert config.shown(project) == str(project)
     for command in ("build", "init"):
-        assert cli.main([command]) == 2
         message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"
-        assert capsys.readouterr().err == message
+        assert execute(command, code=2).err == message
 
 
 # looks
@@ -282,28 +249,23 @@ def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.Monk
 
 
 def test_whatever_the_system_refuses_is_one_line(
-    project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(*_: object) -> None:
-        raise PermissionError(13, "Permission denied", "somewhere")
-
-    monkeypatch.setattr(config, "load", refuse)
-    assert cli.main(["build"]) == 2
-    assert capsys.readouterr().err == "somewhere: error: Permission denied [system]\n"
+    error = PermissionError(13, "Permission denied", "somewhere")
+    monkeypatch.setattr(config, "load", mock.Mock(side_effect=error))
+    assert execute("build", code=2).err == "somewhere: error: Permission denied [system]\n"
 
 
-def test_conflict(edited: Path, capsys: Capture) -> None:
-    change(edited, '"R2"', '"R3"')
+def test_conflict(edited: Path, execute: Execute) -> None:
+    source('"R2"', '"R3"')
     model = Path("modelica/Ladder/Ladder.mo")
     for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
-        assert cli.main(arguments) == 3
-        lines = capsys.readouterr().out.splitlines()
+        lines = execute(*arguments, code=3).lines
         assert lines[0] == "ladder: 1 conflict, 5 changes waiting for that"
         assert f"  conflict   {model}  network" in lines
         assert '    generated  16    Elements.R3 elementR3 "Element R3";' in lines
         assert f"    urdfsync resolve {model} --merge" in lines
-    assert cli.main(["build", "--quiet"]) == 3
-    assert capsys.readouterr().out.splitlines() == [
+    assert execute("build", "--quiet", code=3).lines == [
         "ladder: 1 conflict, 5 changes waiting for that",
         f"  conflict   {model}  the changes fit together: --merge takes both",
         "",

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 import support.urdfs as urdfs
+from support.commands import Execute
 
 from urdfsync import cli
-
-Capture = pytest.CaptureFixture[str]
 
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))
 SWING = urdfs.joint("swing", "continuous", "base", "arm")
@@ -26,20 +25,16 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def said(capsys: Capture, *arguments: str) -> str:
-    capsys.readouterr()
-    cli.main([*arguments])
-    streams = capsys.readouterr()
-    return " ".join((streams.out + streams.err).split())
-
-
-def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(project: Path, capsys: Capture) -> None:
+def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(project: Path, execute: Execute) -> None:
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    assert 'link arm frame was arm_linkFrame list "arm" in `frames` to keep it' in said(capsys, "diff", "arm.urdf")
+    assert (
+        'link arm frame was arm_linkFrame list "arm" in `frames` to keep it'
+        in execute("diff", "arm.urdf", code=1).words
+    )
     note = 'note: link arm: its frame `arm_linkFrame` is gone; list "arm" in `frames` to keep it [connector-changed]'
-    assert note in said(capsys, "build")
+    assert note in execute("build").words
     assert "arm_linkFrame" not in (project / "modelica/Arm/Arm.mo").read_text()
-    assert "connector-changed" not in said(capsys, "build")
+    assert "connector-changed" not in execute("build").words
 
 
 def configure(project: Path, lines: str) -> None:
@@ -47,38 +42,38 @@ def configure(project: Path, lines: str) -> None:
     (project / "urdfsync.toml").write_text(CONFIG + lines)
 
 
-def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Path, capsys: Capture) -> None:
+def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Path, execute: Execute) -> None:
     configure(project, "driven = []\n")
-    found = said(capsys, "build")
+    found = execute("build").words
     for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
         assert f'joint swing: its {variable} is gone; list "swing" in `driven`' in found
     assert "swingAxis" not in found, "the robot keeps its connectors"
 
 
-def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(project: Path, capsys: Capture) -> None:
+def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(project: Path, execute: Execute) -> None:
     configure(project, 'approach = ["record"]\n')
-    found = said(capsys, "build", "--explain")
+    found = execute("build", "--explain").words
     assert "the option `approach` changed" in found
     assert 'robot: its model `Arm` is gone; list "package" in `approach` to keep it, with its connectors' in found
 
 
-def test_options_are_named_only_if_nothing_else_changed(project: Path, capsys: Capture) -> None:
+def test_options_are_named_only_if_nothing_else_changed(project: Path, execute: Execute) -> None:
     configure(project, 'frames = "all"\ncollisions = false\n')
-    assert "the options `collisions` and `frames` changed" in said(capsys, "build", "--dry-run")
+    assert "the options `collisions` and `frames` changed" in execute("build", "--dry-run").words
     (project / "mine").mkdir()
     configure(project, 'frames = "all"\ntemplates = "mine"\n')
     (project / "mine/robot.mo.jinja").write_text("")
-    assert "a template, an option or urdfsync itself changed" in said(capsys, "build", "--dry-run")
+    assert "a template, an option or urdfsync itself changed" in execute("build", "--dry-run").words
 
 
 @pytest.mark.parametrize("line", ['frames = "none"', "frames = 3", 'roof = "red"'])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
-    project: Path, capsys: Capture, line: str
+    project: Path, execute: Execute, line: str
 ) -> None:
     recorded = project / ".urdfsync/robots/arm.toml"
     text = recorded.read_text()
     assert 'frames = "leaves"\n' in text
     recorded.write_text(text.replace('frames = "leaves"', line))
     configure(project, "driven = []\n")
-    assert "connector-changed" not in said(capsys, "build")
+    assert "connector-changed" not in execute("build").words
     assert 'frames = "leaves"\n' in recorded.read_text()

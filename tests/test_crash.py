@@ -13,12 +13,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
 from typing import IO
+from unittest import mock
 
 import pytest
-from support import crashes, replay
+from support import crashes
 from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
-from support.networks import LADDER, edit
+from support.networks import LADDER, configure, edit
 
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.state import file_operations
 from urdfsync.state.journal import FORMAT, JournalFolder, Phase
 from urdfsync.state.record import Choice
@@ -28,7 +30,11 @@ REMOVED = f"{LADDER}/Elements/R2.mo"
 ADDED = f"{LADDER}/Elements/R3.mo"
 MINE = b"\n// mine\n"
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.usefixtures("in_haste"),
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
+]
 
 Wanted = tuple[list[str], Mapping[str, bytes | None]]
 """The files that conflict after a build, and all files."""
@@ -36,13 +42,6 @@ Wanted = tuple[list[str], Mapping[str, bytes | None]]
 
 def phase(project: Path) -> Phase | None:
     return JournalFolder(project, project / ".urdfsync/journal").phase()
-
-
-@pytest.fixture(autouse=True)
-def _in_haste() -> Iterator[None]:
-    """Only a power failure makes a difference between what is on the disk and what the system says is there."""
-    with replay.in_haste():
-        yield
 
 
 @pytest.fixture
@@ -77,8 +76,7 @@ def renamed(project: Path) -> Path:
 def moved(project: Path) -> Path:
     """A network whose package has another name and another parent now."""
     run(project)
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write("create_parents = true\n")
+    configure("create_parents = true\n")
     edit(project / "urdfsync.toml", '"Ladder"', '"Plant.Filters.Ladder"')
     return project
 
@@ -149,11 +147,9 @@ def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed:
 def test_killed_builds_on_lesser_file_systems(
     changed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, missing: str
 ) -> None:
-    def refuse(*paths: Path, **options: bool) -> None:
-        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
-
     if missing == "links":
-        monkeypatch.setattr(os, "link", refuse)
+        error = PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+        monkeypatch.setattr(os, "link", mock.Mock(side_effect=error))
     monkeypatch.setattr(file_operations, "_rename", lambda path, target, flag: False)
     wanted = expected(changed, tmp_path / "clean")
     for operation, project in every(changed, tmp_path / "work", CHANGES):
@@ -384,17 +380,22 @@ def crashed(changed: Path, tmp_path: Path) -> Path:
     return changed
 
 
+def refused(project: Path, **request: bool) -> list[Diagnostic]:
+    """What a build says that fails and changes nothing."""
+    before = contents(project)
+    result = run(project, **request)
+    assert result.failed
+    assert contents(project) == before
+    return list(result.diagnostics)
+
+
 def test_what_was_recovered_is_said(crashed: Path) -> None:
     codes = [(found.code, found.message) for found in run(crashed).diagnostics]
     assert codes[0] == ("recovered", "the last build of robot `ladder` was interrupted; it is finished")
 
 
 def test_a_dry_run_says_that_a_build_was_interrupted(crashed: Path) -> None:
-    before = contents(crashed)
-    result = run(crashed, dry=True)
-    assert [found.code for found in result.diagnostics] == ["interrupted"]
-    assert result.failed
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed, dry=True)] == ["interrupted"]
 
 
 def test_another_robot_recovers_as_well(crashed: Path) -> None:
@@ -431,10 +432,7 @@ def test_a_journal_can_not_reach_other_files(crashed: Path, tmp_path: Path, plac
     (tmp_path / "victim.mo").write_text("precious")
     (crashed / "linked").symlink_to(tmp_path)
     rewrite(crashed / ".urdfsync/journal/apply.json", "modelica/Ladder/Elements/R3.mo", place)
-    before = contents(crashed)
-    result = run(crashed)
-    assert [found.code for found in result.diagnostics] == [code]
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed)] == [code]
     assert (tmp_path / "victim.mo").read_text() == "precious"
 
 
@@ -453,11 +451,9 @@ def test_a_journal_that_was_not_written_here_is_refused(crashed: Path, phase: st
         journal.write_text("{")
     else:
         rewrite(journal, '"token":"', '"token":"../')
-    before = contents(crashed)
-    (found,) = run(crashed).diagnostics
+    (found,) = refused(crashed)
     assert (found.code, found.file) == ("broken-journal", str(Path(f".urdfsync/journal/{phase}.json")))
     assert "--repair" in found.hint
-    assert contents(crashed) == before
     left = sorted(crashed.rglob("*.urdfsync-tmp"))
     repaired = run(crashed, repair=True)
     assert "refused-journal" in [found.code for found in repaired.diagnostics]
@@ -470,10 +466,8 @@ def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> 
     run(project)
     journal = project / ".urdfsync/journal" / name
     journal.write_text('{"robot":"ladder","token":"12","steps":[],"format":2}')
-    before = contents(project)
-    (found,) = run(project).diagnostics
+    (found,) = refused(project)
     assert (found.code, found.message) == ("broken-journal", "an older urdfsync was interrupted here")
-    assert contents(project) == before
     assert not run(project, repair=True).failed
     assert journal.with_name("refused.json").read_text().endswith('"format":2}')
     assert run(project).in_step
@@ -481,9 +475,7 @@ def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> 
 
 def test_a_journal_of_a_newer_urdfsync_is_left_alone(crashed: Path) -> None:
     rewrite(crashed / ".urdfsync/journal/apply.json", f'"format":{FORMAT}', f'"format":{FORMAT + 1}')
-    before = contents(crashed)
-    assert [found.code for found in run(crashed, repair=True).diagnostics] == ["newer-state"]
-    assert contents(crashed) == before
+    assert [found.code for found in refused(crashed, repair=True)] == ["newer-state"]
 
 
 @pytest.fixture

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
+from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import ROBOT, Snapshot
+from support.meshes import stl
+from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
-from urdfsync import cli
-
-Capture = pytest.CaptureFixture[str]
+from urdfsync.diff.changes import Changes
+from urdfsync.diff.comparison import Comparison, exit_code
+from urdfsync.outcome import Exit, Result
 
 ARM = """<robot name="arm">
   <link name="base"/>
@@ -24,23 +28,12 @@ ARM = """<robot name="arm">
   </joint>
 </robot>
 """
-MESH = """solid tip
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex {size} 0 0
-vertex 0 {size} 0
-endloop
-endfacet
-endsolid tip
-"""
 
 
 @pytest.fixture
-def built(project: Path, capsys: Capture) -> Path:
+def built(project: Path, execute: Execute) -> Path:
     """The project of the second domain, built."""
-    cli.main(["build", "-q"])
-    capsys.readouterr()
+    execute("build", "-q")
     return project
 
 
@@ -49,7 +42,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder, also the working one, with an arm, its mesh and a changed version, and without a configuration."""
     folder = tmp_path / "arm"
     folder.mkdir()
-    (folder / "tip.stl").write_text(MESH.format(size=1))
+    (folder / "tip.stl").write_text(stl(1))
     (folder / "arm.urdf").write_text(ARM)
     (folder / "new.urdf").write_text(
         ARM.replace('effort="54"', 'effort="60"').replace('mass value="2"', 'mass value="3"')
@@ -58,26 +51,18 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def change(folder: Path, old: str = "220.5", new: str = "330", source: str = "ladder.json") -> None:
-    text = (folder / source).read_text()
-    assert old in text
-    (folder / source).write_text(text.replace(old, new))
-
-
-def said(capsys: Capture, *arguments: str) -> tuple[int, list[str]]:
+def said(execute: Execute, *arguments: str) -> tuple[int, list[str]]:
     """Exit code and output of a command that has nothing to complain about."""
-    code = cli.main(["diff", *arguments])
-    streams = capsys.readouterr()
-    assert streams.err == ""
-    return code, streams.out.splitlines()
+    printed = execute("diff", *arguments, code=None)
+    assert printed.err == ""
+    return printed.code, printed.lines
 
 
-def refused(capsys: Capture, *arguments: str) -> str:
+def refused(execute: Execute, *arguments: str) -> str:
     """The only complaint of a command, which exits with 2."""
-    assert cli.main(["diff", *arguments]) == 2
-    streams = capsys.readouterr()
-    assert streams.out == ""
-    first, *rest = streams.err.splitlines()
+    printed = execute("diff", *arguments, code=2)
+    assert printed.out == ""
+    first, *rest = printed.errors
     assert all(line.endswith("so nothing can be compared") for line in rest)
     return first
 
@@ -85,78 +70,104 @@ def refused(capsys: Capture, *arguments: str) -> str:
 # the last build
 
 
-def test_nothing_changed(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    before = snapshot_of(built)
-    assert said(capsys, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
-    assert said(capsys) == said(capsys, "ladder") == said(capsys, "--robot", "ladder")
-    assert snapshot_of(built) == before
+def test_nothing_changed(built: Path, execute: Execute) -> None:
+    with unchanged(built):
+        assert said(execute, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
+        assert said(execute) == said(execute, "ladder") == said(execute, "--robot", "ladder")
 
 
-def test_what_changed_and_what_a_build_would_do(built: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    change(built)
-    before = snapshot_of(built)
-    assert said(capsys, "ladder", "--quiet") == (1, [])
-    assert said(capsys, "ladder.json") == (
-        1,
-        [
-            "ladder: 1 parameter change since the last build",
-            "  R2",
-            "    ohm  220.5 → 330 Ω  +49.7 %",
-            "",
-            "A build: 1 file to write",
-            f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
-        ],
-    )
-    assert snapshot_of(built) == before
+def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute) -> None:
+    edit("ladder.json", "220.5", "330")
+    with unchanged(built):
+        assert said(execute, "ladder", "--quiet") == (1, [])
+        assert said(execute, "ladder.json") == (
+            1,
+            [
+                "ladder: 1 parameter change since the last build",
+                "  R2",
+                "    ohm  220.5 → 330 Ω  +49.7 %",
+                "",
+                "A build: 1 file to write",
+                f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
+            ],
+        )
 
 
-def test_every_robot_of_a_source(built: Path, capsys: Capture) -> None:
-    with (built / "urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("other", "Other"))
-    change(built)
+def _conflict() -> None:
+    edit(RECORD, "100", "110")
+    resistor(120)
+
+
+OUT_OF_STEP: dict[str, tuple[Callable[[], object], Exit]] = {
+    "an edit": (lambda: edit(RECORD, "end R1", "// mine\nend R1"), Exit.IN_STEP),
+    "a deleted file": (Path(LADDER, "Ladder.mo").unlink, Exit.OUT_OF_STEP),
+    "a conflict": (_conflict, Exit.OUT_OF_STEP),
+    "a structural change": (lambda: rename("R2", "R3"), Exit.OUT_OF_STEP),
+    "another option": (lambda: edit("urdfsync.toml", "domain", 'prefix = "pin"\ndomain'), Exit.OUT_OF_STEP),
+}
+
+
+@pytest.mark.parametrize("name", OUT_OF_STEP)
+def test_the_exit_code_says_whether_a_build_has_something_to_do(built: Path, execute: Execute, name: str) -> None:
+    change, code = OUT_OF_STEP[name]
+    change()
+    assert said(execute)[0] == code
+
+
+def test_an_error_comes_before_a_lock_and_a_lock_before_being_out_of_step() -> None:
+    results = [Result("arm", "Arm", Path("Arm"), Path(), **more) for more in (
+        {"failed": True}, {"failed": True, "locked": True}, {"changes": Changes(generator=True)}, {}
+    )]  # fmt: skip
+    found = [Comparison(result, "arm.urdf") for result in results]
+    codes = [exit_code(found[first:]) for first in range(4)]
+    assert codes == [Exit.ERROR, Exit.LOCKED, Exit.OUT_OF_STEP, Exit.IN_STEP]
+
+
+def test_every_robot_of_a_source(built: Path, execute: Execute) -> None:
+    configure(ROBOT.format("other", "Other"))
+    edit("ladder.json", "220.5", "330")
     for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
-        _, lines = said(capsys, *arguments)
+        _, lines = said(execute, *arguments)
         heads = [line for line in lines if line.startswith(("ladder:", "other:"))]
         assert heads == ["ladder: 1 parameter change since the last build", "other: never built"]
-    assert said(capsys, "ladder.json", "--robot", "other")[1][0] == "other: never built"
-    assert said(capsys, "other")[1][0] == "other: never built"
+    assert said(execute, "ladder.json", "--robot", "other")[1][0] == "other: never built"
+    assert said(execute, "other")[1][0] == "other: never built"
 
 
 # another file
 
 
-def test_two_files_without_a_configuration(arm: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    before = snapshot_of(arm)
-    assert said(capsys, "new.urdf", "--against", "arm.urdf") == (
-        1,
-        [
-            "new.urdf: 2 parameter changes since arm.urdf",
-            "  link tip",
-            "    inertial / mass  2 → 3 kg     +50 %",
-            "  joint elbow",
-            "    limit / effort   54 → 60 N·m  +11.1 %",
-            "",
-            "Effects",
-            "    robot mass  2 → 3 kg  +50 %",
-            "",
-            "2 files of the package differ",
-            f"  update     {Path('Joints/ElbowParameters.mo')}",
-            f"  update     {Path('Links/TipParameters.mo')}",
-        ],
-    )
-    assert said(capsys, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
-    assert snapshot_of(arm) == before
+def test_two_files_without_a_configuration(arm: Path, execute: Execute) -> None:
+    with unchanged(arm):
+        assert said(execute, "new.urdf", "--against", "arm.urdf") == (
+            1,
+            [
+                "new.urdf: 2 parameter changes since arm.urdf",
+                "  link tip",
+                "    inertial / mass  2 → 3 kg     +50 %",
+                "  joint elbow",
+                "    limit / effort   54 → 60 N·m  +11.1 %",
+                "",
+                "Effects",
+                "    robot mass  2 → 3 kg  +50 %",
+                "",
+                "2 files of the package differ",
+                f"  update     {Path('Joints/ElbowParameters.mo')}",
+                f"  update     {Path('Links/TipParameters.mo')}",
+            ],
+        )
+        assert said(execute, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
 
 
-def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, capsys: Capture) -> None:
+def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path, execute: Execute) -> None:
     (arm / "old").mkdir()
     shutil.copy(arm / "arm.urdf", arm / "old")
-    assert said(capsys, "arm.urdf", "--against", "old/arm.urdf") == (
+    assert said(execute, "arm.urdf", "--against", "old/arm.urdf") == (
         0,
         ["arm.urdf: nothing changed since old/arm.urdf"],
     )
-    (arm / "old/tip.stl").write_text(MESH.format(size=2))
-    code, lines = said(capsys, "arm.urdf", "--against", "old/arm.urdf")
+    (arm / "old/tip.stl").write_text(stl(2))
+    code, lines = said(execute, "arm.urdf", "--against", "old/arm.urdf")
     assert code == 1
     assert lines[1] == "  mesh tip.stl"
     assert lines[2].startswith("    content  ")
@@ -167,23 +178,23 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
 
 
 @NEEDS_GIT
-def test_a_revision_with_the_mesh_as_it_was(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_revision_with_the_mesh_as_it_was(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(arm, monkeypatch)
     repository.commit()
-    assert said(capsys, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
-    (arm / "tip.stl").write_text(MESH.format(size=2))
-    change(arm, 'effort="54"', 'effort="60"', "arm.urdf")
-    code, lines = said(capsys, "arm.urdf", "--against", "HEAD")
+    assert said(execute, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
+    (arm / "tip.stl").write_text(stl(2))
+    edit("arm.urdf", 'effort="54"', 'effort="60"')
+    code, lines = said(execute, "arm.urdf", "--against", "HEAD")
     assert code == 1
     assert [lines[1], lines[3]] == ["  joint elbow", "  mesh tip.stl"]
     repository.commit()
-    assert said(capsys, "arm.urdf", "--against", "HEAD")[0] == 0
+    assert said(execute, "arm.urdf", "--against", "HEAD")[0] == 0
     (arm / "main~1").write_text(ARM)
-    assert "tip" not in said(capsys, "arm.urdf", "--against", "main~1")[1][1], "a file of that name wins"
+    assert "tip" not in said(execute, "arm.urdf", "--against", "main~1")[1][1], "a file of that name wins"
 
 
 @NEEDS_GIT
-def test_a_mesh_in_large_file_storage(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_mesh_in_large_file_storage(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     from urdfsync.files import digest
 
     content = (arm / "tip.stl").read_bytes()
@@ -191,17 +202,17 @@ def test_a_mesh_in_large_file_storage(arm: Path, capsys: Capture, monkeypatch: p
     (arm / "tip.stl").write_text(pointer)
     Repository(arm, monkeypatch).commit()
     (arm / "tip.stl").write_bytes(content)
-    assert said(capsys, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
+    assert said(execute, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
 
 
 @NEEDS_GIT
 def test_mistakes_in_an_older_version_are_those_of_that_version(
-    arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (arm / "arm.urdf").write_text(ARM[:300])
     Repository(arm, monkeypatch).commit()
     (arm / "arm.urdf").write_text(ARM)
-    assert refused(capsys, "arm.urdf", "--against", "HEAD").startswith("HEAD:arm.urdf:")
+    assert refused(execute, "arm.urdf", "--against", "HEAD").startswith("HEAD:arm.urdf:")
 
 
 # mistakes
@@ -221,13 +232,13 @@ def test_mistakes_in_an_older_version_are_those_of_that_version(
         ),
     ],
 )
-def test_mistakes_without_a_configuration(arm: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
-    assert complaint in refused(capsys, *arguments)
+def test_mistakes_without_a_configuration(arm: Path, execute: Execute, arguments: list[str], complaint: str) -> None:
+    assert complaint in refused(execute, *arguments)
 
 
-def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(arm.parent))
-    assert "there is no file 'HEAD', and no git repository around" in refused(capsys, "arm.urdf", "--against", "HEAD")
+    assert "there is no file 'HEAD', and no git repository around" in refused(execute, "arm.urdf", "--against", "HEAD")
 
 
 @pytest.mark.parametrize(
@@ -239,27 +250,25 @@ def test_no_repository(arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPat
         (["step.csv", "--robot", "ladder"], "'step.csv' is not the source of `ladder`"),
     ],
 )
-def test_mistakes_with_a_configuration(project: Path, capsys: Capture, arguments: list[str], complaint: str) -> None:
-    assert complaint in refused(capsys, *arguments)
+def test_mistakes_with_a_configuration(project: Path, execute: Execute, arguments: list[str], complaint: str) -> None:
+    assert complaint in refused(execute, *arguments)
 
 
-def test_a_source_that_is_gone(built: Path, capsys: Capture) -> None:
+def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
     (built / "ladder.json").unlink()
-    assert "the source ladder.json does not exist" in refused(capsys, "ladder.json")
-    assert "the source can't be read" in refused(capsys, "ladder.json", "--against", "step.csv")
+    assert "the source ladder.json does not exist" in refused(execute, "ladder.json")
+    assert "the source can't be read" in refused(execute, "ladder.json", "--against", "step.csv")
 
 
-def test_one_file_is_no_older_version_of_several_sources(project: Path, capsys: Capture) -> None:
+def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:
     shutil.copy(project / "ladder.json", project / "copy.json")
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
-    assert "one file can't be the older version of 2 sources" in refused(capsys, "--against", "step.csv")
+    configure(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
+    assert "one file can't be the older version of 2 sources" in refused(execute, "--against", "step.csv")
 
 
-def test_what_is_not_modelled_gives_the_same_package(arm: Path, capsys: Capture) -> None:
-    change(arm, "</robot>", '<transmission name="t"/></robot>', "arm.urdf")
-    change(arm, 'effort="60"', 'effort="54"', "new.urdf")
-    change(arm, 'mass value="3"', 'mass value="2"', "new.urdf")
-    code, lines = said(capsys, "arm.urdf", "--against", "new.urdf")
+def test_what_is_not_modelled_gives_the_same_package(arm: Path, execute: Execute) -> None:
+    edit("arm.urdf", "</robot>", '<transmission name="t"/></robot>')
+    (arm / "new.urdf").write_text(ARM)
+    code, lines = said(execute, "arm.urdf", "--against", "new.urdf")
     assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
     assert lines[-1] == "    not modelled  1 change"

@@ -10,6 +10,7 @@ from typing import Any
 
 import msgspec
 import pytest
+from support.meshes import stl
 
 from urdfsync import config, registry
 from urdfsync.config import Keys
@@ -45,19 +46,9 @@ URDF = b"""<robot name="two &quot;links&quot;">
   </joint>
 </robot>
 """
-STL = b"""solid tip
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex 1 0 0
-vertex 0 1 0.5
-endloop
-endfacet
-endsolid
-"""
 EXAMPLES = Path(__file__).parent / "rcnetwork" / "examples"
 SAMPLES: dict[str, tuple[bytes, bytes]] = {
-    "urdf": (URDF, STL),
+    "urdf": (URDF, stl(height=0.5).encode()),
     "rcnetwork": ((EXAMPLES / "ladder.json").read_bytes(), (EXAMPLES / "step.csv").read_bytes()),
 }
 """Per domain: a source, and the content of the one file that it refers to."""

@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.corpus import REPOSITORY
 from support.daemon import Daemons
+from support.networks import edit
 
 from urdfsync import cli, registry
 from urdfsync.outcome import Exit
@@ -43,17 +45,12 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     sys.modules.pop("parts_domain", None)
 
 
-def edit(path: Path, old: str, new: str) -> None:
-    assert old in path.read_text()
-    path.write_text(path.read_text().replace(old, new))
-
-
 def test_the_domain_has_at_most_a_hundred_lines() -> None:
     (code,) = blocks("python")
     assert code.count("\n") <= 100
 
 
-def test_another_number_renews_one_record(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_number_renews_one_record(project: Path, execute: Execute) -> None:
     assert cli.main(["build"]) == Exit.IN_STEP
     assert registry.domain("parts").name == "parts"
     assert sorted(path.name for path in (project / "modelica/Gearbox").iterdir()) == [
@@ -61,8 +58,7 @@ def test_another_number_renews_one_record(project: Path, capsys: pytest.CaptureF
         *("package.mo", "package.order"),
     ]
     edit(project / "parts.yaml", "1.2", "1.4")
-    assert cli.main(["diff"]) == Exit.OUT_OF_STEP
-    assert "1.2 → 1.4" in capsys.readouterr().out
+    assert "1.2 → 1.4" in execute("diff", code=Exit.OUT_OF_STEP).out
     model = (project / "modelica/Gearbox/Motor.mo").stat()
     assert cli.main(["build"]) == Exit.IN_STEP
     assert "mass = 1.4" in (project / "modelica/Gearbox/MotorParameters.mo").read_text()
@@ -80,7 +76,7 @@ def test_edits_stay_and_conflict(project: Path) -> None:
     assert "mass = 1.4" in record.read_text()
 
 
-def test_a_part_that_comes_and_one_that_goes_are_structural(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_part_that_comes_and_one_that_goes_are_structural(project: Path) -> None:
     cli.main(["build"])
     edit(project / "parts.yaml", "  wheel:", "  pinion:")
     assert cli.main(["build"]) == Exit.IN_STEP
@@ -92,21 +88,16 @@ def test_a_part_that_comes_and_one_that_goes_are_structural(project: Path, capsy
     ("old", "new", "words"),
     [("1.2,", "1.2, : [", "parts.yaml:4"), ("mass: 1.2", "mass: heavy", "Expected `float`"), ("motor:", "1:", "part")],
 )
-def test_a_bad_list_is_a_diagnostic(
-    project: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, words: str
-) -> None:
+def test_a_bad_list_is_a_diagnostic(project: Path, execute: Execute, old: str, new: str, words: str) -> None:
     edit(project / "parts.yaml", old, new)
-    assert cli.main(["build"]) == Exit.ERROR
-    assert words in capsys.readouterr().err
+    assert words in execute("build", code=Exit.ERROR).err
 
 
 def test_the_daemon_watches_it(project: Path) -> None:
     daemon = Daemons()
     try:
         daemon.wait(events.Built)
-        since = len(daemon.events)
-        edit(project / "parts.yaml", "1.2", "1.4")
-        daemon.wait(events.Built, since)
+        daemon.after(lambda: edit(project / "parts.yaml", "1.2", "1.4"), events.Built)
     finally:
         daemon.stop()
     assert "mass = 1.4" in (project / "modelica/Gearbox/MotorParameters.mo").read_text()

@@ -13,13 +13,13 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+from support.files import unchanged
 from support.networks import (
     C1,
     LADDER,
     MANIFEST,
     R1,
     RECORD,
-    Snapshot,
     configure,
     edit,
     kinds,
@@ -88,18 +88,6 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
     assert portable(conflict) == aside
 
 
-def test_keep_is_remembered_until_something_new_would_be_written(conflict: Path) -> None:
-    run()
-    mine = Path(R1).read_bytes()
-    kept = run(choices={R1: Choice.KEEP})
-    assert kinds(kept)[R1] is Kind.KEEP
-    assert not kept.conflicts
-    assert kinds(run()) == {R1: Kind.KEEP}
-    assert Path(R1).read_bytes() == mine
-    source('"farad": 1e-9', '"ohm": 7')
-    assert kinds(run())[R1] is Kind.CONFLICT
-
-
 def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
     waited = run()
     assert RECORD in {action.path for action in waited.actions if action.held}, "its parameter has another name"
@@ -133,22 +121,6 @@ def test_a_file_that_was_there_before_is_a_conflict_that_has_no_merge(project: P
     assert kinds(run()) == ({R1: Kind.KEEP} if choice is Choice.KEEP else {})
 
 
-@pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
-def test_an_orphan_is_let_go_or_deleted_with_its_record_and_its_lines(project: Path, choice: Choice) -> None:
-    run()
-    for path in (R1, C1):
-        edit(path, "equation", "// mine\nequation")
-    drop("R1", "C1")
-    found = kinds(run())
-    assert (found[R1], found[RECORD], found[C1]) == (Kind.ORPHAN, Kind.NEEDED, Kind.ORPHAN)
-    run(choices={R1: choice, C1: Choice.TAKE})
-    kept = choice is Choice.KEEP
-    assert (Path(R1).exists(), Path(RECORD).exists(), Path(C1).exists()) == (kept, kept, False)
-    lines = set(Path(f"{LADDER}/Elements/package.order").read_text().split())
-    assert lines & {"R1", "R1Parameters", "C1", "C1Parameters"} == ({"R1", "R1Parameters"} if kept else set())
-    assert kinds(run()) == {}
-
-
 # Merges
 
 
@@ -176,7 +148,7 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     assert "elementR9" in found.rejected
 
 
-def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapshot_of: Snapshot) -> None:
+def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None:
     run()
     edit(RECORD, "100", "150")
     edit(RECORD, "end R1", MAY)
@@ -184,9 +156,8 @@ def test_who_writes_the_new_value_himself_has_no_conflict(project: Path, snapsho
     mine = Path(RECORD).read_bytes()
     assert kinds(run())[RECORD] is Kind.INCLUDED
     assert Path(RECORD).read_bytes() == mine
-    before = snapshot_of(project)
-    assert kinds(run()) == {RECORD: Kind.KEEP}
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        assert kinds(run()) == {RECORD: Kind.KEEP}
 
 
 @pytest.mark.parametrize("edited", [False, True])
@@ -208,19 +179,18 @@ def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) 
 
 
 @pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
-def test_merge_markers_are_never_taken_for_an_edit(project: Path, snapshot_of: Snapshot, path: str) -> None:
+def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str) -> None:
     merging()
     run()
     text = Path(path).read_text()
     Path(path).write_text(f"<<<<<<< HEAD\n{text}=======\n{text}>>>>>>> theirs\n")
     resistor(150)
-    before = snapshot_of(project)
-    for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):
-        (result,) = run_all(**request)
-        (found,) = result.diagnostics
-        assert exit_code([result]) is Exit.ERROR
-        assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
-    assert snapshot_of(project) == before
+    with unchanged(project):
+        for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):
+            (result,) = run_all(**request)
+            (found,) = result.diagnostics
+            assert exit_code([result]) is Exit.ERROR
+            assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
 
 
 # Renames

@@ -10,8 +10,10 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from unittest import mock
 
 import pytest
+from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.workplace import changes, contents
 
@@ -51,7 +53,7 @@ def traces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
     project: Path,
     traces: Path,
-    capsys: Capture,
+    execute: Execute,
     monkeypatch: pytest.MonkeyPatch,
     command: list[str],
     error: Exception,
@@ -61,8 +63,7 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
         raise error
 
     monkeypatch.setattr(config, "load", fail)
-    assert cli.main(command) == 2
-    streams = capsys.readouterr()
+    streams = execute(*command, code=2)
     (line,) = streams.err.splitlines()
     assert streams.out == ""
     assert line.startswith(f"error: {words}")
@@ -83,11 +84,14 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
 )
 @pytest.mark.parametrize("error", [MemoryError(), RecursionError("too deep")], ids=repr)
 def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
-    tmp_path: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, command: list[str], error: Exception
+    execute: Execute,
+    tmp_path: Path,
+    traces: Path,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+    command: list[str],
+    error: Exception,
 ) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise error
-
     repository = Repository(tmp_path / "project", monkeypatch)
     monkeypatch.chdir(repository.folder)
     Path("arm.urdf").write_text(URDF)
@@ -97,9 +101,8 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     repository.commit()
     before = contents(repository.folder)
     capsys.readouterr()
-    monkeypatch.setattr(UrdfDomain, "read", fail)
-    assert cli.main(command) == 2
-    said = capsys.readouterr().err
+    monkeypatch.setattr(UrdfDomain, "read", mock.Mock(side_effect=error))
+    said = execute(*command, code=2).err
     assert len([line for line in said.splitlines() if "error: " in line]) == 1, said
     assert "[internal]" in said
     assert "Traceback" not in said
@@ -108,18 +111,13 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
 
 
 def test_verbose_shows_the_traceback(
-    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    project: Path, traces: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fail(*_: object) -> None:
-        raise ValueError("no number")
-
-    monkeypatch.setattr(config, "load", fail)
-    assert cli.main(["build", "--verbose"]) == 2
-    said = capsys.readouterr().err
+    monkeypatch.setattr(config, "load", mock.Mock(side_effect=ValueError("no number")))
+    said = execute("build", "--verbose", code=2).err
     assert said.startswith("Traceback ")
     assert said.endswith("please report it with the traceback above [internal]\n")
-    assert cli.main(["build", "--json", "--verbose"]) == 2
-    streams = capsys.readouterr()
+    streams = execute("build", "--json", "--verbose", code=2)
     assert streams.err == ""
     assert json.loads(streams.out)["diagnostics"][0]["code"] == "internal"
     assert len(list(traces.iterdir())) == 1
@@ -164,7 +162,7 @@ def test_what_is_to_be_installed_exists() -> None:
 
 
 def test_so_does_what_fails_while_an_answer_is_saved(
-    project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    execute: Execute, project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("no answer")
@@ -172,7 +170,6 @@ def test_so_does_what_fails_while_an_answer_is_saved(
     cli.main(["build"])
     monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
     capsys.readouterr()
-    assert cli.main(["build"]) == 2
-    streams = capsys.readouterr()
+    streams = execute("build", code=2)
     assert streams.out == "ladder: in step, 14 files\n"
     assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import itertools
 import os
 import re
 import shutil
@@ -11,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.networks import LADDER, MANIFEST, RECORD, edit
 from support.networks import R1 as MODEL
 
@@ -22,7 +24,6 @@ from urdfsync.outcome import Exit
 MINE = "// mine\n"
 CAN_CHANGE_MODES = os.name == "posix"
 
-Capture = pytest.CaptureFixture[str]
 Contents = Mapping[str, bytes]
 
 
@@ -36,12 +37,11 @@ def contents(folder: Path) -> Contents:
 
 
 @pytest.fixture
-def edited(project: Path, capsys: Capture) -> Path:
+def edited(project: Path, execute: Execute) -> Path:
     """A built network of which one model is edited."""
     assert cli.main(["build"]) == Exit.IN_STEP
     (project / MODEL).write_text((project / MODEL).read_text() + MINE)
-    assert cli.main(["build"]) == Exit.IN_STEP
-    capsys.readouterr()
+    execute("build")
     return project
 
 
@@ -53,11 +53,9 @@ def stale(edited: Path) -> Path:
     return edited
 
 
-def assert_error(capsys: Capture, command: list[str], words: str) -> None:
+def assert_error(execute: Execute, command: list[str], words: str) -> None:
     """The command exits with 2 after one line about the error, and one that says what has become of the robot."""
-    capsys.readouterr()
-    assert cli.main(command) == Exit.ERROR
-    lines = capsys.readouterr().err.splitlines()
+    lines = execute(*command, code=Exit.ERROR).errors
     assert len([line for line in lines if ": error: " in line]) == 1, lines
     assert words in lines[0].replace("\\", "/"), lines
     assert lines[1:] in ([], ["ladder: 1 error, nothing was changed"])
@@ -66,24 +64,22 @@ def assert_error(capsys: Capture, command: list[str], words: str) -> None:
 # Gone
 
 
-def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Path, capsys: Capture) -> None:
+def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Path, execute: Execute) -> None:
     before = contents(edited)
     shutil.rmtree(edited / LADDER)
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert capsys.readouterr().out == "ladder: 14 restored because you deleted them\n"
+    assert execute("build").out == "ladder: 14 restored because you deleted them\n"
     generated = before[MODEL].removesuffix(MINE.encode())
     assert {**before, MANIFEST: b""} == {**contents(edited), MODEL: before[MODEL], MANIFEST: b""}
     assert (edited / MODEL).read_bytes() == generated
     assert cli.main(["build", "--check"]) == Exit.IN_STEP
 
 
-def test_what_is_left_of_a_package_keeps_its_edits(edited: Path, capsys: Capture) -> None:
+def test_what_is_left_of_a_package_keeps_its_edits(edited: Path, execute: Execute) -> None:
     before = contents(edited)
     for path in (edited / LADDER).rglob("*"):
         if path.is_file() and path != edited / MODEL:
             path.unlink()
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert "13 restored because you deleted them" in capsys.readouterr().out
+    assert "13 restored because you deleted them" in execute("build").out
     assert contents(edited) == before
 
 
@@ -106,33 +102,25 @@ def a_link_to_nothing(path: Path, outside: Path) -> None:
     path.symlink_to(outside / "nothing")
 
 
-@pytest.mark.parametrize("command", ["build", "resolve"])
-@pytest.mark.parametrize("replace", [a_folder, a_link, a_link_to_nothing])
-@pytest.mark.parametrize("place", [MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json"])
-def test_a_file_that_is_something_else(
-    stale: Path, tmp_path: Path, capsys: Capture, place: str, replace: Callable[[Path, Path], None], command: str
+FILES = (MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json")
+FOLDERS = (LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots")
+COMMANDS = (["build"], ["resolve", "--all", "--take"])
+LINKS = (a_link, a_link_to_nothing)
+
+
+@pytest.mark.parametrize(
+    ("place", "replace", "command"),
+    [*itertools.product(FILES, (a_folder, *LINKS), COMMANDS), *itertools.product(FOLDERS, LINKS, COMMANDS[:1])],
+)
+def test_a_file_or_folder_that_is_something_else(
+    stale: Path, tmp_path: Path, execute: Execute, place: str, replace: Callable[[Path, Path], None], command: list[str]
 ) -> None:
     outside = tmp_path / "outside"
     outside.mkdir()
     replace(stale / place, outside)
     before = contents(tmp_path)
-    arguments = [command, "--all", "--take"] if command == "resolve" else [command]
-    assert_error(
-        capsys, arguments, f"{place}: error: {'a folder' if replace is a_folder else 'a symbolic link'} is where "
-    )
-    assert contents(tmp_path) == before
-
-
-@pytest.mark.parametrize("replace", [a_link, a_link_to_nothing])
-@pytest.mark.parametrize("place", [LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots"])
-def test_a_folder_that_is_a_link(
-    stale: Path, tmp_path: Path, capsys: Capture, place: str, replace: Callable[[Path, Path], None]
-) -> None:
-    outside = tmp_path / "outside"
-    outside.mkdir()
-    replace(stale / place, outside)
-    before = contents(tmp_path)
-    assert_error(capsys, ["build"], f"{place}: error: a symbolic link is where ")
+    kind = "a folder" if replace is a_folder else "a symbolic link"
+    assert_error(execute, command, f"{place}: error: {kind} is where ")
     assert contents(tmp_path) == before
 
 
@@ -197,11 +185,11 @@ DENIED = [
 @denying
 @pytest.mark.parametrize(("place", "bits", "words"), DENIED, ids=[f"{place}-{bits:o}" for place, bits, _ in DENIED])
 def test_what_is_not_allowed_is_one_error_and_changes_nothing(
-    stale: Path, capsys: Capture, place: str, bits: int, words: str
+    stale: Path, execute: Execute, place: str, bits: int, words: str
 ) -> None:
     before = contents(stale)
     with mode(stale / place, bits):
-        assert_error(capsys, ["build"], words)
+        assert_error(execute, ["build"], words)
     assert contents(stale) == before
     assert cli.main(["build"]) == Exit.IN_STEP
     assert (stale / MODEL).read_text().endswith(MINE)
@@ -221,17 +209,17 @@ def test_a_project_in_step_needs_no_rights(edited: Path, command: list[str]) -> 
 
 
 @denying
-def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, capsys: Capture) -> None:
+def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, execute: Execute) -> None:
     (edited / RECORD).write_text((edited / RECORD).read_text() + MINE)
     edit("ladder.json", '"ohm": 100', '"ohm": 120')
     before = contents(edited)
     with mode(edited / ".urdfsync", 0o500):
-        assert_error(capsys, ["build"], ".urdfsync")
+        assert_error(execute, ["build"], ".urdfsync")
     assert contents(edited) == before
     assert cli.main(["build"]) == Exit.CONFLICT
     assert (edited / RECORD).read_bytes() == before[RECORD]
     with mode(edited / LADDER / "Elements", 0o500):
-        assert_error(capsys, ["resolve", RECORD, "--take"], f"{LADDER}/Elements/")
+        assert_error(execute, ["resolve", RECORD, "--take"], f"{LADDER}/Elements/")
     assert (edited / RECORD).read_bytes() == before[RECORD]
     assert cli.main(["resolve", RECORD, "--take"]) == Exit.IN_STEP
     assert "120" in (edited / RECORD).read_text()

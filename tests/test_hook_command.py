@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import json
 import os
@@ -12,8 +13,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pytest
+from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, edit, resistor
+from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, configure, edit, resistor
 
 from urdfsync import cli, hook
 from urdfsync.hooks.index import Index
@@ -60,47 +62,67 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int = 1) -> list[str
     return lines
 
 
-def git(*arguments: str) -> str:
-    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
-
-
 def run(line: str) -> None:
     """Run a command line that a hook has printed."""
     for command in line.strip().split(" && "):
-        program, *arguments = command.split(" ")
-        if program == "urdfsync":
-            assert cli.main(arguments) == 0
+        if command.startswith("urdfsync "):
+            assert cli.main(command.split(" ")[1:]) == 0
         else:
-            git(*arguments)
+            subprocess.run(command.split(" "), check=True, capture_output=True)
 
 
-def test_a_stale_output_is_built_and_has_to_be_added(repo: Repository, capsys: Capture) -> None:
+def staged(repo: Repository) -> None:
+    """Stage a change of the source that renews a record."""
     resistor(120)
     repo.git("add", "ladder.json")
-    lines = said(capsys, "build")
-    assert lines == [
-        "ladder: out of step: 1 file written",
-        "add to the commit:",
-        f"  git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
-    ]
-    assert "120" in Path(RECORD).read_text()
-    run(lines[-1])
-    assert said(capsys, "build", code=0) == []
-    assert said(capsys, "check", code=0) == []
-    assert (
-        git("status", "--porcelain")
-        == "M  .urdfsync/robots/ladder.json\nM  " + f"{MANIFEST}\nM  ladder.json\nM  {RECORD}\n"
-    )
 
 
-def test_the_check_says_what_to_do_and_writes_nothing(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "check")
-    assert lines[:2] == ["ladder: out of step: 1 file to write", "build, then add to the commit:"]
-    assert snapshot_of(repo.folder) == before
-    run(lines[-1])
+STATE = f".urdfsync/robots/ladder.json {MANIFEST}"
+STALE, ROUNDED = ('"ohm": 100}', '"ohm": 120}'), ('"ohm": 100}', '"ohm": 100.0}')
+STAGE, DROP, BUILD = "git add ladder.json", "git rm -q --cached", "urdfsync build ladder && "
+ADD = f"git add {STATE} {RECORD}"
+OUT, IN = "ladder: out of step: ", "ladder: in step on disk, but "
+RECORDED = f"{OUT}what urdfsync recorded of it is out of date"
+
+
+@pytest.mark.parametrize(
+    ("change", "commands", "mode", "words", "command"),
+    [
+        (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
+        (STALE, STAGE, "check", f"{OUT}1 file to write", f"{BUILD}{ADD}"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{IN}2 files are not staged", f"git add {STATE}"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{IN}2 files are not staged", f"git add {STATE}"),
+        (ROUNDED, STAGE, "check", RECORDED, f"{BUILD}git add {STATE}"),
+        (ROUNDED, STAGE, "build", RECORDED, f"git add {MANIFEST}"),
+        ((), f"{DROP} {RECORD} && git add -N {RECORD}", "check", f"{IN}1 file is not staged", f"git add {RECORD}"),
+        ((), f"{DROP} ladder.json", "check", f"{IN}1 file is not staged", "git add ladder.json"),
+        ((), f"git rm -q {RECORD}", "check", f"{OUT}1 to restore", f"{BUILD}{ADD}"),
+        ((), f"git rm -q {RECORD}", "build", f"{OUT}1 restored because you deleted it", f"git add {RECORD}"),
+    ],
+)  # fmt: skip
+def test_what_is_not_in_step_is_told_with_the_command_that_mends_it(
+    repo: Repository, capsys: Capture, change: tuple[str, ...], commands: str, mode: str, words: str, command: str,
+) -> None:  # fmt: skip
+    """The source is changed, and the commands have been run. The check writes nothing."""
+    if change:
+        edit("ladder.json", *change)
+    run(commands)
+    heading = "build, then add to the commit:" if command.startswith("urdfsync") else "add to the commit:"
+    with contextlib.nullcontext() if mode == "build" else unchanged(repo.folder):
+        assert said(capsys, mode) == [words, heading, f"  {command}"]
+    run(command)
+    assert said(capsys, "build", code=0) == said(capsys, "check", code=0) == []
+
+
+@pytest.mark.parametrize(("pattern", "code"), [("*Parameters.mo", 1), ("ladder.json", 0)])
+def test_files_that_git_is_told_to_ignore(repo: Repository, capsys: Capture, pattern: str, code: int) -> None:
+    """An output has to be added all the same; a source is judged as it is on disk."""
+    run(f"{DROP} {RECORD if code else 'ladder.json'}")
+    Path(".gitignore").write_text(f"{pattern}\n")
+    repo.git("add", ".gitignore")
+    lines = said(capsys, "check", code=code)
+    assert lines[-1:] == ([f"  git add -f {RECORD}"] if code else [])
+    run(lines[-1] if code else "git status")
     assert said(capsys, "check", code=0) == []
 
 
@@ -120,84 +142,33 @@ def test_changes_that_are_not_staged_do_not_count(repo: Repository, capsys: Capt
     passes("the configuration")
 
 
-def test_a_source_with_later_changes_keeps_a_build_from_writing(
-    repo: Repository, capsys: Capture, snapshot_of: Snapshot
-) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
+def test_a_source_with_later_changes_keeps_a_build_from_writing(repo: Repository, capsys: Capture) -> None:
+    staged(repo)
     resistor(130, before=120)
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "build")
-    assert lines == [
-        "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
-        "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
-        f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
-    ]
-    assert snapshot_of(repo.folder) == before
+    with unchanged(repo.folder):
+        lines = said(capsys, "build")
+        assert lines == [
+            "ladder: out of step: 1 file to write; ladder.json has changes that are not staged",
+            "stage the changes (git add ladder.json) or put them aside (git stash push --keep-index), then build:",
+            f"  urdfsync build ladder && git add .urdfsync/robots/ladder.json {MANIFEST} {RECORD}",
+        ]
     run("git stash push --keep-index")
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
     run("git commit -qm staged")
-    assert "120" in git("show", f"HEAD:{RECORD}")
-
-
-def test_outputs_that_are_built_but_not_staged(repo: Repository, capsys: Capture) -> None:
-    resistor(120)
-    run("urdfsync build")
-    repo.git("add", "ladder.json", RECORD)
-    add = [
-        "ladder: in step on disk, but 2 files are not staged",
-        "add to the commit:",
-        f"  git add .urdfsync/robots/ladder.json {MANIFEST}",
-    ]
-    assert said(capsys, "check") == add
-    assert said(capsys, "build") == add
-    run(add[-1])
-    assert said(capsys, "check", code=0) == []
+    assert "120" in repo.git("show", f"HEAD:{RECORD}")
 
 
 def test_a_part_of_the_edits_is_staged(repo: Repository, capsys: Capture) -> None:
     edit("modelica/Ladder/Ladder.mo", "end Ladder;", "  // mine\nend Ladder;")
     repo.git("add", ".")
     edit("modelica/Ladder/Ladder.mo", "// mine", "// mine and more")
-    resistor(120)
-    repo.git("add", "ladder.json")
+    staged(repo)
     lines = said(capsys, "build")
     assert "Ladder.mo" not in lines[-1], "the rest of the edits stays where it is"
     run(lines[-1])
     assert said(capsys, "build", code=0) == []
-    assert git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
-
-
-def test_an_output_that_git_is_told_to_ignore(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", RECORD)
-    Path(".gitignore").write_text("*Parameters.mo\n")
-    repo.git("add", ".gitignore")
-    lines = said(capsys, "check")
-    assert lines[-1] == f"  git add -f {RECORD}"
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
-
-
-def test_a_source_that_git_does_not_track(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", "ladder.json")
-    assert said(capsys, "check")[-1] == "  git add ladder.json"
-    Path(".gitignore").write_text("ladder.json\n")
-    repo.git("add", ".gitignore")
-    assert said(capsys, "check", code=0) == [], "ignored on purpose: judged as it is on disk"
-
-
-def test_an_output_that_will_be_deleted_by_the_commit(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", RECORD)
-    assert said(capsys, "check")[0] == "ladder: out of step: 1 to restore"
-    lines = said(capsys, "build")
-    assert lines == [
-        "ladder: out of step: 1 restored because you deleted it",
-        "add to the commit:",
-        f"  git add {RECORD}",
-    ]
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
+    assert repo.git("status", "--porcelain", "modelica/Ladder/Ladder.mo") == "MM modelica/Ladder/Ladder.mo\n"
 
 
 @pytest.mark.parametrize("is_alone", [True, False])
@@ -213,16 +184,15 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
     assert (line == "  git add .urdfsync/robots modelica/Ladder") is is_alone
     assert ("modelica/Ladder/Elements/R2.mo" in line.split(" ")) is not is_alone
     run(line)
-    assert "D  modelica/Ladder/Elements/R2.mo\n" in git("status", "--porcelain")
-    assert ("?? modelica/Ladder/notes.txt" in git("status", "--porcelain")) is not is_alone
+    assert "D  modelica/Ladder/Elements/R2.mo\n" in repo.git("status", "--porcelain")
+    assert ("?? modelica/Ladder/notes.txt" in repo.git("status", "--porcelain")) is not is_alone
     assert said(capsys, "check", code=0) == []
 
 
 def add_robot(repo: Repository) -> None:
     """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    with Path("urdfsync.toml").open("a") as file:
-        file.write(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
+    configure(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
 
@@ -270,25 +240,13 @@ def test_a_source_that_the_commit_deletes(repo: Repository, capsys: Capture) -> 
         assert "does not exist" in said(capsys, mode, code=2)[0]
 
 
-def test_a_change_that_concerns_the_state_only(repo: Repository, capsys: Capture) -> None:
-    edit("ladder.json", '"ohm": 100}', '"ohm": 100.0}')
-    repo.git("add", "ladder.json")
-    lines = said(capsys, "check")
-    assert lines[0] == "ladder: out of step: what urdfsync recorded of it is out of date"
-    lines = said(capsys, "build")
-    assert lines[-1] == f"  git add {MANIFEST}"
-    run(lines[-1])
-    assert said(capsys, "check", code=0) == []
-
-
-def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture, snapshot_of: Snapshot) -> None:
+def test_a_configuration_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
     edit("urdfsync.toml", 'domain = "rcnetwork"', 'domain = "rcnetwork"\nprefix = "joint"')
     repo.git("add", "urdfsync.toml")
     edit("urdfsync.toml", "joint", "point")
-    before = snapshot_of(repo.folder)
-    lines = said(capsys, "build")
-    assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
-    assert snapshot_of(repo.folder) == before
+    with unchanged(repo.folder):
+        lines = said(capsys, "build")
+        assert lines[0] == "ladder: out of step: 1 file to write; urdfsync.toml has changes that are not staged"
     edit("urdfsync.toml", "point", "joint")
     run(said(capsys, "build")[-1])
     assert said(capsys, "build", code=0) == []
@@ -412,12 +370,6 @@ def test_a_commit_without_the_configuration_of_its_state(repo: Repository, capsy
     assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
 
 
-def test_files_that_will_be_added_one_day_are_no_part_of_the_commit(repo: Repository, capsys: Capture) -> None:
-    repo.git("rm", "-q", "--cached", RECORD)
-    repo.git("add", "--intent-to-add", RECORD)
-    assert said(capsys, "check")[-1] == f"  git add {RECORD}"
-
-
 def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
     repo.git("checkout", "-q", "-b", "other")
     resistor(120)
@@ -437,8 +389,7 @@ def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: py
 
 
 def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
+    staged(repo)
     with build_lock(repo.folder, repo.folder / ".urdfsync", wait=0) as lock:
         lock.acquire()
         assert "is building here" in said(capsys, "build", "--wait", "0", code=4)[0]
@@ -476,7 +427,7 @@ def put(version: Mapping[str, bytes], paths: Sequence[str]) -> None:
 
 
 def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
-    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stash(*paths: str) -> None:
         monkeypatch.setattr(precommit, "find_stash", lambda _: (Path("patch"), 1))
@@ -484,22 +435,20 @@ def test_changes_that_pre_commit_will_bring_back_keep_a_build_from_writing(
 
     resistor(120)
     repo.git("add", ".")
-    before = snapshot_of(repo.folder / "modelica")
-    for path in ("ladder.json", "step.csv", RECORD, MANIFEST, "urdfsync.toml"):
-        stash(path)
-        line = f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
-        assert said(capsys, "build")[0] == line
-    repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
-    stash()
-    said(capsys, "build")
-    assert snapshot_of(repo.folder / "modelica") == before, "a roll-back must not leave an untracked state alone"
+    with unchanged(repo.folder / "modelica"):
+        for path in ("ladder.json", "step.csv", RECORD, MANIFEST, "urdfsync.toml"):
+            stash(path)
+            line = f"ladder: out of step: 1 file to write; {path} has changes that are not staged"
+            assert said(capsys, "build")[0] == line
+        repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
+        stash()
+        said(capsys, "build")
     repo.git("add", ".urdfsync")
     assert said(capsys, "build")[0] == "ladder: out of step: 1 file written"
 
 
 def test_for_programs(repo: Repository, capsys: Capture) -> None:
-    resistor(120)
-    repo.git("add", "ladder.json")
+    staged(repo)
     document = json.loads("\n".join(said(capsys, "check", "--json")))
     (found,) = document["diagnostics"]
     assert (document["command"], document["exit"], found["code"]) == ("hook", 1, "out-of-step")
@@ -530,7 +479,7 @@ def test_whatever_passes_is_in_step_in_a_clone(
     run(said(capsys, "build")[-1])
     assert said(capsys, "check", code=0) == []
     repo.git("commit", "-qm", "next")
-    git("clone", "-q", ".", "../clone")
+    repo.git("clone", "-q", ".", "../clone")
     monkeypatch.chdir("../clone")
     assert cli.main(["build", "--check", "--quiet"]) == 0
     assert said(capsys, "check", code=0) == []

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from support import hostile
+from support.networks import configure
 
 from urdfsync import cli, render
 from urdfsync.engine import source
@@ -24,8 +25,7 @@ def marker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project, which is the working folder, with templates of its own; the file that a command in one would make."""
     hostile.write_project(tmp_path / "project")
     monkeypatch.chdir(tmp_path / "project")
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('templates = "templates"\n')
+    configure('templates = "templates"\n')
     _template("")
     return tmp_path / "marker"
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 import pytest
+from support.commands import Execute
 
 from urdfsync import cli, config
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect
@@ -59,11 +60,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def printed(capsys: pytest.CaptureFixture[str], folder: Path, *arguments: str) -> Any:
+def printed(execute: Execute, folder: Path, *arguments: str) -> Any:
     """What a command prints, as if the folder was that of the examples."""
-    capsys.readouterr()
-    cli.main([*arguments, "--json"])
-    streams = capsys.readouterr()
+    streams = execute(*arguments, "--json", code=None)
     assert streams.err == ""
     assert streams.out.isascii()
     text = streams.out.replace(str(folder), "/home/me/project")
@@ -85,46 +84,46 @@ def keys(document: Any) -> set[str]:
     return own.union(*map(keys, inside))
 
 
-def test_init(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert matches(INIT, printed(capsys, folder, "init", "arm.urdf"))
+def test_init(folder: Path, execute: Execute) -> None:
+    assert matches(INIT, printed(execute, folder, "init", "arm.urdf"))
 
 
-def test_record(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert matches(RECORD, printed(capsys, folder, "record", "arm.urdf", "-o", "Arm.mo"))
-    alone = printed(capsys, folder, "record", "arm.urdf")
+def test_record(folder: Path, execute: Execute) -> None:
+    assert matches(RECORD, printed(execute, folder, "record", "arm.urdf", "-o", "Arm.mo"))
+    alone = printed(execute, folder, "record", "arm.urdf")
     assert alone.keys() == (RECORD.keys() - {"file", "written"}) | LONG
 
 
-def test_build(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_build(folder: Path, execute: Execute) -> None:
     cli.main(["init", "arm.urdf"])
-    assert matches(BUILD, printed(capsys, folder, "build"))
+    assert matches(BUILD, printed(execute, folder, "build"))
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     (folder / "arm.urdf").write_text(URDF.replace('<child link="tip"/>', moved))
-    assert matches(CHANGED, printed(capsys, folder, "build"))
+    assert matches(CHANGED, printed(execute, folder, "build"))
     (folder / "urdfsync.toml").write_text("\n[robots.arm]\nsource = 'arm.urdf'\nsorce = 'x'\npackage = 'Arm'\n")
-    assert matches(MISTAKE, printed(capsys, folder, "build"))
+    assert matches(MISTAKE, printed(execute, folder, "build"))
 
 
-def test_diff(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_diff(folder: Path, execute: Execute) -> None:
     inertia = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
     (folder / "arm.urdf").write_text(URDF.replace('"tip">', f'"tip"><inertial><mass value="2"/>{inertia}</inertial>'))
     cli.main(["init", "arm.urdf"])
     cli.main(["build"])
     (folder / "arm.urdf").write_text((folder / "arm.urdf").read_text().replace('mass value="2"', 'mass value="2.5"'))
-    assert matches(DIFF, printed(capsys, folder, "diff", "arm.urdf"))
+    assert matches(DIFF, printed(execute, folder, "diff", "arm.urdf"))
 
 
-def test_status(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_status(folder: Path, execute: Execute) -> None:
     cli.main(["init", "arm.urdf"])
     cli.main(["build"])
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     (folder / "arm.urdf").write_text(URDF.replace('<child link="tip"/>', moved))
     record = folder / "modelica/Arm/Links/TipParameters.mo"
     record.write_text(record.read_text().replace("Records.Link(", "Records.Link(inertial(mass = 2),"))
-    assert matches(STATUS, printed(capsys, folder, "status"))
+    assert matches(STATUS, printed(execute, folder, "status"))
 
 
-def watched(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """What `watch` prints while a source is saved without a link, then whole and with the joint moved."""
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     part = URDF.replace('"tip">', '"top">')
@@ -140,18 +139,16 @@ def watched(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytes
             os.kill(os.getpid(), signal.SIGTERM)
 
     monkeypatch.setattr(JsonReport, "show", listen)
-    capsys.readouterr()
-    assert cli.main(["watch", "--settle", "0", "--sample", "0", "--json"]) == 0
-    streams = capsys.readouterr()
+    streams = execute("watch", "--settle", "0", "--sample", "0", "--json")
     assert streams.err == ""
     assert streams.out.isascii()
     return [json.loads(line) for line in streams.out.replace(str(folder), "/home/me/project").splitlines()]
 
 
-def test_watch(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_watch(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
     cli.main(["build"])
-    found = watched(folder, capsys, monkeypatch)
+    found = watched(folder, execute, monkeypatch)
     times = [datetime.datetime.fromisoformat(event["time"]) for event in found]
     assert times == sorted(times)
     assert all(time.tzinfo for time in times)
@@ -162,10 +159,9 @@ def test_watch(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: py
     assert others == [event for event in found if event["event"] != "built"]
 
 
-def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, execute: Execute) -> None:
     (folder / "urdfsync.toml").write_text("[robots.arm]\nsorce = 'x'\n")
-    assert cli.main(["watch", "--json"]) == 2
-    (line,) = capsys.readouterr().out.splitlines()
+    (line,) = execute("watch", "--json", code=2).lines
     document = json.loads(line)
     assert (document["command"], document["exit"]) == ("watch", 2)
     assert document.keys() == MISTAKE.keys()
@@ -203,7 +199,7 @@ def test_the_other_events_look_as_shown() -> None:
     assert kinds == {event["event"] for event in (*SESSION, *OTHERS, BUILT)}
 
 
-def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_resolve(folder: Path, execute: Execute) -> None:
     cli.main(["init", "arm.urdf"])
     cli.main(["build"])
     turning = '"revolute"><limit lower="-1" upper="1" effort="1" velocity="1"/>'
@@ -212,7 +208,7 @@ def test_resolve(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     joint.write_text(joint.read_text().replace('"Fixed joint', '"Welded joint'))
     robot.write_text(robot.read_text().replace("equation\n", "  Sensor sensor;\n\nequation\n"))
     assert cli.main(["build"]) == 3
-    document = printed(capsys, folder, "resolve", "--all", "--merge")
+    document = printed(execute, folder, "resolve", "--all", "--merge")
     assert matches(RESOLVE, document)
     (conflict,) = document["robots"][0]["conflicts"]
     assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
@@ -239,21 +235,21 @@ def checked() -> CheckResult:
     )
 
 
-def test_check(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
     monkeypatch.setattr("urdfsync.check.run.check_robots", lambda *_: iter([checked()]))
-    document = printed(capsys, folder, "check", "--physics")
+    document = printed(execute, folder, "check", "--physics")
     assert document == CHECK
     assert json.loads(json.dumps(document, allow_nan=False)) == CHECK
 
 
-def test_clear_cache(folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_clear_cache(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("urdfsync.check.cache.UserCache.clear", lambda _: 48_123_904)
-    assert printed(capsys, folder, "check", "--clear-cache") == CLEARED
+    assert printed(execute, folder, "check", "--clear-cache") == CLEARED
 
 
-def test_library(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert matches(LIBRARY, printed(capsys, folder, "library"))
+def test_library(folder: Path, execute: Execute) -> None:
+    assert matches(LIBRARY, printed(execute, folder, "library"))
 
 
 def test_tables_name_every_key_and_no_other() -> None:
@@ -262,9 +258,9 @@ def test_tables_name_every_key_and_no_other() -> None:
     assert named == keys(EXAMPLES) | LONG | PROFILE
 
 
-def test_a_profile(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_profile(folder: Path, execute: Execute) -> None:
     cli.main(["init", "arm.urdf"])
-    found = printed(capsys, folder, "build", "--profile")
+    found = printed(execute, folder, "build", "--profile")
     assert found.keys() == BUILD.keys() | {"profile"}
     assert found["profile"].keys() | {"profile"} == PROFILE
     assert {f"`{name}`" for name in (*keys(found["profile"]), *STAGES, OTHER)} <= set(re.findall(r"`[\w -]+`", PAGE))
@@ -277,9 +273,7 @@ def test_values_that_are_one_of_a_few_are_all_named() -> None:
 
 
 @pytest.mark.parametrize("arguments", [[], ["biuld"], ["build", "--svg", "--check"], ["check", "--jobs", "0"]])
-def test_bad_usage_is_a_document_as_well(
-    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]
-) -> None:
-    document = printed(capsys, folder, *arguments)
+def test_bad_usage_is_a_document_as_well(folder: Path, execute: Execute, arguments: list[str]) -> None:
+    document = printed(execute, folder, *arguments)
     assert (document["exit"], document["diagnostics"][0]["code"]) == (2, "usage")
     assert document.keys() == MISTAKE.keys()

@@ -12,12 +12,11 @@ import select
 import shutil
 import signal
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from random import Random
 
 import pytest
-from support import crashes, replay
+from support import crashes
 from support.crashes import Operation, contents, run
 
 from urdfsync.outcome import Result
@@ -27,13 +26,11 @@ KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))
 SAME = 10
 """So many kills of one project and one change."""
 
-pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")]
-
-
-@pytest.fixture(autouse=True)
-def _in_haste() -> Iterator[None]:
-    with replay.in_haste():
-        yield
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.usefixtures("in_haste"),
+    pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
+]
 
 
 def build_in_child(project: Path) -> tuple[int, int]:

@@ -10,6 +10,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.replay import contents
 
 from urdfsync import cli
@@ -18,7 +19,6 @@ from urdfsync.state.store import Store
 
 BEFORE = Path(__file__).parent / "golden" / "before"
 Files = dict[str, bytes]
-Capture = pytest.CaptureFixture[str]
 
 ELBOW, LINK, MAIN = "Arm/Joints/Swing.mo", "Arm/Links/Boom.mo", "Arm/Arm.mo"
 RECORD, RUN, TEST = "Arm/ArmParameters.mo", "Arm/ArmRun.mo", "Arm/ArmTest.mo"
@@ -63,13 +63,6 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Files:
     return files(root)
 
 
-def said(capsys: Capture, *arguments: str, code: int = 0) -> str:
-    capsys.readouterr()
-    assert cli.main([*arguments]) == code
-    streams = capsys.readouterr()
-    return " ".join((streams.out + streams.err).split())
-
-
 def edit(project: Path, path: str, old: str, new: str) -> bytes:
     file = project / "modelica" / path
     text = file.read_text()
@@ -83,8 +76,8 @@ def differing(project: Path, fresh: Files) -> set[str]:
     return {path for path in now.keys() | fresh.keys() if now.get(path) != fresh.get(path)}
 
 
-def test_one_build_carries_untouched_packages_over(project: Path, fresh: Files, capsys: Capture) -> None:
-    before, found = files(project), said(capsys, "build")
+def test_one_build_carries_untouched_packages_over(project: Path, fresh: Files, execute: Execute) -> None:
+    before, found = files(project), execute("build").words
     assert "conflict" not in found
     assert "does not fit" not in found
     assert files(project) == fresh
@@ -94,7 +87,7 @@ def test_one_build_carries_untouched_packages_over(project: Path, fresh: Files, 
         *(path.replace("Swing", "Swing_joint") for path in given),
     }
     assert fresh.keys() - before.keys() == {"Cart/CartStance.mo", *given}
-    assert "in step" in said(capsys, "build", "--check")
+    assert "in step" in execute("build", "--check").words
 
 
 COMMENT = ('    "Motion along the axis"', '    // softer than it looks\n    "Motion along the axis"')
@@ -103,49 +96,49 @@ PART = ("\nequation\n", "\n  parameter Real mine = 4e4;\n\nequation\n")
 
 @pytest.mark.parametrize(("path", "old", "new"), [(ELBOW, *COMMENT), (ELBOW, *PART), (TEST, *PART)])
 def test_an_edit_waits_for_its_user_and_is_merged(
-    project: Path, fresh: Files, capsys: Capture, path: str, old: str, new: str
+    project: Path, fresh: Files, execute: Execute, path: str, old: str, new: str
 ) -> None:
     before, mine = files(project), edit(project, path, old, new)
-    found = said(capsys, "build", "arm", code=3)
+    found = execute("build", "arm", code=3).words
     place = f"modelica/{path}"
     assert f"{WAITS} {place} is resolved: urdfsync resolve {place} [outdated-package]" in found
     assert f"urdfsync resolve {place} --merge" in found
     assert files(project) == {**before, path: mine}  # nothing structural is half done
-    assert WAITS in said(capsys, "status", "arm", code=3)  # and it is said as long as it is true
-    assert WAITS in said(capsys, "build", "arm", code=3)
-    assert WAITS not in said(capsys, "resolve", place, "--merge")
-    said(capsys, "build")
+    assert WAITS in execute("status", "arm", code=3).words  # and it is said as long as it is true
+    assert WAITS in execute("build", "arm", code=3).words
+    assert WAITS not in execute("resolve", place, "--merge").words
+    execute("build")
     assert differing(project, fresh) == {path}
     assert fresh[path].decode().replace(old, new, 1).encode() == (project / place).read_bytes()
-    assert WAITS not in said(capsys, "build")
+    assert WAITS not in execute("build").words
 
 
 def test_what_the_user_takes_fits_and_what_he_keeps_is_said_not_to(
-    project: Path, fresh: Files, capsys: Capture
+    project: Path, fresh: Files, execute: Execute
 ) -> None:
     mine = edit(project, ELBOW, *COMMENT)
     edit(project, RUN, "\nequation\n", "\n  Real mine = rotationalDrive[1].w;\n\nequation\n")
-    found = said(capsys, "build", code=3)
+    found = execute("build", code=3).words
     assert f"{WAITS} each of 2 conflicts is resolved: urdfsync resolve --all --robot arm" in found
     assert "the merge mentions `rotationalDrive`, which the package has no more" in found
-    found = said(capsys, "resolve", f"modelica/{RUN}", "--take", code=3)
+    found = execute("resolve", f"modelica/{RUN}", "--take", code=3).words
     assert f"{WAITS} modelica/{ELBOW} is resolved" in found
-    found = said(capsys, "resolve", f"modelica/{ELBOW}", "--keep")
+    found = execute("resolve", f"modelica/{ELBOW}", "--keep").words
     warning = "this file stays as it is, but it was made for an older library UrdfSync"
     assert f"modelica/{ELBOW}: warning: {warning}" in found
     assert "vanished-name" not in found  # what the file uses, it declares itself
-    said(capsys, "build")
+    execute("build")
     assert differing(project, fresh) == {ELBOW}
     assert files(project)[ELBOW] == mine
 
 
 def test_a_record_that_is_left_out_stays_and_its_users_are_told_with_the_option(
-    project: Path, fresh: Files, capsys: Capture
+    project: Path, fresh: Files, execute: Execute
 ) -> None:
     option = '`approach = ["package", "record"]` in the configuration keeps it up to date [left-out]'
     mine = edit(project, RECORD, "mass = 2", "mass = 2.5")
     (project / "modelica" / "Bench.mo").write_text(BENCH)
-    found = said(capsys, "build")
+    found = execute("build").words
     assert f"modelica/{RECORD}: warning: the file is no longer generated; {option}" in found
     assert f"modelica/Bench.mo:4: warning: `ArmParameters` is used here, and no longer generated; {option}" in found
     assert "modelica/Bench.mo:3: warning: `phi_start` is used here" in found
@@ -153,4 +146,4 @@ def test_a_record_that_is_left_out_stays_and_its_users_are_told_with_the_option(
     assert "frame_b" not in found  # that of the world
     assert differing(project, fresh) == {"Bench.mo", RECORD, "Arm/package.order"}
     assert files(project)[RECORD] == mine
-    assert "left-out" not in said(capsys, "build")
+    assert "left-out" not in execute("build").words

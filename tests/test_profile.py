@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 from support import answers
+from support.commands import Execute
 from support.networks import ROBOT
 
 from urdfsync import cli
@@ -15,9 +15,8 @@ from urdfsync.profiling import OTHER, STAGES
 Capture = pytest.CaptureFixture[str]
 
 
-def test_the_profile_of_programs_adds_up(project: Path, capsys: Capture) -> None:
-    cli.main(["build", "--profile", "--json"])
-    found = json.loads(capsys.readouterr().out)["profile"]
+def test_the_profile_of_programs_adds_up(project: Path, execute: Execute) -> None:
+    found = execute("build", "--profile", "--json", code=None).json["profile"]
     names = [stage["stage"] for stage in found["stages"]]
     assert {
         "imports",
@@ -44,10 +43,9 @@ def test_what_was_measured_is_not_said_again_but_that_a_saved_answer_would_have_
     assert "without --profile, the saved answer is printed" in capsys.readouterr().err
 
 
-def test_robots_that_other_processes_plan_count(project: Path, capsys: Capture) -> None:
+def test_robots_that_other_processes_plan_count(project: Path, execute: Execute) -> None:
     (project / "urdfsync.toml").write_text("".join(ROBOT.format(f"n{number}", f"N{number}") for number in range(6)))
-    assert cli.main(["build", "--profile", "--json", "--jobs", "2"]) == 0
-    document = json.loads(capsys.readouterr().out)
+    document = execute("build", "--profile", "--json", "--jobs", "2").json
     elsewhere = {stage["stage"] for stage in document["profile"]["stages"] if stage["elsewhere_ms"] > 0}
     assert {"reading", "rendering"} <= elsewhere
     written = sum(action["action"] == "create" for robot in document["robots"] for action in robot["actions"])
@@ -55,9 +53,8 @@ def test_robots_that_other_processes_plan_count(project: Path, capsys: Capture) 
     assert document["profile"]["counts"]["rendered"] > written / 2
 
 
-def test_a_build_says_where_the_time_went(project: Path, capsys: Capture) -> None:
-    assert cli.main(["build", "--profile"]) == 0
-    said = capsys.readouterr()
+def test_a_build_says_where_the_time_went(project: Path, execute: Execute) -> None:
+    said = execute("build", "--profile")
     assert said.out.startswith("ladder: 14 files written\n")
     for words in ("looking at files", "rendering", "writing", "total", "11 rendered"):
         assert words in said.err

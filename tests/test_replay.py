@@ -28,14 +28,8 @@ REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PAR
 """Roles of the files that a step of a class may write."""
 BELOW = f"{replay.PACKAGE}/"
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("in_haste")]
 each_history = pytest.mark.parametrize("name", CHOSEN or ["no-corpus"], ids=lambda name: name[-40:])
-
-
-@pytest.fixture(autouse=True)
-def _in_haste() -> Iterator[None]:
-    with replay.in_haste():
-        yield
 
 
 @each_history

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Callable
 from pathlib import Path
 
 import jinja2
@@ -77,55 +78,51 @@ def test_a_damaged_file_is_made_again(home: Path, templates: Path, compiled: lis
     assert len(compiled) == 1 + len(damaged)
 
 
-@needs_owners
-@pytest.mark.parametrize("mode", [0o777, 0o775, 0o702])
-@pytest.mark.parametrize("place", ["urdfsync/templates", "urdfsync", ".", ".."])
-def test_a_folder_that_others_may_write_to_is_not_used(
-    home: Path, templates: Path, compiled: list[str], place: str, mode: int
-) -> None:
-    render(templates)
-    (home / place).chmod(mode)
-    assert render(templates) == "a 1\n"
-    assert compiled == ["t.jinja"] * 2
+PLACES = ("urdfsync/templates", "urdfsync", ".", "..")
 
 
-@needs_owners
-@pytest.mark.parametrize("place", ["urdfsync/templates", "urdfsync", ".", ".."])
-def test_a_folder_of_another_user_is_not_used(
-    home: Path, templates: Path, compiled: list[str], place: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    render(templates)
+def _foreign(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give it to another user; if only root may do so, all is another user's."""
     if os.getuid() == 0:
-        os.chown(home / place, 65534, -1)
-    else:  # all folders are another user's then
+        os.chown(path, 65534, -1)
+    else:
         monkeypatch.setattr(os, "getuid", lambda: 65534)
-    assert render(templates) == "a 1\n"
-    assert compiled == ["t.jinja"] * 2
 
 
-@needs_owners
-def test_a_link_to_a_folder_that_others_may_replace_is_not_used(
-    home: Path, templates: Path, compiled: list[str], tmp_path: Path
-) -> None:
-    shared = tmp_path / "shared"
-    (shared / "urdfsync").mkdir(parents=True)
+def _linked(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put it where others may replace it, with a link in its place."""
+    shared = path.parents[2] / "shared"
+    shared.mkdir()
     shared.chmod(0o777)
-    (home / "urdfsync").symlink_to(shared / "urdfsync")
-    render(templates)
-    assert render(templates) == "a 1\n"
-    assert compiled == ["t.jinja"] * 2
+    path.rename(shared / path.name)
+    path.symlink_to(shared / path.name)
+
+
+def _mode(bits: int) -> Callable[[Path, pytest.MonkeyPatch], None]:
+    return lambda path, _: path.chmod(bits)
 
 
 @needs_owners
-@pytest.mark.parametrize("foreign", [True, False])
-def test_a_file_of_others_is_not_run(
-    home: Path, templates: Path, compiled: list[str], foreign: bool, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("place", "change"),
+    [
+        *((place, _mode(bits)) for place in PLACES for bits in (0o777, 0o775, 0o702)),
+        *((place, _foreign) for place in (*PLACES, "urdfsync/templates/*")),
+        ("urdfsync", _linked),
+        ("urdfsync/templates/*", _mode(0o664)),
+    ],
+)
+def test_what_others_may_write_or_have_written_is_not_used(
+    home: Path,
+    templates: Path,
+    compiled: list[str],
+    place: str,
+    change: Callable[[Path, pytest.MonkeyPatch], None],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     render(templates)
-    (file,) = cached(home)
-    if foreign and os.getuid() != 0:
-        pytest.skip("only root can give a file away")
-    os.chown(file, 65534, -1) if foreign else file.chmod(0o664)
+    (path,) = cached(home) if place.endswith("*") else [home / place]
+    change(path, monkeypatch)
     assert render(templates) == "a 1\n"
     assert compiled == ["t.jinja"] * 2
 

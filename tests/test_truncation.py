@@ -11,9 +11,9 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from support.commands import Execute
 from support.replay import Project, in_haste
 
-from urdfsync import cli
 from urdfsync.diagnostics import Severity
 from urdfsync.outcome import Exit, exit_code
 
@@ -56,8 +56,6 @@ ALL = "URDFSYNC_TRUNCATIONS"
 
 SMALL = "robots/ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_mesh.urdf"
 LARGE = "histories/kscalelabs+sim__sim_resources_stompymini_robot_fixed.urdf/001.urdf"
-
-Capture = pytest.CaptureFixture[str]
 
 
 def built(root: Path, content: bytes) -> Project:
@@ -150,7 +148,7 @@ def test_what_is_cut_off_is_built_when_it_is_whole(tmp_path: Path) -> None:
     ids=["empty", "blank", "bom", "markers", "last-marker", "first-line", "folder"],
 )
 def test_what_is_no_robot_is_one_line_and_exit_2(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, content: bytes | None, message: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, content: bytes | None, message: str
 ) -> None:
     project = built(tmp_path / "project", FULL.encode())
     monkeypatch.chdir(project.root)
@@ -160,8 +158,7 @@ def test_what_is_no_robot_is_one_line_and_exit_2(
     else:
         project.save(content)
     before = project.stamps()
-    assert cli.main(["build"]) == Exit.ERROR
-    first, *others = capsys.readouterr().err.splitlines()
+    first, *others = execute("build", code=Exit.ERROR).errors
     assert first.startswith(message)
     assert others == ["bot: 1 error, nothing was changed"]
     assert project.stamps() == before

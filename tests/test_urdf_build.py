@@ -7,15 +7,12 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from support.crashes import run
 from support.networks import edit
 from support.replay import contents
 
-from urdfsync.config import load
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import ChangeKind
-from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
 CONFIGURATION = """
@@ -32,12 +29,6 @@ def arm(tmp_path: Path) -> Path:
     shutil.copytree(SAMPLES / "six_axis_arm", tmp_path / "ws" / "src" / "six_axis_arm")
     (tmp_path / "urdfsync.toml").write_text(CONFIGURATION)
     return tmp_path
-
-
-def run(project: Path, *, full: bool = False) -> Result:
-    config = load(project / "urdfsync.toml")
-    (result,) = build(config, config.robots, BuildOptions(full=full))
-    return result
 
 
 def test_the_order_of_elements_in_the_file_makes_no_difference(arm: Path) -> None:

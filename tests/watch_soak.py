@@ -1,12 +1,9 @@
 """`urdfsync watch` under random edits by two writers and a hand editor; at the end nothing may be lost or stale.
 
-    python tests/watch_soak.py [MINUTES [SEED]]
-
 One writer exports as CAD programs do, in place and in pieces; the other saves as editors do, or replaces the whole
 folder, and changes the mesh. The hand editor writes comments into generated files, deletes some, and builds by hand.
 At the end each package has to equal a fresh build of its source but for the comments, and no comment may be missing.
-The exit code is 1 if anything is wrong. `tests/watch/test_watch_soak.py` runs it for half a minute, and in
-CI for three.
+`tests/watch/test_watch_soak.py` runs it for half a minute, and in CI for three.
 """
 
 from __future__ import annotations
@@ -19,7 +16,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from collections import Counter
@@ -242,20 +238,3 @@ def _urdfsync(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]
     environment = {**os.environ, "PYTHONPATH": str(REPOSITORY)}
     command = [sys.executable, "-m", "urdfsync", *arguments]
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
-
-
-def main() -> int:
-    """Run, and print what happened."""
-    minutes = float(sys.argv[1]) if len(sys.argv) > 1 else 3.0
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else time.time_ns() % 100_000
-    print(f"seed {seed}", flush=True)  # noqa: T201
-    with tempfile.TemporaryDirectory() as folder:
-        soak = run(Path(folder), 60 * minutes, seed)
-    for name, count in sorted(soak.counts.items()):
-        print(f"{count:6} {name}")  # noqa: T201
-    print("\n".join(soak.problems) or "nothing lost, nothing stale")  # noqa: T201
-    return 1 if soak.problems else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

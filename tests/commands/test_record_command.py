@@ -8,11 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.screen import Screen
-
-from urdfsync import cli
-
-Capture = pytest.CaptureFixture[str]
 
 REPOSITORY = Path(__file__).parents[2]
 TWIG = REPOSITORY / "tests/golden/twig.urdf"
@@ -28,31 +25,24 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def record(*arguments: object) -> int:
-    return cli.main(["record", *map(str, arguments)])
-
-
-def test_the_record_is_that_of_a_package(capsys: Capture) -> None:
-    assert record(TWIG, "--within", "Zoo.Twig", "--class", "TwigParameters") == 0
-    said = capsys.readouterr()
+def test_the_record_is_that_of_a_package(execute: Execute) -> None:
+    said = execute("record", TWIG, "--within", "Zoo.Twig", "--class", "TwigParameters")
     assert said.out == GOLDEN.read_text(encoding="utf-8")
     assert "mimic-of-fixed" in said.err
 
 
-def test_a_record_on_its_own_names_the_libraries_that_it_uses(capsys: Capture) -> None:
-    assert record(TWIG) == 0
-    text = capsys.readouterr().out
+def test_a_record_on_its_own_names_the_libraries_that_it_uses(execute: Execute) -> None:
+    text = execute("record", TWIG).out
     assert text.startswith('within ;\n\nrecord TwigParameters "Numbers of robot Twig as a whole"\n')
     assert '    uses(\n      Modelica(version="4.0.0"),\n' in text
     assert text.endswith("end TwigParameters;\n")
 
 
-def test_a_terminal_shows_the_same_text(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    record(TWIG)
-    piped = capsys.readouterr().out
+def test_a_terminal_shows_the_same_text(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    piped = execute("record", TWIG, code=None).out
     screen = Screen(width=400)
     monkeypatch.setattr(sys, "stdout", screen)
-    assert record(TWIG) == 0
+    execute("record", TWIG)
     assert screen.getvalue() == piped
 
 
@@ -83,63 +73,57 @@ def test_a_pipe_gets_utf_8_whatever_the_locale(folder: Path) -> None:
     ],
 )
 def test_the_class_is_called_as_asked_or_like_its_file(
-    arguments: list[str], expected: str, folder: Path, capsys: Capture
+    execute: Execute, arguments: list[str], expected: str, folder: Path
 ) -> None:
-    assert record(TWIG, "--within", "Plant", *arguments) == 0
+    out = execute("record", TWIG, "--within", "Plant", *arguments).out
     file = folder / arguments[1] if arguments[:1] == ["-o"] else None
-    text = file.read_text() if file else capsys.readouterr().out
+    text = file.read_text() if file else out
     assert text.startswith(f"within Plant;\n\nrecord {expected} ")
 
 
-def test_a_file_is_written_once(folder: Path, capsys: Capture) -> None:
-    assert record(TWIG, "-o", "Twig.mo") == 0
+def test_a_file_is_written_once(folder: Path, execute: Execute) -> None:
+    assert execute("record", TWIG, "-o", "Twig.mo").lines == ["Twig.mo written: record Twig"]
     assert [path.name for path in folder.iterdir()] == ["Twig.mo"], "nothing else is left behind"
-    assert record(TWIG, "-o", "Twig.mo") == 0
-    assert capsys.readouterr().out.splitlines() == ["Twig.mo written: record Twig", "Twig.mo unchanged: record Twig"]
+    assert execute("record", TWIG, "-o", "Twig.mo").lines == ["Twig.mo unchanged: record Twig"]
     (folder / "Twig.mo").write_bytes((folder / "Twig.mo").read_bytes().replace(b"\n", b"\r\n"))
-    assert record(TWIG, "-o", "Twig.mo", "--quiet") == 0
+    execute("record", TWIG, "-o", "Twig.mo", "--quiet")
     assert b"\r\n" in (folder / "Twig.mo").read_bytes()
 
 
-def test_what_is_in_a_file_is_not_lost_unless_one_says_so(folder: Path, capsys: Capture) -> None:
+def test_what_is_in_a_file_is_not_lost_unless_one_says_so(execute: Execute, folder: Path) -> None:
     file = folder / "Twig.mo"
     file.write_text("model Twig end Twig;")
-    assert record(TWIG, "-o", "Twig.mo") == 2
-    assert file.read_text() == "model Twig end Twig;"
-    said = capsys.readouterr().err.splitlines()
-    assert said[-1] == (
+    assert execute("record", TWIG, "-o", "Twig.mo", code=2).errors[-1] == (
         "Twig.mo: error: the file exists, and holds something else; name another one, or replace it with --force "
         "[file-exists]"
     )
-    assert record(TWIG, "-o", "Twig.mo", "--force") == 0
+    assert file.read_text() == "model Twig end Twig;"
+    execute("record", TWIG, "-o", "Twig.mo", "--force")
     assert "record Twig" in file.read_text()
 
 
 @pytest.mark.parametrize("name", ["own.urdf", "link.mo"])
-def test_the_source_is_never_replaced(name: str, folder: Path, capsys: Capture) -> None:
+def test_the_source_is_never_replaced(execute: Execute, name: str, folder: Path) -> None:
     source = folder / "own.urdf"
     source.write_bytes(TWIG.read_bytes())
     (folder / "link.mo").symlink_to(source)
-    assert record(source, "-o", name, "--force") == 2
-    assert source.read_bytes() == TWIG.read_bytes()
-    assert capsys.readouterr().err.splitlines()[-1] == (
+    assert execute("record", source, "-o", name, "--force", code=2).errors[-1] == (
         f"{name}: error: the record would replace its source; name another file [output-is-source]"
     )
+    assert source.read_bytes() == TWIG.read_bytes()
 
 
-def test_a_dash_is_standard_output(folder: Path, capsys: Capture) -> None:
-    assert record(TWIG, "-o", "-") == 0
-    dashed = capsys.readouterr().out
-    assert record(TWIG) == 0
-    assert capsys.readouterr().out == dashed
+def test_a_dash_is_standard_output(folder: Path, execute: Execute) -> None:
+    dashed = execute("record", TWIG, "-o", "-").out
+    assert execute("record", TWIG).out == dashed
     assert not list(folder.iterdir())
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
-def test_a_link_stays_a_link(folder: Path) -> None:
+def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
     (folder / "Real.mo").write_text("old")
     (folder / "Twig.mo").symlink_to("Real.mo")
-    assert record(TWIG, "-o", "Twig.mo", "--force") == 0
+    execute("record", TWIG, "-o", "Twig.mo", "--force")
     assert (folder / "Twig.mo").is_symlink()
     assert "record Twig" in (folder / "Real.mo").read_text()
 
@@ -156,31 +140,27 @@ def test_a_link_stays_a_link(folder: Path) -> None:
         ([TWIG, "--domain", "urfd"], "error: "),
     ],
 )
-def test_mistakes_are_one_line(arguments: list[object], said: str, folder: Path, capsys: Capture) -> None:
-    assert record(*arguments) == 2
-    found = [line for line in capsys.readouterr().err.splitlines() if "warning" not in line]
+def test_mistakes_are_one_line(arguments: list[object], said: str, folder: Path, execute: Execute) -> None:
+    found = [line for line in execute("record", *arguments, code=2).err.splitlines() if "warning" not in line]
     assert len(found) == 1
     assert found[0].startswith(said)
     assert not list(folder.iterdir())
 
 
-def test_a_faulty_source_is_told_with_its_line(folder: Path, capsys: Capture) -> None:
+def test_a_faulty_source_is_told_with_its_line(folder: Path, execute: Execute) -> None:
     (folder / "own.urdf").write_text(FAULTY)
-    assert record("own.urdf", "-o", "Own.mo") == 2
-    assert "own.urdf:3: error: " in capsys.readouterr().err
+    assert "own.urdf:3: error: " in execute("record", "own.urdf", "-o", "Own.mo", code=2).err
     assert not (folder / "Own.mo").exists()
 
 
-def test_a_robot_without_tables_is_written_with_a_warning(capsys: Capture) -> None:
-    assert record(BUOY) == 0
-    said = capsys.readouterr()
+def test_a_robot_without_tables_is_written_with_a_warning(execute: Execute) -> None:
+    said = execute("record", BUOY)
     assert "jointTree" not in said.out
     assert "floating_buoy.urdf:25: warning: the generic robot has no floating joints" in said.err
 
 
-def test_a_domain_without_a_record_says_so(rc_domain: None, capsys: Capture) -> None:
+def test_a_domain_without_a_record_says_so(rc_domain: None, execute: Execute) -> None:
     ladder = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
-    assert record(ladder, "--domain", "rcnetwork") == 2
-    assert capsys.readouterr().err == (
+    assert execute("record", ladder, "--domain", "rcnetwork", code=2).err == (
         "error: the domain `rcnetwork` has no record of a whole model; use `urdfsync build` [no-record]\n"
     )

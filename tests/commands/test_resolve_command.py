@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.networks import edit
+from support.commands import Execute
+from support.files import unchanged
+from support.networks import LADDER, MANIFEST, ROBOT, configure, edit
 
 from urdfsync import cli
 from urdfsync.engine.rules import sides_hash
 from urdfsync.files import digest
 from urdfsync.state.lock import build_lock
 
-Capture = pytest.CaptureFixture[str]
-Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
-
-LADDER = "modelica/Ladder"
 MODEL = f"{LADDER}/Ladder.mo"
 SIGNAL = f"{LADDER}/Resources/step.txt"
 MINE = '"Element R2, 1 %"'
@@ -31,103 +27,80 @@ def more(name: str) -> None:
     edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
 
 
-def files(snapshot: dict[str, tuple[int, bytes]]) -> dict[str, tuple[int, bytes]]:
-    return {path: entry for path, entry in snapshot.items() if path != ".urdfsync/lock"}
-
-
 @pytest.fixture
-def clean(project: Path) -> Path:
+def clean(execute: Execute, project: Path) -> Path:
     """The network's model is edited, one more resistor is in the source: both fit together."""
-    assert cli.main(["build"]) == 0
+    execute("build")
     edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
     more("R3")
     return project
 
 
 @pytest.fixture
-def contradictory(project: Path) -> Path:
+def contradictory(execute: Execute, project: Path) -> Path:
     """A resistor is edited in the network's model, and replaced in the source."""
-    assert cli.main(["build"]) == 0
+    execute("build")
     edit(MODEL, '"Element R2"', MINE)
     edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
     return project
 
 
-def resolve(*arguments: str) -> int:
-    return cli.main(["resolve", *arguments])
-
-
-def says(capsys: Capture) -> str:
-    return capsys.readouterr().out.splitlines()[0]
-
-
 # Choices
 
 
-def test_merge_takes_both(clean: Path, capsys: Capture) -> None:
-    assert cli.main(["build"]) == 3
-    assert f"    urdfsync resolve {Path(MODEL)} --merge" in capsys.readouterr().out.splitlines()
-    assert resolve(MODEL, "--merge") == 0
-    assert says(capsys) == "ladder: 3 files written, 1 merged with your edits"
+def test_merge_takes_both(clean: Path, execute: Execute) -> None:
+    assert f"    urdfsync resolve {Path(MODEL)} --merge" in execute("build", code=3).lines
+    assert execute("resolve", MODEL, "--merge").lines[0] == "ladder: 3 files written, 1 merged with your edits"
     text = Path(MODEL).read_text()
     assert "parameter Real mine = 1;" in text
     assert FRESH in text
-    assert cli.main(["build", "--check"]) == 0
+    execute("build", "--check")
 
 
-def test_take_replaces_the_edits(contradictory: Path, capsys: Capture) -> None:
-    assert cli.main(["build"]) == 3
-    capsys.readouterr()
-    assert resolve(MODEL, "--take") == 0
-    assert says(capsys) == "ladder: 4 files written, 2 deleted"
+def test_take_replaces_the_edits(contradictory: Path, execute: Execute) -> None:
+    execute("build", code=3)
+    assert execute("resolve", MODEL, "--take").lines[0] == "ladder: 4 files written, 2 deleted"
     assert MINE not in Path(MODEL).read_text()
     assert FRESH in Path(MODEL).read_text()
-    assert cli.main(["build"]) == 0
-    assert says(capsys) == "ladder: in step, 14 files"
+    assert execute("build").lines[0] == "ladder: in step, 14 files"
 
 
-def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, capsys: Capture) -> None:
+def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, execute: Execute) -> None:
     mine, elements = Path(MODEL).read_text(), Path(LADDER) / "Elements"
-    assert cli.main(["build"]) == 3
+    execute("build", code=3)
     assert (elements / "R2.mo").exists()
     assert not (elements / "R3.mo").exists()
-    assert resolve(MODEL, "--keep") == 0
+    execute("resolve", MODEL, "--keep")
     assert not (elements / "R2.mo").exists()
     assert "R3" in (elements / "package.order").read_text().splitlines(), "what waited is written"
     assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
-    capsys.readouterr()
     for arguments in (["build"], ["build", "--full"], ["build", "--check"]):
-        assert cli.main(arguments) == 0
-        assert says(capsys) == "ladder: in step, 14 files, 1 kept because you edited it"
+        assert execute(*arguments).lines[0] == "ladder: in step, 14 files, 1 kept because you edited it"
     edit("ladder.json", "220.5", "330")
-    assert cli.main(["build"]) == 0
+    execute("build")
     assert Path(MODEL).read_text() == mine
     more("R4")
-    assert cli.main(["build"]) == 3
+    execute("build", code=3)
     assert Path(MODEL).read_text() == mine
 
 
-def test_a_merge_that_is_not_offered_changes_nothing(
-    contradictory: Path, capsys: Capture, snapshot_of: Snapshot
-) -> None:
-    assert cli.main(["build"]) == 3
-    capsys.readouterr()
-    before = files(snapshot_of(contradictory))
-    assert resolve(MODEL, "--merge") == 2
-    proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
-    assert capsys.readouterr().err == (
-        f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
-        f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
-    )
-    assert MINE in proposal.read_text()
-    assert files(snapshot_of(contradictory)) == before
+def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradictory: Path) -> None:
+    execute("build", code=3)
+    with unchanged(contradictory, but=".urdfsync/lock"):
+        proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
+        assert execute("resolve", MODEL, "--merge", code=2).err == (
+            f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
+            f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
+        )
+        assert MINE in proposal.read_text()
 
 
-def test_a_dry_run_writes_nothing(clean: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    before = files(snapshot_of(clean))
-    assert resolve(MODEL, "--merge", "--dry-run") == 0
-    assert says(capsys) == "ladder: 3 files to write, 1 to merge with your edits"
-    assert files(snapshot_of(clean)) == before
+def test_a_dry_run_writes_nothing(clean: Path, execute: Execute) -> None:
+    with unchanged(clean, but=".urdfsync/lock"):
+        assert (
+            execute("resolve", MODEL, "--merge", "--dry-run").lines[0]
+            == "ladder: 3 files to write, 1 to merge with your edits"
+        )
 
 
 # Several files
@@ -143,52 +116,44 @@ def several(clean: Path) -> Path:
     return clean
 
 
-def conflicts(capsys: Capture) -> list[str]:
+def conflicts(execute: Execute) -> list[str]:
     """The conflicts that a dry build finds."""
-    capsys.readouterr()
-    cli.main(["build", "--dry-run", "--json"])
-    robots = json.loads(capsys.readouterr().out)["robots"]
+    robots = execute("build", "--dry-run", "--json", code=None).json["robots"]
     return [found["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
 
 
-def test_a_folder_stands_for_all_below_it(several: Path, capsys: Capture) -> None:
-    assert conflicts(capsys) == ["Elements/R1Parameters.mo", "Ladder.mo", "Resources/step.txt"]
-    assert resolve(f"{LADDER}/Elements", "--keep") == 3
-    assert conflicts(capsys) == ["Ladder.mo", "Resources/step.txt"]
-    assert resolve(LADDER, "--take") == 0
+def test_a_folder_stands_for_all_below_it(several: Path, execute: Execute) -> None:
+    assert conflicts(execute) == ["Elements/R1Parameters.mo", "Ladder.mo", "Resources/step.txt"]
+    execute("resolve", f"{LADDER}/Elements", "--keep", code=3)
+    assert conflicts(execute) == ["Ladder.mo", "Resources/step.txt"]
+    execute("resolve", LADDER, "--take")
     assert "R = 110" in Path(f"{LADDER}/Elements/R1Parameters.mo").read_text()
     assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
-def test_several_files_are_settled_together_or_not_at_all(
-    several: Path, capsys: Capture, snapshot_of: Snapshot
-) -> None:
-    before = files(snapshot_of(several))
-    record = f"{LADDER}/Elements/R1Parameters.mo"
-    assert resolve(MODEL, record, "--merge") == 2
-    assert resolve(MODEL, "nothing.mo", "--keep") == 2
-    assert files(snapshot_of(several)) == before
-    assert resolve(MODEL, record, "--keep") == 3
-    assert conflicts(capsys) == ["Resources/step.txt"]
+def test_several_files_are_settled_together_or_not_at_all(several: Path, execute: Execute) -> None:
+    with unchanged(several, but=".urdfsync/lock"):
+        record = f"{LADDER}/Elements/R1Parameters.mo"
+        execute("resolve", MODEL, record, "--merge", code=2)
+        execute("resolve", MODEL, "nothing.mo", "--keep", code=2)
+    execute("resolve", MODEL, record, "--keep", code=3)
+    assert conflicts(execute) == ["Resources/step.txt"]
 
 
-def test_all_that_can_be_merged_is_merged(several: Path, capsys: Capture) -> None:
-    assert resolve("--all", "--merge") == 3
-    assert says(capsys) == "ladder: 2 conflicts, 4 changes waiting for that"
-    assert conflicts(capsys) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
-    assert resolve("--all", "--keep") == 0
+def test_all_that_can_be_merged_is_merged(several: Path, execute: Execute) -> None:
+    assert execute("resolve", "--all", "--merge", code=3).lines[0] == "ladder: 2 conflicts, 4 changes waiting for that"
+    assert conflicts(execute) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
+    execute("resolve", "--all", "--keep")
     text = Path(MODEL).read_text()
     assert "parameter Real mine = 1;" in text
     assert FRESH in text
-    capsys.readouterr()
-    assert resolve("--all", "--take") == 0
-    assert capsys.readouterr().err == "note: nothing is in conflict [no-conflict]\n"
+    assert execute("resolve", "--all", "--take").err == "note: nothing is in conflict [no-conflict]\n"
 
 
-def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -> None:
-    assert resolve(MODEL, "--merge") == 3
-    assert resolve(MODEL, "--take") == 3
-    assert resolve("--all", "--keep") == 0
+def test_a_choice_that_waits_can_be_made_again(several: Path, execute: Execute) -> None:
+    execute("resolve", MODEL, "--merge", code=3)
+    execute("resolve", MODEL, "--take", code=3)
+    execute("resolve", "--all", "--keep")
     assert "parameter Real mine = 1;" not in Path(MODEL).read_text()
 
 
@@ -196,54 +161,50 @@ def test_a_choice_that_waits_can_be_made_again(several: Path, capsys: Capture) -
 
 
 @pytest.fixture
-def unsourced(project: Path) -> Path:
+def unsourced(execute: Execute, project: Path) -> Path:
     """An imported file that both sides changed, and whose source is gone since: nobody has what it gave."""
-    assert cli.main(["build"]) == 0
+    execute("build")
     edit(SIGNAL, "#1", "#1 ")
     edit("step.csv", "0.1,5", "0.1,7")
-    assert cli.main(["build"]) == 3
+    execute("build", code=3)
     Path("step.csv").rename("elsewhere.csv")
     return project
 
 
 @pytest.mark.parametrize("options", [[], ["--dry-run"]])
-def test_what_nobody_has_cant_be_taken(
-    unsourced: Path, options: list[str], capsys: Capture, snapshot_of: Snapshot
-) -> None:
-    capsys.readouterr()
-    before = files(snapshot_of(unsourced))
-    assert resolve(SIGNAL, "--take", *options) == 2
-    assert capsys.readouterr().err == (
-        f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
-        f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
-    )
-    assert resolve(LADDER, "--take", *options, "--json") == 2
-    assert [found["code"] for found in json.loads(capsys.readouterr().out)["diagnostics"]] == ["no-take"]
-    assert resolve("--all", "--take", *options) == 3
-    assert files(snapshot_of(unsourced)) == before
+def test_what_nobody_has_cant_be_taken(unsourced: Path, options: list[str], execute: Execute) -> None:
+    with unchanged(unsourced, but=".urdfsync/lock"):
+        assert execute("resolve", SIGNAL, "--take", *options, code=2).err == (
+            f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
+            f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
+        )
+        assert [
+            found["code"]
+            for found in execute("resolve", LADDER, "--take", *options, "--json", code=2).json["diagnostics"]
+        ] == ["no-take"]
+        execute("resolve", "--all", "--take", *options, code=3)
 
 
-def test_what_nobody_has_is_not_offered(unsourced: Path, capsys: Capture) -> None:
-    assert cli.main(["build"]) == 3
-    out = capsys.readouterr().out
+def test_what_nobody_has_is_not_offered(unsourced: Path, execute: Execute) -> None:
+    out = execute("build", code=3).out
     assert "It is no text that could be merged, and the file it is made from is not here." in out
     assert "--take" not in out
-    assert resolve(SIGNAL, "--keep") == 0
-    assert conflicts(capsys) == []
+    execute("resolve", SIGNAL, "--keep")
+    assert conflicts(execute) == []
     assert "#1 \n" in Path(SIGNAL).read_text()
 
 
-def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) -> None:
+def test_a_choice_waits_for_what_nobody_has(unsourced: Path, execute: Execute) -> None:
     """Whatever has recorded it: `resolve` itself takes an imported file at once, or not at all."""
-    manifest = Path(".urdfsync/robots/ladder.toml")
+    manifest = Path(MANIFEST)
     generated = tomllib.loads(manifest.read_text())["dependencies"]["step.csv"]["target_hash"]
     chosen_for = sides_hash(digest(Path(SIGNAL).read_bytes()), generated)
     edit(manifest, 'state = "conflict"', f'state = "conflict"\nchoice = "take"\nchosen_for = "{chosen_for}"')
     edit("ladder.json", '"ohm": 100', '"ohm": 120')
-    assert cli.main(["build"]) == 3
-    assert conflicts(capsys) == ["Resources/step.txt"]
+    execute("build", code=3)
+    assert conflicts(execute) == ["Resources/step.txt"]
     Path("elsewhere.csv").rename("step.csv")
-    assert cli.main(["build"]) == 0
+    execute("build")
     assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
@@ -253,27 +214,26 @@ def test_a_choice_waits_for_what_nobody_has(unsourced: Path, capsys: Capture) ->
 @pytest.mark.parametrize(
     "typed", ["Ladder.mo", "../Ladder/Ladder.mo", ".", "{project}/modelica/Ladder/Ladder.mo", "../../link/Ladder.mo"]
 )
-def test_paths_count_from_the_working_folder(clean: Path, monkeypatch: pytest.MonkeyPatch, typed: str) -> None:
+def test_paths_count_from_the_working_folder(
+    execute: Execute, clean: Path, monkeypatch: pytest.MonkeyPatch, typed: str
+) -> None:
     Path("link").symlink_to(LADDER, target_is_directory=True)
     monkeypatch.chdir(LADDER)
-    assert resolve(typed.format(project=clean), "--merge") == 0
+    execute("resolve", typed.format(project=clean), "--merge")
 
 
-def test_a_path_that_is_no_conflict(clean: Path, capsys: Capture, snapshot_of: Snapshot) -> None:
-    before = files(snapshot_of(clean))
-    for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
-        assert resolve(typed, "--keep") == 2
-        words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
-        assert capsys.readouterr().err == words
-    assert files(snapshot_of(clean)) == before
+def test_a_path_that_is_no_conflict(execute: Execute, clean: Path) -> None:
+    with unchanged(clean, but=".urdfsync/lock"):
+        for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
+            words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
+            assert execute("resolve", typed, "--keep", code=2).err == words
 
 
-def test_of_many_conflicts_a_few_are_named(clean: Path, capsys: Capture) -> None:
+def test_of_many_conflicts_a_few_are_named(clean: Path, execute: Execute) -> None:
     for number in range(7):
         more(f"T{number}")
         Path(f"{LADDER}/Elements/T{number}.mo").write_text("model mine\n")
-    assert resolve("nothing.mo", "other.mo", "--keep") == 2
-    words = capsys.readouterr().err
+    words = execute("resolve", "nothing.mo", "other.mo", "--keep", code=2).err
     assert words.startswith("error: `nothing.mo` and `other.mo` are not in conflict; these are: ")
     assert words.endswith("T4.mo and 3 more [no-conflict]\n")
 
@@ -287,84 +247,86 @@ def test_of_many_conflicts_a_few_are_named(clean: Path, capsys: Capture) -> None
         ([MODEL, "--all", "--keep"], "--all goes without paths"),
     ],
 )
-def test_bad_usage_lists_the_conflicts(clean: Path, capsys: Capture, arguments: list[str], words: str) -> None:
-    assert resolve(*arguments) == 2
-    error = capsys.readouterr().err
+def test_bad_usage_lists_the_conflicts(clean: Path, execute: Execute, arguments: list[str], words: str) -> None:
+    error = execute("resolve", *arguments, code=2).err
     assert error.startswith("usage: urdfsync resolve ")
     assert error.endswith(f"\nerror: {words}; in conflict: {Path(MODEL)} [usage]\n")
-    assert resolve(*arguments, "--json") == 2
-    assert json.loads(capsys.readouterr().out)["diagnostics"][0]["code"] == "usage"
+    assert execute("resolve", *arguments, "--json", code=2).json["diagnostics"][0]["code"] == "usage"
 
 
 # Orphans
 
 
 @pytest.fixture
-def orphan(project: Path) -> Path:
+def orphan(execute: Execute, project: Path) -> Path:
     """An edited model whose element is gone."""
-    assert cli.main(["build"]) == 0
+    execute("build")
     edit(f"{LADDER}/Elements/R2.mo", "equation", "  Real mine;\nequation")
     edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
-    assert cli.main(["build"]) == 0
+    execute("build")
     return project / LADDER / "Elements/R2.mo"
 
 
-def test_a_build_says_what_can_be_done_about_orphans(orphan: Path, capsys: Capture) -> None:
-    assert cli.main(["build", "--full"]) == 0
-    capsys.readouterr()
+def test_a_build_says_what_can_be_done_about_orphans(orphan: Path, execute: Execute) -> None:
+    execute("build", "--full")
     more("R4")
-    assert cli.main(["build"]) == 0
-    *_, place, _, advice = capsys.readouterr().out.splitlines()
+    *_, place, _, advice = execute("build").lines
     assert place == f"  orphan     {orphan.relative_to(Path.cwd())}  no longer generated, but you edited it; kept"
     assert advice == "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 
 
-def test_an_orphan_that_is_kept_is_the_users_own(orphan: Path, capsys: Capture) -> None:
-    assert resolve(str(orphan), "--keep") == 0
-    capsys.readouterr()
-    assert cli.main(["build"]) == 0
-    assert "kept because you edited" not in says(capsys)
-    assert "Real mine;" in orphan.read_text()
+def classes() -> set[str]:
+    """The lines of R2 in the order of its package."""
+    return {name for name in Path(LADDER, "Elements/package.order").read_text().split() if name.startswith("R2")}
 
 
-def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, capsys: Capture) -> None:
-    assert resolve("--all", "--take") == 0
-    assert resolve(str(orphan.parent), "--take") == 2
+def test_an_orphan_that_is_kept_is_the_users_own_with_the_record_that_it_needs(orphan: Path, execute: Execute) -> None:
+    execute("resolve", str(orphan), "--keep")
+    for _ in range(2):
+        assert "kept because you edited" not in execute("build").lines[0]
+        assert "Real mine;" in orphan.read_text()
+        assert orphan.with_name("R2Parameters.mo").exists()
+        assert classes() == {"R2", "R2Parameters"}
+
+
+def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute) -> None:
+    execute("resolve", "--all", "--take")
+    execute("resolve", str(orphan.parent), "--take", code=2)
     assert orphan.exists()
-    capsys.readouterr()
-    assert resolve(str(orphan), "--merge") == 2
-    assert "it is no longer generated: there is nothing to merge" in capsys.readouterr().err
-    assert resolve(str(orphan), "--take") == 0
+    assert (
+        "it is no longer generated: there is nothing to merge" in execute("resolve", str(orphan), "--merge", code=2).err
+    )
+    execute("resolve", str(orphan), "--take")
     assert not orphan.exists()
     assert not orphan.with_name("R2Parameters.mo").exists()
-    assert cli.main(["build", "--check"]) == 0
+    assert classes() == set()
+    execute("build", "--check")
 
 
 # Elements with another name
 
 
 @pytest.fixture
-def moved(project: Path) -> Path:
+def moved(execute: Execute, project: Path) -> Path:
     """An edited model of an element that has another name, with an edit that contradicts the new name."""
-    assert cli.main(["build"]) == 0
+    execute("build")
     edit(f"{LADDER}/Elements/R2.mo", '"Resistor R2"', '"My resistor R2"')
     edit("ladder.json", '"R2"', '"R5"')
     return project
 
 
 @pytest.mark.parametrize("name", ["R2", "R5"])
-def test_a_file_that_moves_is_known_by_both_names(moved: Path, capsys: Capture, name: str) -> None:
-    assert conflicts(capsys) == ["Elements/R5.mo"]
-    assert resolve(f"{LADDER}/Elements/{name}.mo", "--take") == 0
+def test_a_file_that_moves_is_known_by_both_names(moved: Path, execute: Execute, name: str) -> None:
+    assert conflicts(execute) == ["Elements/R5.mo"]
+    execute("resolve", f"{LADDER}/Elements/{name}.mo", "--take")
     assert not Path(f"{LADDER}/Elements/R2.mo").exists()
     assert '"Resistor R5"' in Path(f"{LADDER}/Elements/R5.mo").read_text()
-    assert cli.main(["build", "--check"]) == 0
+    execute("build", "--check")
 
 
-def test_a_file_that_moves_can_be_kept_as_it_is(moved: Path, capsys: Capture) -> None:
+def test_a_file_that_moves_can_be_kept_as_it_is(moved: Path, execute: Execute) -> None:
     mine = Path(f"{LADDER}/Elements/R2.mo").read_text()
-    assert resolve(f"{LADDER}/Elements/R2.mo", "--keep") == 0
-    assert says(capsys).endswith("1 moved with your edits")
+    assert execute("resolve", f"{LADDER}/Elements/R2.mo", "--keep").lines[0].endswith("1 moved with your edits")
     assert not Path(f"{LADDER}/Elements/R2.mo").exists()
     assert Path(f"{LADDER}/Elements/R5.mo").read_text() == mine
 
@@ -374,42 +336,42 @@ def test_a_file_that_moves_can_be_kept_as_it_is(moved: Path, capsys: Capture) ->
 
 def second_robot(text: str) -> None:
     Path("other.json").write_text(text)
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    configure(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
 
 
-def test_only_the_robots_that_are_concerned_are_built(clean: Path, capsys: Capture) -> None:
+def test_only_the_robots_that_are_concerned_are_built(clean: Path, execute: Execute) -> None:
     second_robot(Path("ladder.json").read_text())
-    assert resolve(MODEL, "--merge") == 0
-    assert capsys.readouterr().out.startswith("ladder: ")
+    assert execute("resolve", MODEL, "--merge").out.startswith("ladder: ")
     assert not Path("modelica/Other").exists()
 
 
-def test_a_broken_robot_hinders_no_other(clean: Path, capsys: Capture) -> None:
+def test_a_broken_robot_hinders_no_other(clean: Path, execute: Execute) -> None:
     second_robot("{")
-    assert resolve("modelica/Other/Other.mo", "--keep") == 2
-    errors = capsys.readouterr().err
+    errors = execute("resolve", "modelica/Other/Other.mo", "--keep", code=2).err
     assert "other.json:1: error: " in errors
     assert f"`modelica/Other/Other.mo` is not in conflict; these are: {Path(MODEL)}" in errors
-    assert resolve(MODEL, "--merge") == 0
-    assert resolve("--all", "--keep") == 2
-    assert resolve("--all", "--keep", "--robot", "ladder") == 0
+    execute("resolve", MODEL, "--merge")
+    execute("resolve", "--all", "--keep", code=2)
+    execute("resolve", "--all", "--keep", "--robot", "ladder")
 
 
-def test_another_build_is_waited_for(clean: Path, capsys: Capture) -> None:
+def test_another_build_is_waited_for(clean: Path, execute: Execute) -> None:
     with build_lock(clean, clean / ".urdfsync", 0) as lock:
         lock.acquire()
-        assert resolve(MODEL, "--merge", "--wait", "0") == 4
+        execute("resolve", MODEL, "--merge", "--wait", "0", code=4)
     assert "parameter Real mine = 1;" in Path(MODEL).read_text()
     assert FRESH not in Path(MODEL).read_text()
 
 
 def test_a_configuration_elsewhere(
-    clean: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    clean: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert cli.main(["build", "--config", "project/urdfsync.toml"]) == 3
-    (line,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("    urdfsync resolve")]
+    (line,) = [
+        line
+        for line in execute("build", "--config", "project/urdfsync.toml", code=3).lines
+        if line.startswith("    urdfsync resolve")
+    ]
     command = line.split()[1:]
     assert command == ["resolve", str(Path("project") / MODEL), "--merge", "--config", "project/urdfsync.toml"]
     assert cli.main(command) == 0

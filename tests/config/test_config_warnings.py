@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 
-from urdfsync import cli, config
+from urdfsync import config
 from urdfsync.config.warnings import find_warnings
 
 
@@ -67,11 +68,9 @@ def test_templates_that_have_a_use(project: Path) -> None:
     assert warnings(project, robots(1, 'templates = "own"\n')) == []
 
 
-def test_warnings_are_shown_by_a_build(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_warnings_are_shown_by_a_build(project: Path, execute: Execute) -> None:
     warnings(project, robots(1, 'package_paths = ["gone"]\n'))
-    assert cli.main(["build"]) == 0
-    assert "[no-package-path]" in capsys.readouterr().err
-    assert cli.main(["build", "--quiet"]) == 0
-    assert capsys.readouterr().err == ""
-    cli.main(["build", "--json"])
-    assert '"code": "no-package-path"' in capsys.readouterr().out
+    assert "[no-package-path]" in execute("build").err
+    quiet = execute("build", "--quiet")
+    assert (quiet.out, quiet.err) == ("", "")
+    assert '"code": "no-package-path"' in execute("build", "--json", code=None).out

@@ -9,16 +9,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
-
-from urdfsync import cli
-
-Capture = pytest.CaptureFixture[str]
-
-
-def run(*arguments: str) -> int:
-    return cli.main(arguments)
+from support.networks import configure
 
 
 @pytest.fixture(autouse=True)
@@ -36,33 +30,30 @@ def outside(project: Path, tmp_path: Path) -> Path:
     """A folder beside the project, which the project builds to."""
     folder = tmp_path / "elsewhere"
     folder.mkdir()
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('output = "../elsewhere"\n')
+    configure('output = "../elsewhere"\n')
     return folder
 
 
 @pytest.mark.parametrize("command", [["build"], ["build", "--full", "--repair"], ["build", "--svg"]], ids=" ".join)
-def test_a_build_needs_the_users_word(outside: Path, capsys: Capture, trusted: Path, command: Sequence[str]) -> None:
-    assert run(*command) == 2
+def test_a_build_needs_the_users_word(execute: Execute, outside: Path, trusted: Path, command: Sequence[str]) -> None:
+    said = execute(*command, code=2).words
     assert list(outside.iterdir()) == []
-    said = " ".join(capsys.readouterr().err.split())
     assert f"urdfsync.toml:5: error: `output` leads out of the configuration's folder, to {outside}" in said
     assert "use --trust" in said
     assert f"into {trusted}" in said
 
 
-def test_resolve_needs_the_users_word(outside: Path, capsys: Capture) -> None:
-    assert run("build", "--trust") == 0
+def test_resolve_needs_the_users_word(outside: Path, execute: Execute) -> None:
+    execute("build", "--trust")
     model = outside / "Ladder/Elements/R1Parameters.mo"
     model.write_text(model.read_text().replace("100", "101"))
     source = Path("ladder.json")
     source.write_text(source.read_text().replace("100", "150"))
-    assert run("build", "--trust") == 3
+    execute("build", "--trust", code=3)
     before = model.read_text()
-    assert run("resolve", "--all", "--take") == 2
-    assert "[untrusted-output]" in capsys.readouterr().err
+    assert "[untrusted-output]" in execute("resolve", "--all", "--take", code=2).err
     assert model.read_text() == before
-    assert run("resolve", "--all", "--take", "--trust") == 0
+    execute("resolve", "--all", "--take", "--trust")
     assert "150" in model.read_text()
 
 
@@ -83,54 +74,53 @@ def test_watch_needs_the_users_word(outside: Path, rc_site: Path) -> None:
     [(["status"], 0), (["build", "--check"], 1), (["build", "--dry-run"], 0), (["diff"], 1)],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
-def test_other_commands_read_and_tell(outside: Path, capsys: Capture, command: Sequence[str], code: int) -> None:
-    assert run(*command) == code
-    assert "warning: `output` leads out of the configuration's folder" in " ".join(capsys.readouterr().err.split())
+def test_other_commands_read_and_tell(outside: Path, execute: Execute, command: Sequence[str], code: int) -> None:
+    assert "warning: `output` leads out of the configuration's folder" in " ".join(
+        execute(*command, code=code).err.split()
+    )
     assert list(outside.iterdir()) == []
 
 
-def test_a_folder_in_the_users_own_file_is_trusted(outside: Path, trusted: Path, capsys: Capture) -> None:
+def test_a_folder_in_the_users_own_file_is_trusted(outside: Path, trusted: Path, execute: Execute) -> None:
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")
-    assert run("build") == 0
+    execute("build")
     assert (outside / "Ladder/package.mo").exists()
-    assert run("status") == 0
-    assert "untrusted-output" not in capsys.readouterr().err
+    assert "untrusted-output" not in execute("status").err
     trusted.unlink()
     for _ in range(2):
-        assert run("build") == 2
+        execute("build", code=2)
 
 
 @pytest.mark.parametrize("folder", ["..", "modelica", "/", "~"])
-def test_no_other_folder_is_trusted_with_it(outside: Path, trusted: Path, folder: str) -> None:
+def test_no_other_folder_is_trusted_with_it(execute: Execute, outside: Path, trusted: Path, folder: str) -> None:
     trusted.write_text(f"folders = ['{Path(os.path.normpath(Path.cwd() / folder))}']\n")
-    assert run("build") == 2
+    execute("build", code=2)
     assert list(outside.iterdir()) == []
 
 
 @pytest.mark.parametrize("text", ["folders = 1", "folders = [1]", "folder = ['a']", "folders = [", "\udcff"])
-def test_a_broken_file_of_trusted_folders_is_an_error(outside: Path, trusted: Path, capsys: Capture, text: str) -> None:
+def test_a_broken_file_of_trusted_folders_is_an_error(
+    outside: Path, trusted: Path, execute: Execute, text: str
+) -> None:
     trusted.write_bytes(text.encode(errors="surrogateescape"))
-    assert run("build") == 2
-    assert str(trusted) in capsys.readouterr().err.replace("\n", "")
+    assert str(trusted) in execute("build", code=2).err.replace("\n", "")
     assert list(outside.iterdir()) == []
 
 
-def test_a_configuration_that_is_named_by_a_detour_writes_to_its_own_folder(project: Path) -> None:
+def test_a_configuration_that_is_named_by_a_detour_writes_to_its_own_folder(execute: Execute, project: Path) -> None:
     Path("deep").mkdir()
     os.chdir("deep")
-    assert run("build", "--config", "../urdfsync.toml") == 0
+    execute("build", "--config", "../urdfsync.toml")
 
 
 @NEEDS_GIT
 def test_a_hook_takes_the_word_from_the_users_own_file(
-    outside: Path, trusted: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    outside: Path, trusted: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
 ) -> None:
     Repository(Path.cwd(), monkeypatch).git("add", "-A")
-    assert run("hook", "build") == 2
-    assert "[untrusted-output]" in capsys.readouterr().err
+    assert "[untrusted-output]" in execute("hook", "build", code=2).err
     assert list(outside.iterdir()) == []
-    assert run("hook", "check") == 1
-    assert "untrusted" not in capsys.readouterr().err
+    assert "untrusted" not in execute("hook", "check", code=1).err
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")
-    assert run("hook", "build") == 1  # the state is to be added
+    execute("hook", "build", code=1)  # the state is to be added
     assert (outside / "Ladder/package.mo").exists()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import zlib
 from pathlib import Path
+from unittest import mock
 
 import pygit2
 import pytest
@@ -107,9 +108,7 @@ def test_a_content_that_the_clone_lacks(repository: Path) -> None:
 
 
 def test_a_repository_of_another_user(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: str) -> None:
-        raise pygit2.GitError(f"repository path '{path}' is not owned by current user")
-
-    monkeypatch.setattr(pygit2, "Repository", refuse)
+    error = pygit2.GitError(f"repository path '{repository}' is not owned by current user")
+    monkeypatch.setattr(pygit2, "Repository", mock.Mock(side_effect=error))
     with pytest.raises(SourceError, match=r"the repository can't be read: .* is not owned by current user; put that"):
         Revision(repository, "HEAD")

@@ -22,8 +22,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
 
-EXAMPLES = Path(__file__).parents[1] / "rcnetwork/examples"
-SETTINGS = '[robots.ladder]\nsource = "ladder.json"\npackage = "Ladder"\ndomain = "rcnetwork"\n'
 AGE = 0.06
 """Seconds after which a file is old enough to be remembered."""
 
@@ -31,10 +29,12 @@ Edit = Callable[[Path, Random], None]
 
 
 @pytest.fixture
-def project(rc_domain: None, tmp_path: Path) -> Path:
-    shutil.copytree(EXAMPLES, tmp_path / "project")
-    (tmp_path / "project/urdfsync.toml").write_text(SETTINGS)
-    return tmp_path / "project"
+def memory(project: Path) -> Cache:
+    """What a daemon remembers that has built the project a while ago."""
+    cache = Cache()
+    assert _built(project, cache)
+    time.sleep(AGE)
+    return cache
 
 
 def _outputs(project: Path) -> list[Path]:
@@ -140,10 +140,7 @@ def _trusted(memory: Cache) -> list[str]:
     return [path for path, entry in memory.states("ladder").items() if entry and entry[0] != NO_STAT]
 
 
-def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
-    memory = Cache()
-    assert _built(project, memory)
-    time.sleep(AGE)
+def test_a_file_that_was_changed_back_in_time_is_seen(project: Path, memory: Cache) -> None:
     _planned(project, memory)
     for path in _trusted(memory):
         _change_back_in_time(Path(path), Random(0))
@@ -155,9 +152,8 @@ def test_a_file_that_was_changed_back_in_time_is_seen(project: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
-def test_any_row_of_edits_is_seen(project: Path, seed: int) -> None:
-    random, memory, safe = Random(seed), Cache(), project.with_name("safe")
-    assert _built(project, memory)
+def test_any_row_of_edits_is_seen(project: Path, memory: Cache, seed: int) -> None:
+    random, safe = Random(seed), project.with_name("safe")
     shutil.copytree(project / ".urdfsync/robots", project / "first")
     for _ in range(30):
         shutil.rmtree(safe, ignore_errors=True)
@@ -171,13 +167,13 @@ def test_any_row_of_edits_is_seen(project: Path, seed: int) -> None:
         if isinstance(without, tuple) or (random.random() < 0.7 and not _built(project, memory)):
             shutil.rmtree(project)  # nothing can be built of it
             shutil.copytree(safe, project)
+            os.chdir(project)
 
 
-def test_a_file_that_was_just_written_is_read_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_was_just_written_is_read_again(
+    project: Path, memory: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Within one tick of the clock a file can change without any difference in what the system says of it."""
-    memory = Cache()
-    assert _built(project, memory)
-    time.sleep(AGE)
     with monkeypatch.context() as patch:
         patch.setattr(uptodate, "_TICK", 60_000_000_000)
         _planned(project, memory)
@@ -194,11 +190,8 @@ def test_a_file_that_was_just_written_is_read_again(project: Path, monkeypatch: 
 
 @pytest.mark.parametrize("why", ["on Windows", "a clock that can be set", "no place for a file"])
 def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
-    project: Path, why: str, monkeypatch: pytest.MonkeyPatch
+    project: Path, memory: Cache, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    memory = Cache()
-    assert _built(project, memory)
-    time.sleep(AGE)
     if why == "on Windows":
         monkeypatch.setattr(uptodate, "HAS_CHANGE_TIMES", False)
     elif why == "a clock that can be set":
@@ -210,10 +203,7 @@ def test_nothing_is_remembered_where_nobody_knows_when_a_file_changed(
     assert not _trusted(memory)
 
 
-def test_a_full_build_reads_every_file(project: Path) -> None:
-    memory = Cache()
-    assert _built(project, memory)
-    time.sleep(AGE)
+def test_a_full_build_reads_every_file(project: Path, memory: Cache) -> None:
     _planned(project, memory)
     seen = {
         path: entry and entry._replace(sha256="wrong", text_sha256="wrong")

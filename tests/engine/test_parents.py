@@ -56,13 +56,10 @@ def names_in(text: str) -> list[str]:
     return [line for line in text.splitlines() if line]
 
 
-def test_a_new_file_has_one_name_per_line() -> None:
-    assert merge_order(None, ["Links", "Arm"]) == "Links\nArm\n"
-
-
 @pytest.mark.parametrize(
     ("text", "names", "owned", "merged"),
     [
+        pytest.param(None, "BA", "", "B\nA\n", id="a new file"),
         pytest.param("A\nB\n", "AB", "AB", "A\nB\n", id="nothing to do"),
         pytest.param("A\nMine\nB\n", "AB", "AB", "A\nMine\nB\n", id="the user's line stays"),
         pytest.param("A\nC\n", "ABC", "AC", "A\nB\nC\n", id="inserted after its neighbour"),
@@ -83,7 +80,7 @@ def test_a_new_file_has_one_name_per_line() -> None:
         pytest.param("", "AB", "", "A\nB\n", id="empty file"),
     ],
 )
-def test_merge_order(text: str, names: str, owned: str, merged: str) -> None:
+def test_merge_order(text: str | None, names: str, owned: str, merged: str) -> None:
     assert merge_order(text, list(names), list(owned)) == merged
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import portable, run_all
+from support.networks import edit, portable, run_all
 
 from urdfsync import config
 from urdfsync.diagnostics import ConfigError
@@ -79,10 +79,9 @@ def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, star
     run_all(jobs=2, cache=cache)
     assert started == [2]
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
-    record.write_text(record.read_text().replace("220.5", "221"))
+    edit(record, "220.5", "221")
     for number in (0, 5):
-        path = robots / f"n{number}.json"
-        path.write_text(path.read_text().replace("220.5", "330"))
+        edit(robots / f"n{number}.json", "220.5", "330")
     results = run_all(jobs=2, cache=cache)
     assert {one.robot for one in results if any(action.writes for action in one.actions)} == {"n0"}
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
@@ -130,15 +129,14 @@ def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monke
 def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run_all(jobs=1)
     for number in range(COUNT):
-        path = robots / f"n{number}.json"
-        path.write_text(path.read_text().replace("220.5", "330"))
+        edit(robots / f"n{number}.json", "220.5", "330")
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
     answer = pool.Pool._result
 
     def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
         work = answer(self, robot)
         if robot.name == "n5":
-            record.write_text(record.read_text().replace("220.5", "221"))
+            edit(record, "220.5", "221")
         return work
 
     monkeypatch.setattr(pool.Pool, "_result", edited)

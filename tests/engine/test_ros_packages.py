@@ -7,40 +7,30 @@ import pytest
 
 from urdfsync.engine.ros_packages import find, libraries
 
-
-def package(folder: Path, name: str) -> Path:
-    folder.mkdir(parents=True)
-    (folder / "package.xml").write_text(f"<package format='2'>\n  <name> {name} </name>\n</package>\n")
-    return folder
+IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 
 
-def test_packages_are_found_at_any_depth_and_by_the_name_that_they_say(tmp_path: Path) -> None:
-    arm = package(tmp_path / "src" / "robots-main" / "arm-2.1", "arm_description")
-    assert find([tmp_path / "src"], tmp_path / "cad" / "arm.urdf") == {"arm_description": arm}
-
-
-def test_a_package_around_the_source_is_found_without_a_search_path(tmp_path: Path) -> None:
-    arm = package(tmp_path / "clone", "arm_description")
-    assert find([], arm / "urdf" / "arm.urdf") == {"arm_description": arm}
-
-
-def test_of_two_packages_of_one_name_the_first_counts(tmp_path: Path) -> None:
-    packages = [package(tmp_path / place / "arm", "arm") for place in ("overlay", "base")]
-    assert find([tmp_path / "overlay", tmp_path / "base"], tmp_path / "arm.urdf") == {"arm": packages[0]}
-
-
-@pytest.mark.parametrize("marker", ["CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"])
-def test_folders_that_ask_for_it_are_passed_over(tmp_path: Path, marker: str) -> None:
-    package(tmp_path / "old" / "arm", "arm")
-    (tmp_path / "old" / marker).touch()
-    assert find([tmp_path], tmp_path / "arm.urdf") == {}
-
-
-def test_hidden_folders_and_packages_inside_of_packages_are_no_packages(tmp_path: Path) -> None:
-    package(tmp_path / ".git" / "arm", "arm")
-    outer = package(tmp_path / "outer", "outer")
-    package(outer / "inner", "inner")
-    assert find([tmp_path], tmp_path / "arm.urdf") == {"outer": outer}
+@pytest.mark.parametrize(
+    ("packages", "search", "source", "found"),
+    [
+        pytest.param({"src/robots-main/arm-2.1": "arm"}, ["src"], "cad", {"arm": "src/robots-main/arm-2.1"}, id="deep"),
+        pytest.param({"clone": "arm"}, [], "clone/urdf", {"arm": "clone"}, id="around the source"),
+        pytest.param({"a/x": "arm", "b/x": "arm"}, ["a", "b"], "cad", {"arm": "a/x"}, id="the first counts"),
+        pytest.param({".git/arm": "arm", "o": "out", "o/i": "in"}, ["."], "cad", {"out": "o"}, id="hidden, and inside"),
+        *(pytest.param({"a": "arm", f"a/{name}": ""}, ["."], "cad", {}, id=name) for name in IGNORED),
+    ],
+)
+def test_packages_are_found_by_the_name_that_they_say(
+    tmp_path: Path, packages: dict[str, str], search: list[str], source: str, found: dict[str, str]
+) -> None:
+    """At any depth; folders that ask for it are passed over, and so is what is inside of a package."""
+    for place, name in packages.items():
+        folder = tmp_path / place
+        folder.mkdir(parents=True) if name else folder.touch()
+        if name:
+            (folder / "package.xml").write_text(f"<package format='2'>\n  <name> {name} </name>\n</package>\n")
+    folders = [tmp_path / place for place in search]
+    assert find(folders, tmp_path / source / "arm.urdf") == {name: tmp_path / place for name, place in found.items()}
 
 
 def library(folder: Path) -> Path:

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 
-from urdfsync import cli
 from urdfsync.outcome import Exit
 from urdfsync.state import file_operations
 
@@ -46,43 +46,43 @@ def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[
 
 
 def test_a_newer_source_is_written_to_all_other_files(
-    project: Path, save_in_between: Callable[[Callable[[], None]], None], capsys: pytest.CaptureFixture[str]
+    project: Path, save_in_between: Callable[[Callable[[], None]], None], execute: Execute
 ) -> None:
     source = project / "ladder.json"
-    assert cli.main(["build"]) == Exit.IN_STEP
+    execute("build")
     set_ohms(source, 70)
     save_in_between(lambda: set_ohms(source, 80))
-    capsys.readouterr()
-    assert cli.main(["build"]) == Exit.CONFLICT
-    assert " 1 conflict\n" in capsys.readouterr().out
+    assert " 1 conflict\n" in execute("build", code=Exit.CONFLICT).out
     assert "80" in (project / R2).read_text()
     assert (project / R1).read_text().endswith(MINE)
-    assert cli.main(["resolve", R1, "--merge"]) == Exit.IN_STEP
+    execute("resolve", R1, "--merge")
     assert "80" in (project / R1).read_text()
     assert (project / R1).read_text().endswith(MINE)
-    assert cli.main(["build", "--check"]) == Exit.IN_STEP
+    execute("build", "--check")
 
 
 def test_a_source_that_is_broken_for_a_while_changes_nothing_about_it(
-    project: Path, save_in_between: Callable[[Callable[[], None]], None]
+    execute: Execute, project: Path, save_in_between: Callable[[Callable[[], None]], None]
 ) -> None:
     source = project / "ladder.json"
-    assert cli.main(["build"]) == Exit.IN_STEP
+    execute("build")
     set_ohms(source, 70)
     whole = source.read_text()
     save_in_between(lambda: os.truncate(source, 50))
-    assert cli.main(["build"]) == Exit.ERROR
+    execute("build", code=Exit.ERROR)
     assert "70" in (project / R2).read_text(), "it was written when the build was overtaken"
     source.write_text(whole)
     set_ohms(source, 80)
-    assert cli.main(["build"]) == Exit.CONFLICT
+    execute("build", code=Exit.CONFLICT)
     assert "80" in (project / R2).read_text()
     assert (project / R1).read_text().endswith(MINE)
-    assert cli.main(["resolve", R1, "--merge"]) == Exit.IN_STEP
+    execute("resolve", R1, "--merge")
     assert "80" in (project / R1).read_text()
 
 
-def test_a_first_build_keeps_what_somebody_puts_in_its_way(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_first_build_keeps_what_somebody_puts_in_its_way(
+    execute: Execute, project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     place = file_operations.place
 
     def saved(one: Path, two: Path) -> None:
@@ -93,6 +93,6 @@ def test_a_first_build_keeps_what_somebody_puts_in_its_way(project: Path, monkey
         place(one, two)
 
     monkeypatch.setattr(file_operations, "place", saved)
-    assert cli.main(["build"]) == Exit.CONFLICT
+    execute("build", code=Exit.CONFLICT)
     assert (project / R1).read_text() == MINE
     assert "80" in (project / R2).read_text()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
@@ -21,12 +20,3 @@ def test_a_file_gets_what_rich_would_write(parts: list[tuple[str, str]]) -> None
     write_lines([one], file)
     Console(file=rich, force_terminal=False, color_system=None).print(one, soft_wrap=True)
     assert file.getvalue() == rich.getvalue()
-
-
-def test_a_terminal_gets_looks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("FORCE_COLOR", "1")
-    monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.delenv("NO_COLOR", raising=False)
-    stream = io.StringIO()
-    write_lines([line(("wrong", "bold red"), (": all", ""))], stream)
-    assert stream.getvalue() == "\x1b[1;31mwrong\x1b[0m: all\n"

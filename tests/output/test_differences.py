@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.merge import merge
-from urdfsync.output.differences import CONTEXT, Hunk, Line, find_hunks
+from urdfsync.output.differences import Hunk, Line, find_hunks
 
 TEXTS = st.lists(st.sampled_from("abcdefgh"), max_size=30).map(lambda lines: "".join(f"{line}\n" for line in lines))
 LETTERS = "".join(f"{letter}\n" for letter in "abcdefghijklmnop")
@@ -80,10 +80,6 @@ def test_without_a_base_only_the_difference_is_known() -> None:
     assert shown(hunk) == [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"]
 
 
-def test_kinds_of_line_endings_are_no_difference() -> None:
-    assert three("a\nb\n", "a\r\nb\r\n", "a\nb\n") == []
-
-
 def versions(hunk: Hunk) -> dict[str, list[Line]]:
     """The lines of a hunk as each version has them; a side that changed nothing has those of base."""
     found: dict[str, list[Line]] = {"base": [], "mine": [], "generated": []}
@@ -109,10 +105,3 @@ def test_all_versions_can_be_read_from_the_lines(base: str, mine: str, generated
         position = (starts[0] if starts else position) + len(lines["mine"])
     rest = "".join(outside[position:])
     assert {name: text + rest for name, text in found.items()} == {"base": base, "mine": mine, "generated": generated}
-
-
-@given(TEXTS, TEXTS, TEXTS)
-def test_unchanged_lines_stand_around_changed_ones(base: str, mine: str, generated: str) -> None:
-    for hunk in three(base, mine, generated):
-        runs = [len(list(run)) for name, run in groupby(hunk.lines, lambda line: line.version) if not name]
-        assert max(runs, default=0) <= 2 * CONTEXT

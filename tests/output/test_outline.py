@@ -217,15 +217,6 @@ def test_numbers_that_differ_look_different(old: float, new: float) -> None:
         assert float(text) == pytest.approx(value, rel=1e-5)
 
 
-@given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=4))
-def test_vectors_that_differ_look_different(pairs: list[tuple[float, float]]) -> None:
-    old, new = zip(*pairs, strict=True)
-    assume(max(abs(b - a) for a, b in pairs) > 1e-6 * max(map(abs, (*old, *new))))
-    (found,) = effect_rows([Effect(("a",), old, new)])
-    before, after = found.value.split(" → ")
-    assert before != after
-
-
 @pytest.mark.parametrize(
     ("old", "new", "shown"),
     [

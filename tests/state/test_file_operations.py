@@ -6,6 +6,7 @@ import errno
 import os
 import sys
 from pathlib import Path
+from unittest import mock
 
 import pytest
 
@@ -14,13 +15,10 @@ from urdfsync.state import file_operations
 
 @pytest.fixture(params=["renames", "links", "no links"])
 def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    def refuse(*paths: object, **options: object) -> None:
-        raise OSError(errno.EPERM, os.strerror(errno.EPERM))
-
     if request.param != "renames":
         monkeypatch.setattr(file_operations, "_renameat2", lambda: lambda *_: errno.ENOSYS)
     if request.param == "no links":
-        monkeypatch.setattr(os, "link", refuse)
+        monkeypatch.setattr(os, "link", mock.Mock(side_effect=OSError(errno.EPERM, os.strerror(errno.EPERM))))
     return str(request.param)
 
 

@@ -11,22 +11,17 @@ from typing import Any
 import pytest
 import tomli
 import tomli_w
+from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, edit
+from support.networks import MANIFEST, configure, edit
 from support.replay import contents
 
-from urdfsync import cli
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
-Capture = pytest.CaptureFixture[str]
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
 """A package of the user's own."""
-
-
-def run(*arguments: str) -> int:
-    return cli.main(arguments)
 
 
 def rewrite(manifest: Path, **changes: Any) -> None:
@@ -39,9 +34,9 @@ def move(project: Path, package: str = "Filter") -> None:
 
 
 @pytest.fixture
-def hostile(project: Path) -> Path:
+def hostile(execute: Execute, project: Path) -> Path:
     """A clone whose manifest says that a package of the user's is where the robot was; with a forged local state."""
-    assert run("build") == 0
+    execute("build")
     for name, content in OWN.items():
         (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
         (project / "modelica/Mine" / name).write_bytes(content)
@@ -75,56 +70,59 @@ def hostile(project: Path) -> Path:
     ],
     ids=" ".join,
 )
-def test_a_strangers_manifest_deletes_nothing_of_the_users(hostile: Path, command: Sequence[str]) -> None:
-    run(*command)
+def test_a_strangers_manifest_deletes_nothing_of_the_users(
+    execute: Execute, hostile: Path, command: Sequence[str]
+) -> None:
+    execute(*command, code=None)
     assert contents(hostile / "modelica/Mine") == OWN
-    run("build")
+    execute("build", code=None)
     assert contents(hostile / "modelica/Mine") == OWN
 
 
-def test_a_strangers_manifest_moves_no_edits(hostile: Path) -> None:
+def test_a_strangers_manifest_moves_no_edits(execute: Execute, hostile: Path) -> None:
     mine = hostile / "modelica/Mine/Ladder.mo"
     mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
     written = digest(b"what urdfsync wrote")
     rewrite(hostile / MANIFEST, files={"Ladder.mo": {"owner": "circuit ladder", "role": "model", "base": written}})
-    assert run("build") == 0
+    execute("build")
     assert mine.read_text() == "within Mine;\nmodel Ladder\nend Ladder;\n"
 
 
-def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path, capsys: Capture) -> None:
-    capsys.readouterr()
-    assert run("build") == 0
-    said = " ".join(capsys.readouterr().err.split())
+def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path, execute: Execute) -> None:
+    said = " ".join(execute("build").err.split())
     assert (
         "the package moved from modelica/Mine to modelica/Ladder; the old folder was not built in this checkout, so it "
         "stays as it is; take over what you need, then delete it: `rm -r -- modelica/Mine` [left-behind]"
     ) in said
-    assert run("build") == 0
-    assert "left-behind" not in capsys.readouterr().err
+    assert "left-behind" not in execute("build").err
 
 
-def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(project: Path, tmp_path: Path) -> None:
-    assert run("build") == 0
+def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(
+    execute: Execute, project: Path, tmp_path: Path
+) -> None:
+    execute("build")
     built = contents(project / "modelica/Ladder")
     clone = tmp_path / "clone"
     shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
     for folder in (clone, project):
         move(folder)
-        assert run("build", "--config", str(folder / "urdfsync.toml")) == 0
+        execute("build", "--config", str(folder / "urdfsync.toml"))
     assert contents(clone / "modelica/Ladder") == built
     assert not (project / "modelica/Ladder").exists()
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
 
 
 @pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
-def test_a_clone_that_has_built_moves_its_package(project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
-    assert run("build") == 0
+def test_a_clone_that_has_built_moves_its_package(
+    execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]
+) -> None:
+    execute("build")
     clone = tmp_path / "clone"
     shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
     config = str(clone / "urdfsync.toml")
-    assert run("build", "--config", config) == 0
+    execute("build", "--config", config)
     move(clone)
-    assert run("build", "--config", config) == 0
+    execute("build", "--config", config)
     assert not (clone / "modelica/Ladder").exists()
 
 
@@ -133,53 +131,52 @@ def _rename_robot(project: Path) -> None:
 
 
 def _move_output(project: Path) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('output = "packages"\n')
+    configure('output = "packages"\n')
 
 
 @pytest.mark.parametrize("steps", [[_rename_robot, move], [move, _rename_robot], [_move_output], [_move_output, move]])
 def test_renamed_robots_and_moved_packages_take_their_files_along(
-    project: Path, steps: Sequence[Callable[[Path], None]]
+    execute: Execute, project: Path, steps: Sequence[Callable[[Path], None]]
 ) -> None:
-    assert run("build") == 0
+    execute("build")
     for step in steps:
         step(project)
-        assert run("build") == 0
+        execute("build")
     (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
     assert package.name == ("Filter" if move in steps else "Ladder")
     robot = "filter" if _rename_robot in steps else "ladder"
     assert package.relative_to(project).as_posix() in Store(project).written_folders(robot)
 
 
-def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, capsys: Capture) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write("create_parents = true\n")
+def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, execute: Execute) -> None:
+    configure("create_parents = true\n")
     move(project, "Plant.Ladder")
-    assert run("build") == 0
+    execute("build")
     order = project / "modelica/Plant/package.order"
     order.write_text("Ladder\nPump\n")
     rewrite(project / MANIFEST, orders={"../package.order": ["Ladder", "Pump"]})
-    assert run("build") == 2
-    assert "[broken-state]" in capsys.readouterr().err
+    assert "[broken-state]" in execute("build", code=2).err
     assert order.read_text() == "Ladder\nPump\n"
 
 
-def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(project: Path) -> None:
-    assert run("build") == 0
+def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Execute, project: Path) -> None:
+    execute("build")
     (project / ".urdfsync/robots/...toml").write_text((project / MANIFEST).read_text())
     _rename_robot(project)
     (project / MANIFEST).unlink()
     ignore = (project / ".urdfsync/.gitignore").read_bytes()
-    assert run("build") == 0
+    execute("build")
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
 
 
 @NEEDS_GIT
 @pytest.mark.parametrize("mode", ["build", "check"])
-def test_a_hook_deletes_nothing_either(hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_hook_deletes_nothing_either(
+    execute: Execute, hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     Repository(hostile, monkeypatch).git("add", "-A")
-    run("hook", mode)
+    execute("hook", mode, code=None)
     assert contents(hostile / "modelica/Mine") == OWN
 
 

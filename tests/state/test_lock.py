@@ -14,7 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from support.networks import ROBOT, Snapshot, configure, rename, run_all
+from support.files import unchanged
+from support.networks import ROBOT, configure, rename, run_all
 
 import urdfsync
 from urdfsync import cli, config
@@ -97,14 +98,13 @@ def run(project: Path, **request: object) -> Result:
     return result
 
 
-def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path, snapshot_of: Snapshot) -> None:
+def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path) -> None:
     with holder(project) as process:
-        before = snapshot_of(project)
-        result = run(project)
-        assert [found.code for found in result.diagnostics] == ["locked"]
-        assert f"process {process.pid}" in result.diagnostics[0].message
-        assert exit_code([result]) is Exit.LOCKED
-        assert snapshot_of(project) == before
+        with unchanged(project):
+            result = run(project)
+            assert [found.code for found in result.diagnostics] == ["locked"]
+            assert f"process {process.pid}" in result.diagnostics[0].message
+            assert exit_code([result]) is Exit.LOCKED
         assert not run(project, dry=True).failed
     assert not run(project).failed
     with holder(project):

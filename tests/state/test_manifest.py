@@ -156,22 +156,8 @@ def test_a_file_that_waits_has_its_origin_below_the_package_in_the_text() -> Non
 
 
 PLACES = [
-    "../../victim.txt",
-    "../package.mo",
-    "..",
-    ".",
-    "",
-    "/etc/passwd",
-    "C:/victim.txt",
-    "Links/../../victim.txt",
-    "Links/../Arm.mo",
-    "./Arm.mo",
-    "Links//Arm.mo",
-    "Links/",
-    "Links\\..\\..\\victim.txt",
-    "a\0b.mo",
-    "a\nb.mo",
-    "a\x1b[2J.mo",
+    *"../../victim.txt ../package.mo .. . /etc/passwd C:/victim.txt Links/../../victim.txt Links/../Arm.mo".split(),
+    *("./Arm.mo", "Links//Arm.mo", "Links/", "Links\\..\\..\\victim.txt", "", "a\0b.mo", "a\nb.mo", "a\x1b[2J.mo"),
 ]
 
 

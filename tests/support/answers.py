@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections.abc import Callable
 from pathlib import Path
 
+from support.meshes import stl
 from urdfsync import cli, uptodate
 
 LIMIT = 60.0
 """Seconds after which an answer is not saved any more."""
-TETRAHEDRON = (
-    "solid t\n"
-    + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-    + ("endloop\nendfacet\nendsolid t\n")
-)
 _URDF = """\
 <robot name="{name}">
   <link name="base"><visual><geometry><mesh filename="package://{name}_meshes/base.stl"/></geometry></visual></link>
@@ -47,8 +44,8 @@ def built(folder: Path) -> Path:
     for name in ("arm", "leg"):
         _write(folder / f"robots/{name}.urdf", _URDF.format(name=name))
     _write(folder / "ros/group/arm_meshes/package.xml", "<package><name>arm_meshes</name></package>")
-    _write(folder / "ros/group/arm_meshes/base.stl", TETRAHEDRON)
-    _write(folder / "robots/leg_meshes/base.stl", TETRAHEDRON)
+    _write(folder / "ros/group/arm_meshes/base.stl", stl())
+    _write(folder / "robots/leg_meshes/base.stl", stl())
     _write(folder / "own/notes/readme.txt", "nothing but a text\n")
     _write(folder / "urdfsync.toml", _CONFIG)
     command = ["build", "--quiet", "--config", str(folder / "urdfsync.toml")]
@@ -65,13 +62,18 @@ def built(folder: Path) -> Path:
     return folder
 
 
-def save(*arguments: str) -> None:
-    """Run a command until its answer is saved: not as long as its dependencies are racy."""
+def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
+    """Repeat a step until an answer is saved: that takes as long as its dependencies are racy."""
     end = time.monotonic() + LIMIT
-    while saved(*arguments) is None:
-        time.sleep(0.06)
-        assert cli.main(arguments) == 0
+    while not is_done():
+        step()
         assert time.monotonic() < end, "no answer was saved"
+        time.sleep(0.06)
+
+
+def save(*arguments: str) -> None:
+    """Run a command until its answer is saved."""
+    until(lambda: saved(*arguments) is not None, lambda: cli.main(arguments))
 
 
 def saved(*arguments: str) -> list[str] | None:

@@ -47,28 +47,56 @@ def holds(ohm: float) -> bool:
     return f"{ohm:g}" in RECORD.read_text()
 
 
-def until(condition: Callable[[], bool]) -> None:
+def until(condition: Callable[[], bool], pause: float = 0.01) -> None:
     """Wait for something that no event tells."""
     deadline = time.monotonic() + LIMIT
     while not condition():
         assert time.monotonic() < deadline
-        time.sleep(0.01)
+        time.sleep(pause)
 
 
-class Watch:
+class Listener:
+    """What a daemon has told."""
+
+    def __init__(self) -> None:
+        self.events: list[Any] = []
+        self._news = threading.Condition()
+
+    def show(self, event: Any) -> None:
+        """Take an event."""
+        with self._news:
+            self.events.append(event)
+            self._news.notify_all()
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        """Wait for something that an event comes with."""
+        with self._news:
+            assert self._news.wait_for(condition, LIMIT), self.said
+
+    @property
+    def mark(self) -> int:
+        """The number of the next event."""
+        return len(self.events)
+
+    @property
+    def said(self) -> str:
+        """All that is known, to explain a failure."""
+        return repr(self.events)
+
+
+class Watch(Listener):
     """A daemon that runs within its context; its events are read from the pipe as they come."""
 
     def __init__(
         self, folder: Path, *arguments: str, path: Sequence[Path] = (), before: Sequence[str] = (), **environment: str
     ) -> None:
         """`path` are folders for Python to import from, after the program's own; `before` is a command to start it."""
+        super().__init__()
         paths = os.pathsep.join(map(str, [REPOSITORY, *path]))
         self._command = [*before, sys.executable, "-m", "urdfsync", "watch", "--json", *arguments]
         self._environment = {**os.environ, "PYTHONPATH": paths, "PYTHONWARNINGS": "error", **environment}
         self._folder = folder
-        self._news = threading.Condition()
         self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the daemon
-        self.events: list[Event] = []
 
     def __enter__(self) -> Self:
         self.process = subprocess.Popen(
@@ -92,9 +120,7 @@ class Watch:
 
     def _read(self) -> None:
         for line in self.process.stdout or ():
-            with self._news:
-                self.events.append(json.loads(line))
-                self._news.notify_all()
+            self.show(json.loads(line))
         with self._news:
             self._news.notify_all()
 
@@ -104,9 +130,8 @@ class Watch:
         def found() -> Event | None:
             return next((e for e in self.events[since:] if e.get("event") == what and wanted(e)), None)
 
-        with self._news:
-            self._news.wait_for(lambda: found() is not None or not self._reader.is_alive(), LIMIT)
-            event = found()
+        self.until(lambda: found() is not None or not self._reader.is_alive())
+        event = found()
         assert event is not None, f"no event `{what}`: {self.said}"
         return event
 
@@ -117,13 +142,7 @@ class Watch:
             last = {event["robot"]: event["event"] for event in self.events[since:] if "robot" in event}
             return len(last) >= robots and all(event in (*ENDS, "ran") for event in last.values())
 
-        with self._news:
-            assert self._news.wait_for(rests, LIMIT), self.said
-
-    @property
-    def mark(self) -> int:
-        """The number of the next event."""
-        return len(self.events)
+        self.until(rests)
 
     def builds(self, since: int = 0, robot: str = "ladder") -> list[Event]:
         """The builds of a robot that wrote or deleted files."""
@@ -149,13 +168,12 @@ class Watch:
         return "\n".join([*lines, self.errors])
 
 
-class Daemons:
+class Daemons(Listener):
     """A daemon in a thread of the test, in its working folder, and what it told."""
 
     def __init__(self, times: Times = QUICK, robots: int = 1, *, rests: bool = True, **options: Any) -> None:
         """Wait for the first builds of so many robots; with `rests` until nothing is left to do."""
-        self.events: list[events.Event] = []
-        self._news = threading.Condition()
+        super().__init__()
         build = BuildOptions(wait=1, jobs=options.pop("jobs", None))
         self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), times=times, build=build, **options), self)
         self._thread = threading.Thread(target=self._daemon.run)
@@ -164,22 +182,9 @@ class Daemons:
         if rests:
             self.rest()
 
-    def show(self, event: events.Event) -> None:
-        with self._news:
-            self.events.append(event)
-            self._news.notify_all()
-
     def rest(self) -> None:
         """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""
-        end = time.monotonic() + LIMIT
-        while not all(watched.debouncer.is_idle for watched in self._daemon._robots.values()):
-            assert time.monotonic() < end, self.events
-            time.sleep(0.002)
-
-    def until(self, condition: Callable[[], Any]) -> None:
-        """Wait for something that an event comes with."""
-        with self._news:
-            assert self._news.wait_for(condition, LIMIT), self.events
+        until(lambda: all(watched.debouncer.is_idle for watched in self._daemon._robots.values()), 0.002)
 
     def wait(self, kind: type, since: int = 0, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
         """The first event of this kind that is wanted, from the one with this number on; waits for it."""
@@ -190,10 +195,11 @@ class Daemons:
         self.until(lambda: found() is not None)
         return found()
 
-    @property
-    def mark(self) -> int:
-        """The number of the next event."""
-        return len(self.events)
+    def after(self, act: Callable[[], object], kind: type, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
+        """Do something, and wait for the first event of this kind that is wanted from then on."""
+        since = self.mark
+        act()
+        return self.wait(kind, since, wanted)
 
     def kinds(self, since: int = 0) -> list[str]:
         """The names of the events from the one with this number on."""

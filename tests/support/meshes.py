@@ -1,4 +1,4 @@
-"""Meshes that are made to do harm, built by code: none ends in anything but one finding."""
+"""Meshes built by code: a sound one, and those made to do harm, of which none ends in anything but one finding."""
 
 from __future__ import annotations
 
@@ -17,6 +17,12 @@ TRIANGLE = """<geometry id="g"><mesh>
 <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
 </mesh></geometry>"""
 PLACED = '<node><instance_geometry url="#g"/></node>'
+
+
+def stl(size: float = 1, height: float = 0) -> str:
+    """An STL file with one triangle, whose last corner is at this height."""
+    corners = f"vertex 0 0 0\nvertex {size} 0 0\nvertex 0 {size} {height}\n"
+    return f"solid tip\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid tip\n"
 
 
 def dae(scene: str = PLACED, nodes: str = "", geometry: str = TRIANGLE) -> str:

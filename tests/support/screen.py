@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import io
+import os
 import re
+import struct
+import subprocess
+from collections.abc import Mapping, Sequence
 
 _PIECES = re.compile(r"\x1b\[([\d;?]*)([A-Za-z])|(.)", re.DOTALL)
 
@@ -71,3 +75,29 @@ class Screen(io.StringIO):
         self._row, self._column = self._row + 1, 0
         if self._row == len(self.rows):
             self.rows.append("")
+
+
+def print_on_terminal(
+    command: Sequence[str], variables: Mapping[str, str], size: tuple[int, int] = (80, 24)
+) -> tuple[int, str]:
+    """Run a program on a terminal of its own, with so many columns and rows; its exit code and all that it wrote."""
+    import fcntl
+    import pty
+    import termios
+
+    ours, its = pty.openpty()
+    fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", *reversed(size), 0, 0))
+    with subprocess.Popen(command, stdin=its, stdout=its, stderr=its, env={**os.environ, **variables}) as process:
+        os.close(its)
+        printed = b""
+        while block := _read(ours):
+            printed += block
+    os.close(ours)
+    return process.returncode, printed.decode()
+
+
+def _read(terminal: int) -> bytes:
+    try:
+        return os.read(terminal, 4096)
+    except OSError:  # nobody has the other end any more
+        return b""

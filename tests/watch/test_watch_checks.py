@@ -13,7 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
-from support.networks import edit
+from support.networks import configure, edit
 
 from urdfsync.check import run
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
@@ -61,11 +61,15 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
         running.append(Daemons(rests=False))
         return running[-1]
 
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('on_build = "check"\n')
+    configure('on_build = "check"\n')
     yield begin
     for daemon in running:
         daemon.stop()
+
+
+def renew() -> None:
+    """Change the source."""
+    edit("ladder.json", "220.5", "330")
 
 
 def held(start: Start) -> tuple[Compiler, Daemons]:
@@ -81,9 +85,8 @@ def test_each_build_is_checked_once(project: Path, start: Start) -> None:
     compiler = Compiler()
     daemon = start(compiler)
     daemon.wait(events.CheckDone)
-    since = len(daemon.events)
-    edit(project / "ladder.json", "220.5", "330")
-    found = daemon.wait(events.CheckDone, since)
+    since = daemon.mark
+    found = daemon.after(renew, events.CheckDone)
     assert (found.checked, found.seconds) == (Checked.RIGHT, 2.5)
     assert daemon.kinds(since) == ["Settling", "Building", "Built", "Checking", "CheckDone"]
     assert ["330" in text for text in compiler.saw] == [False, True]
@@ -92,45 +95,35 @@ def test_each_build_is_checked_once(project: Path, start: Start) -> None:
 def test_an_edit_that_does_not_compile_is_told_and_so_is_its_end(project: Path, start: Start) -> None:
     daemon = start(Compiler())
     daemon.wait(events.CheckDone)
-    since, text = len(daemon.events), MODEL.read_text()
-    MODEL.write_text(text.replace("end R2;", "  Foo foo;\nend R2;"))
-    found = daemon.wait(events.CheckDone, since)
+    text = MODEL.read_text()
+    found = daemon.after(lambda: edit(MODEL, "end R2;", "  Foo foo;\nend R2;"), events.CheckDone)
     assert (found.checked, found.diagnostics) == (Checked.WRONG, (BROKEN,))
-    since = len(daemon.events)
-    MODEL.write_text(text)
-    assert daemon.wait(events.CheckDone, since).checked is Checked.RIGHT
+    assert daemon.after(lambda: MODEL.write_text(text), events.CheckDone).checked is Checked.RIGHT
 
 
 def test_builds_go_on_while_a_package_is_checked_and_the_last_one_counts(project: Path, start: Start) -> None:
     compiler, daemon = held(start)
-    since = len(daemon.events)
-    edit(project / "ladder.json", "220.5", "330")
-    assert daemon.wait(events.Built, since).files
+    since = daemon.mark
+    assert daemon.after(renew, events.Built).files
     daemon.wait(events.Checking, since)
-    compiler.free.set()
-    daemon.wait(events.CheckDone, since)
+    daemon.after(compiler.free.set, events.CheckDone)
     assert daemon.kinds().count("CheckDone") == 1
     assert "330" in compiler.saw[-1]
 
 
 def test_a_source_that_can_not_be_built_leaves_the_check_of_the_last_build_alone(project: Path, start: Start) -> None:
     compiler, daemon = held(start)
-    since = len(daemon.events)
-    (project / "ladder.json").write_text("{")
-    daemon.wait(events.Failed, since)
-    compiler.free.set()
-    daemon.wait(events.CheckDone, since)
+    daemon.after(lambda: Path("ladder.json").write_text("{"), events.Failed)
+    daemon.after(compiler.free.set, events.CheckDone)
     assert len(compiler.saw) == 1
 
 
 def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> None:
     compiler, daemon = held(start)
-    since, file = len(daemon.events), project / "urdfsync.toml"
-    file.write_text(file.read_text().replace('"check"', '"nothing"'))
-    daemon.wait(events.Started, since)
+    since = daemon.mark
+    daemon.after(lambda: edit("urdfsync.toml", '"check"', '"nothing"'), events.Started)
     daemon.wait(events.Built, since)
-    edit(project / "ladder.json", "220.5", "330")
-    daemon.wait(events.Built, len(daemon.events))
+    daemon.after(renew, events.Built)
     assert "CheckDone" not in daemon.kinds()
     assert len(compiler.saw) == 1
 
@@ -141,9 +134,7 @@ def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Pat
     daemon.wait(events.CheckDone)
     daemon.stop()
     daemon = start(second)
-    since = len(daemon.events)
-    edit(project / "ladder.json", "220.5", "330")
-    daemon.wait(events.CheckDone, since)
+    daemon.after(renew, events.CheckDone)
     assert daemon.kinds()[:3] == ["Started", "Building", "Built"]
     assert daemon.kinds().count("Checking") == 1
     assert ["330" in text for text in second.saw] == [True]
@@ -155,8 +146,7 @@ OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rc
 @pytest.fixture
 def other(project: Path, start: Start) -> None:
     """Another robot to check."""
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(OTHER)
+    configure(OTHER)
 
 
 @pytest.mark.usefixtures("other")
@@ -165,7 +155,7 @@ def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, 
     until(lambda: daemon.kinds().count("Built") == 2 and bool(compiler.saw))
     time.sleep(0.2)
     assert len(compiler.saw) == 1
-    MODEL.write_text(MODEL.read_text().replace("end R2;", "  Foo foo;\nend R2;"))  # takes the place of the first
+    edit(MODEL, "end R2;", "  Foo foo;\nend R2;")  # takes the place of the first
     until(lambda: daemon.kinds().count("Built") == 3)
     daemon.rest()
     compiler.free.set()
@@ -211,8 +201,7 @@ def stuck(project: Path, rc_site: Path, tmp_path: Path, modelica_library: Path) 
     (tmp_path / "site").mkdir()
     (tmp_path / "site" / "rumoca.py").write_text("import time\n\nwhile True:\n    time.sleep(60)\n")
     home = {name: str(tmp_path / "home") for name in ("HOME", "XDG_CACHE_HOME", "PRE_COMMIT_HOME")}
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
+    configure(f'on_build = "check"\n[check]\nlibrary = "{modelica_library.as_posix()}"\n')
     path = [tmp_path / "site", rc_site, REPOSITORY / "tests" / "rcnetwork"]
     with Watch(project, path=path, **home) as watch:
         yield watch
@@ -246,7 +235,7 @@ def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outli
 ) -> None:
     stuck.wait("checking")
     first, since = compilers(stuck), stuck.mark
-    edit(project / "ladder.json", "220.5", "330")
+    renew()
     stuck.wait("built", lambda event: bool(event["files"]), since)
     stuck.wait("checking", since=since)
     assert psutil.wait_procs(first, LIMIT)[1] == [], "what is checked now is the newer package"

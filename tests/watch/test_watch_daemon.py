@@ -5,6 +5,7 @@ That nothing else was built shows when one more change has been built: its event
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import errno
 import json
@@ -17,11 +18,13 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 import watchdog.observers
 from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, until
 from support.git import NEEDS_GIT, Repository
+from support.networks import configure
 
 from urdfsync import cli, registry
 from urdfsync.engine.actions import Kind
@@ -38,6 +41,7 @@ PATIENT = Times(settle=0.02, sample=0.01, give_up_after=100.0, recheck_shrunk=10
 """For robots that are not given up, and not believed when they shrink."""
 
 Start = Callable[..., Daemons]
+Wanted = Callable[[Any], bool]
 
 
 @pytest.fixture
@@ -65,13 +69,24 @@ def put(path: Path | str, ohm: float) -> Path:
     return place
 
 
+@contextlib.contextmanager
+def building(daemon: Daemons, ohm: float | None = None, wanted: Wanted = lambda event: True) -> Iterator[int]:
+    """What happens within is built, such as the source with this resistance; gives the number of the next event."""
+    since = daemon.mark
+    yield since
+    daemon.wait(events.Built, since, wanted)
+    assert ohm is None or holds(ohm)
+
+
+def has_files(event: events.Built) -> bool:
+    return bool(event.files)
+
+
 def probe(daemon: Daemons, source: Path | str = "ladder.json", ohm: float = 999.0) -> None:
     """Change the source once more, and wait until that is built: so whatever was to come before has come."""
-    since = daemon.mark
-    put(source, ohm)
-    daemon.wait(events.Built, since, lambda event: bool(event.files))
+    with building(daemon, ohm, has_files):
+        put(source, ohm)
     daemon.rest()
-    assert holds(ohm)
 
 
 def await_rescans(monkeypatch: pytest.MonkeyPatch, number: int) -> None:
@@ -103,27 +118,24 @@ def test_it_builds_at_its_start_and_whenever_the_source_changed(start: Start) ->
 
 def test_an_editor_that_renames(start: Start) -> None:
     daemon = start()
-    since, source = daemon.mark, Path("ladder.json")
-    Path(".ladder.json.swp").write_text("half")
-    source.rename("ladder.json~")
-    put("ladder.new", 330).rename(source)
-    Path("ladder.json~").unlink()
-    daemon.wait(events.Built, since)
-    assert holds(330)
+    source = Path("ladder.json")
+    with building(daemon, 330) as since:
+        Path(".ladder.json.swp").write_text("half")
+        source.rename("ladder.json~")
+        put("ladder.new", 330).rename(source)
+        Path("ladder.json~").unlink()
     probe(daemon)
     assert daemon.kinds(since) == 2 * BUILD
 
 
 def test_a_slow_writer_is_one_build(start: Start) -> None:
     daemon = start(times=Times(settle=0.5, sample=0.1))
-    since, content = daemon.mark, ladder(330).encode()
-    with Path("ladder.json").open("r+b", buffering=0) as file:
+    content = ladder(330).encode()
+    with building(daemon, 330) as since, Path("ladder.json").open("r+b", buffering=0) as file:
         file.truncate(0)
         for begin in range(0, len(content), 40):
             file.write(content[begin : begin + 40])
             time.sleep(0.05)
-    daemon.wait(events.Built, since)
-    assert holds(330)
     assert daemon.kinds(since) == BUILD
 
 
@@ -135,9 +147,8 @@ def test_a_source_that_is_not_valid_yet_is_waited_for(start: Start, content: str
     waiting = daemon.wait(events.Waiting, since)
     assert waiting.reason == "waiting for the exporter"
     assert waiting.diagnostics[0].code == ("no-source" if content is None else "json")
-    put(source, 330)
-    daemon.wait(events.Built, since)
-    assert holds(330)
+    with building(daemon, 330):
+        put(source, 330)
     assert daemon.kinds(since).count("Building") == 1
 
 
@@ -175,11 +186,9 @@ def test_a_folder_is_moved_over_the_watched_one(start: Start) -> None:
     put("cad/next/ladder.json", 330)
     Path("urdfsync.toml").write_text(CONFIG.format("ladder", "cad/export/ladder.json", "Ladder"))
     daemon = start()
-    since = daemon.mark
-    Path("cad/export").rename("cad/old")
-    Path("cad/next").rename("cad/export")
-    daemon.wait(events.Built, since)
-    assert holds(330)
+    with building(daemon, 330) as since:
+        Path("cad/export").rename("cad/old")
+        Path("cad/next").rename("cad/export")
     probe(daemon, "cad/export/ladder.json")
     assert daemon.kinds(since).count("Built") == 2
 
@@ -188,12 +197,9 @@ def test_a_folder_is_deleted_and_made_again(start: Start) -> None:
     put("a/b/ladder.json", 220.5)
     Path("urdfsync.toml").write_text(CONFIG.format("ladder", "a/b/ladder.json", "Ladder"))
     daemon = start(times=PATIENT)
-    since = daemon.mark
-    shutil.rmtree("a")
-    daemon.wait(events.Waiting, since)
-    put("a/b/ladder.json", 330)
-    daemon.wait(events.Built, since, lambda event: bool(event.files))
-    assert holds(330)
+    daemon.after(lambda: shutil.rmtree("a"), events.Waiting)
+    with building(daemon, 330, has_files):
+        put("a/b/ladder.json", 330)
 
 
 @pytest.mark.parametrize("tail", ["ladder.json", ""], ids=["file", "folder"])
@@ -205,11 +211,9 @@ def test_a_link_gets_another_target(start: Start, tail: str, tmp_path: Path) -> 
     source = "linked.json" if tail else "linked/ladder.json"
     Path("urdfsync.toml").write_text(CONFIG.format("ladder", source, "Ladder"))
     daemon = start()
-    since = daemon.mark
-    Path("new-link").symlink_to(tmp_path / "exports/v2" / tail)
-    Path("new-link").rename(place)
-    daemon.wait(events.Built, since)
-    assert holds(330)
+    with building(daemon, 330) as since:
+        Path("new-link").symlink_to(tmp_path / "exports/v2" / tail)
+        Path("new-link").rename(place)
     probe(daemon, tmp_path / "exports/v2/ladder.json")
     assert daemon.kinds(since).count("Built") == 2
 
@@ -234,39 +238,33 @@ def test_another_source_in_the_configuration_ends_the_wait_for_a_valid_one(start
     daemon, file = start(times=PATIENT), Path("urdfsync.toml")
     Path("ladder.json").write_text("{")
     daemon.wait(events.Waiting)
-    since = daemon.mark
-    put("other.json", 330)
-    file.write_text(file.read_text().replace("ladder.json", "other.json"))
-    daemon.wait(events.Built, since, lambda event: bool(event.files))
-    assert holds(330)
+    with building(daemon, 330, has_files):
+        put("other.json", 330)
+        file.write_text(file.read_text().replace("ladder.json", "other.json"))
 
 
 def test_an_imported_file_changes_vanishes_and_comes_back(start: Start) -> None:
     daemon = start()
-    since, signal_file, imported = daemon.mark, Path("step.csv"), Path("modelica/Ladder/Resources/step.txt")
-    signal_file.write_text("0,0\n1,7\n")
-    daemon.wait(events.Built, since)
+    signal_file, imported = Path("step.csv"), Path("modelica/Ladder/Resources/step.txt")
+    with building(daemon):
+        signal_file.write_text("0,0\n1,7\n")
     assert "7.0" in imported.read_text()
-    since = daemon.mark
-    signal_file.unlink()
-    daemon.wait(events.Built, since)
+    with building(daemon):
+        signal_file.unlink()
     assert imported.is_file(), "the copy serves"
-    since = daemon.mark
-    signal_file.write_text("0,0\n1,8\n")
-    daemon.wait(events.Built, since)
+    with building(daemon):
+        signal_file.write_text("0,0\n1,8\n")
     assert "8.0" in imported.read_text()
 
 
 def test_a_template_of_the_users_changes(start: Start) -> None:
     Path("templates").mkdir()
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('templates = "templates"\n')
+    configure('templates = "templates"\n')
     daemon = start()
-    since = daemon.mark
-    Path("templates/element").mkdir()
     own = (REPOSITORY / "tests/rcnetwork/templates/element/model.mo.jinja").read_text()
-    Path("templates/element/model.mo.jinja").write_text(own + "// ours\n")
-    daemon.wait(events.Built, since, lambda event: bool(event.files))
+    with building(daemon, wanted=has_files):
+        Path("templates/element").mkdir()
+        Path("templates/element/model.mo.jinja").write_text(own + "// ours\n")
     assert "// ours" in MODEL.read_text()
 
 
@@ -291,10 +289,8 @@ def test_git_works_underneath(start: Start, project: Path, monkeypatch: pytest.M
     assert sorted(daemon.kinds(since)) == sorted(2 * BUILD)
     assert holds(330)
     daemon.rest()
-    since = daemon.mark
-    repository.git("checkout", "--", "modelica", ".urdfsync")
-    daemon.wait(events.Built, since, lambda event: event.result.robot == "ladder" and bool(event.files))
-    assert holds(330)
+    with building(daemon, 330, lambda event: event.result.robot == "ladder" and bool(event.files)):
+        repository.git("checkout", "--", "modelica", ".urdfsync")
 
 
 def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -302,18 +298,15 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
     daemon, source, real = start(), Path("ladder.json"), time.time_ns
     for ohm, moment, hours in ((330, 86400.0, -1000), (331, 4102444800.0, 1000), (332, 86400.0, -5)):
         monkeypatch.setattr(time, "time_ns", lambda hours=hours: real() + 3600 * hours * 10**9)
-        since = daemon.mark
-        os.utime(put("ladder.new", ohm), (moment, moment))
-        Path("ladder.new").rename(source)
-        daemon.wait(events.Built, since)
-        assert holds(ohm)
-    since, facts = daemon.mark, source.stat()
-    with source.open("r+") as file:
-        file.write(ladder(333))
-    os.utime(source, ns=(facts.st_atime_ns, facts.st_mtime_ns))
-    assert (source.stat().st_size, source.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
-    daemon.wait(events.Built, since)
-    assert holds(333)
+        with building(daemon, ohm):
+            os.utime(put("ladder.new", ohm), (moment, moment))
+            Path("ladder.new").rename(source)
+    facts = source.stat()
+    with building(daemon, 333):
+        with source.open("r+") as file:
+            file.write(ladder(333))
+        os.utime(source, ns=(facts.st_atime_ns, facts.st_mtime_ns))
+        assert (source.stat().st_size, source.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
 
 
 # Outputs
@@ -321,25 +314,20 @@ def test_times_do_not_matter(start: Start, monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_what_a_user_edits_is_left_alone(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
     daemon = start(rescan=0.02)
-    since = daemon.mark
-    MODEL.write_text(MODEL.read_text() + "// mine\n")
-    kept = daemon.wait(events.Built, since).result.actions
+    kept = daemon.after(lambda: MODEL.write_text(MODEL.read_text() + "// mine\n"), events.Built).result.actions
     assert [action.path for action in kept if action.kind is Kind.KEEP] == [str(MODEL)]
     probe(daemon)
     assert MODEL.read_text().endswith("// mine\n")
-    since = daemon.mark
-    RECORD.write_text(RECORD.read_text().replace("999", "1000"))
-    daemon.wait(events.Built, since)
+    with building(daemon) as since:
+        RECORD.write_text(RECORD.read_text().replace("999", "1000"))
     put("ladder.json", 330)
     built = daemon.wait(events.Built, since, lambda event: bool(event.result.conflicts))
     assert built.result.conflicts[0].path == str(RECORD)
     assert "1000" in RECORD.read_text()
     daemon.rest()
-    since = daemon.mark
     whole = json.loads(ladder(330))
-    kept = [element for element in whole["elements"] if element["name"] != "R2"]
-    Path("ladder.json").write_text(json.dumps({**whole, "elements": kept}))
-    orphans = daemon.wait(events.Built, since).result.actions
+    less = json.dumps({**whole, "elements": [element for element in whole["elements"] if element["name"] != "R2"]})
+    orphans = daemon.after(lambda: Path("ladder.json").write_text(less), events.Built).result.actions
     assert [action.path for action in orphans if action.kind is Kind.ORPHAN] == [str(MODEL), str(RECORD)]
     daemon.rest()
     since = daemon.mark
@@ -376,9 +364,9 @@ def test_an_output_that_is_deleted_is_written_again(
     if rescan != NEVER:
         monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
     daemon = start(rescan=rescan)
-    before, since = Path(output).read_bytes(), daemon.mark
-    Path(output).unlink()
-    daemon.wait(events.Built, since)
+    before = Path(output).read_bytes()
+    with building(daemon) as since:
+        Path(output).unlink()
     assert Path(output).read_bytes() == before
     assert daemon.kinds(since) == BUILD
 
@@ -389,9 +377,7 @@ def test_what_is_in_the_way_is_told_once_and_recovers(start: Start, change: Call
     change(RECORD)
     found = daemon.wait(events.Failed).result.diagnostics
     assert [one.code for one in found] == ["output-in-the-way"]
-    since = daemon.mark
-    RECORD.rmdir() if change is _to_folder else RECORD.unlink()
-    assert daemon.wait(events.Built, since).recovered
+    assert daemon.after(RECORD.rmdir if change is _to_folder else RECORD.unlink, events.Built).recovered
     assert RECORD.is_file()
     assert daemon.kinds().count("Failed") == 1
 
@@ -400,14 +386,9 @@ def test_saves_right_after_the_build_has_looked(start: Start, monkeypatch: pytes
     """In the same tick of the clock, and of the same size, they leave all that the system says of a file."""
     daemon, original = start(), MODEL.read_bytes()
     for number in range(5):
-        since = daemon.mark
-        with MODEL.open("r+") as file:
-            file.write("//a" if number % 2 else "//b")
-        daemon.wait(events.Built, since)
-        since = daemon.mark
-        with MODEL.open("r+b") as file:
-            file.write(original[:3])
-        daemon.wait(events.Built, since)
+        for text in (b"//a" if number % 2 else b"//b", original[:3]):
+            with building(daemon), MODEL.open("r+b") as file:
+                file.write(text)
 
 
 @pytest.fixture
@@ -530,15 +511,11 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
         return real(self, *arguments, **options)
 
     monkeypatch.setattr(type(domain), place, broken)
-    since = daemon.mark
-    put("ladder.json", 330)
-    (found,) = daemon.wait(events.Failed, since).result.diagnostics
+    (found,) = daemon.after(lambda: put("ladder.json", 330), events.Failed).result.diagnostics
     assert found.code == "internal"
     assert "ZeroDivisionError in test_watch_daemon.py" in found.message
     assert "by nothing" in found.message
-    since = daemon.mark
-    put("ladder.json", 331)
-    assert daemon.wait(events.Built, since).recovered
+    assert daemon.after(lambda: put("ladder.json", 331), events.Built).recovered
 
 
 def test_a_source_with_crlf_that_is_built_is_not_parsed_again(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -606,18 +583,14 @@ def test_a_command_after_builds_that_changed_something(start: Start, capfd: pyte
     daemon = start(command=f"{note}; echo noise; exit 3")
     assert daemon.wait(events.Ran).code == 3
     since = daemon.mark
-    probe(daemon)
-    daemon.wait(events.Ran, since)
+    daemon.after(lambda: probe(daemon), events.Ran)
     assert "ended with exit code 3" in daemon.wait(events.Noted, since).diagnostics[0].message
     assert Path("log").read_text().splitlines()[-1] == "ladder Ladder R2Parameters.mo"
     assert capfd.readouterr() == ("", "noise\nnoise\n")
 
 
 def test_a_command_that_can_not_be_started_is_told(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: Any, **__: Any) -> None:
-        raise OSError(errno.ENOMEM, "no memory")
-
-    monkeypatch.setattr(subprocess, "Popen", fail)
+    monkeypatch.setattr(subprocess, "Popen", mock.Mock(side_effect=OSError(errno.ENOMEM, "no memory")))
     daemon = start(command="true")
     assert (
         daemon.wait(events.Noted).diagnostics[0].message.endswith("the command of --exec can't be started: no memory")

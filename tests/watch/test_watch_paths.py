@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from support.networks import configure
 
 from urdfsync import cli, config
 from urdfsync.engine.cache import Cache
@@ -31,8 +32,7 @@ def seen(project: Path, source: str, output: str = "modelica") -> WatchedPaths:
 
 
 def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('package_paths = ["one", "two"]\n')
+    configure('package_paths = ["one", "two"]\n')
     assert cli.main(["build", "--quiet"]) == 0
     found = names(project, ladder(project).inputs)
     assert found == {"urdfsync.toml", "ladder.json", "step.csv"}, "what comes later does not matter"

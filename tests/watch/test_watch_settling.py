@@ -38,19 +38,3 @@ def test_nothing_is_built_that_has_just_changed(steps: list[tuple[str, float]]) 
                 debouncer.rest()
         now = end
     assert debouncer.is_idle, "it settles as soon as nothing happens any more"
-
-
-@given(st.lists(st.floats(0.0, 0.29), min_size=1, max_size=50))
-def test_a_steady_writer_is_never_sampled(pauses: list[float]) -> None:
-    debouncer = Debouncer(TIMES)
-    now = 0.0
-    for pause in pauses:
-        debouncer.touch(now)
-        now += pause
-        assert not debouncer.is_due(now)
-
-
-def test_one_sample_may_be_enough() -> None:
-    debouncer = Debouncer(Times(settle=0.3, sample=0.0))
-    debouncer.touch(0.0)
-    assert debouncer.add_sample("a", 0.3)

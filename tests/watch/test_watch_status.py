@@ -99,23 +99,6 @@ def test_a_new_configuration_brings_robots_and_takes_others_away() -> None:
     ]
 
 
-def test_where_not_all_find_room_those_that_need_attention_do_in_their_usual_order() -> None:
-    robots = tuple(f"r{number}" for number in range(60))
-    found = board(*(events.Built(result(robot)) for robot in robots), robots=robots)
-    found.take(events.Settling("r10"), "")
-    found.take(events.Built(result("r50", Kind.CONFLICT)), "")
-    found.take(events.Failed(result("r55", failed=True)), "")
-    assert drawn(found, 6) == [
-        "",
-        "r0   in step",
-        "r10  settling",
-        "r50  conflict in F0.mo",
-        "r55  error",
-        "… and 56 more: 56 in step",
-    ]
-    assert drawn(found, 3) == ["r50  conflict in F0.mo", "r55  error", "… and 58 more: 1 settling, 57 in step"]
-
-
 def drawn(found: StatusTable, room: int) -> list[str]:
     return [str(line) for line in found.lines(room, marks=False)]
 

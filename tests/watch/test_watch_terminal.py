@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 
 import pytest
@@ -11,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.text import Text
 from support.daemon import REPOSITORY
-from support.screen import Screen
+from support.screen import Screen, print_on_terminal
 
 from urdfsync.watch.terminal import StatusArea
 
@@ -112,30 +111,10 @@ os.system("echo after >&2")
 
 def seen(program: str) -> list[str]:
     """What a program leaves on a terminal of 60 columns and 18 rows."""
-    import fcntl
-    import pty
-    import struct
-    import termios
-
-    master, slave = pty.openpty()
-    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 18, 60, 0, 0))
-    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY), "TERM": "xterm", "NO_COLOR": "1"}
-    with subprocess.Popen([sys.executable, "-c", program], stdin=slave, stdout=slave, stderr=slave, env=environment):
-        os.close(slave)
-        output = b""
-        while chunk := _read(master):
-            output += chunk
-    os.close(master)
+    variables = {"PYTHONPATH": str(REPOSITORY), "TERM": "xterm", "NO_COLOR": "1"}
     screen = Screen(60, 18)
-    screen.write(output.decode())
+    screen.write(print_on_terminal([sys.executable, "-c", program], variables, (60, 18))[1])
     return screen.shown()
-
-
-def _read(terminal: int) -> bytes:
-    try:
-        return os.read(terminal, 4096)
-    except OSError:  # nobody has the other end any more
-        return b""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
