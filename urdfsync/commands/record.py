@@ -14,6 +14,8 @@ from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Target, Templates
+from urdfsync.engine import source as sources
+from urdfsync.engine.generate import Package
 from urdfsync.files import kind_of, normalised, put, templates_digest
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.outcome import Exit
@@ -73,9 +75,6 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[Diagnostic, ...]]:
     """The text of the record, and what there is to say about its source. Raises SourceError or ConfigError."""
-    from urdfsync.engine import source as sources
-    from urdfsync.engine.generate import Package
-
     domain, file = registry.domain(domain_name), shown(source)
     snapshot, reading = sources.read(domain, domain.options(), config.read_source(source), file)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
