@@ -57,8 +57,8 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Show what changed in each source."""
     folder = config.working_folder()
-    configuration = _configuration(args, folder)
-    robots = comparison.find_sources(args.source, configuration, args.robot or [], args.against, folder)
+    nearest = _configuration(args, folder)
+    configuration, robots = comparison.find_sources(args.source, nearest, args.robot or [], args.against, folder)
     found = []
     request = arguments.request(args, console)
     for one in comparison.compare_sources(robots, args.against, configuration, request, folder):

@@ -16,12 +16,12 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, read_source, shown, templates_folder
+from urdfsync.config import Config, RobotConfig, read_source, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.revisions import Revision
-from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Templates, Version
+from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Kind
@@ -29,7 +29,6 @@ from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import templates_digest
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
 from urdfsync.state.modelfile import ConversionFacts
@@ -81,18 +80,18 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 
 def find_sources(
     source: str, config: Config | None, names: Sequence[str], against: str | None, folder: Path
-) -> list[RobotConfig]:
+) -> tuple[Config | None, Sequence[RobotConfig]]:
     """Return what `source` means: a path from `folder`, else a robot's name; empty for all robots.
 
-    `names` leaves only robots of these names. A file that no robot has is compared by itself. Raises ConfigError if
-    there is nothing of that name, or if it can't be compared with `against`.
+    `names` leaves only robots of these names. A file that no robot has is compared by itself, without a configuration.
+    Raises ConfigError if there is nothing of that name, or if it can't be compared with `against`.
     """
     path = Path(os.path.normpath(folder / source))
     is_file = bool(source) and path.is_file()
     if config is None:
         if not is_file:
             raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
-        return [_robot_of_file(path)]
+        return None, [_robot_of_file(path)]
     chosen = config.select(names)
     if source:
         using = [robot for robot in config.robots if os.path.realpath(robot.source) == os.path.realpath(path)]
@@ -106,7 +105,7 @@ def find_sources(
             hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
             raise _config_error("no-robot", message, config.file, hint)
         if not (using or names):
-            return [_robot_of_file(path)]
+            return None, [_robot_of_file(path)]
         chosen = tuple(robot for robot in using if robot in chosen)
         if not chosen:
             message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
@@ -114,27 +113,14 @@ def find_sources(
     if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
         message = f"one file can't be the older version of {len(chosen)} sources"
         raise _config_error("one-file", message, hint="name the source to compare it with")
-    return list(chosen)
+    return config, chosen
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that is in no configuration, with all settings as they are by default."""
     name = class_name(path.name.partition(".")[0])
-    return RobotConfig(
-        name=path.name,
-        source=path,
-        source_text=path.name,
-        output=Path(),
-        target=Target(name, name),
-        domain=_DOMAIN,
-        templates=None,
-        package_paths=(),
-        create_parents=False,
-        merging=False,
-        checking=False,
-        options=registry.domain(_DOMAIN).options(),
-        lines={},
-    )
+    options = registry.domain(_DOMAIN).options()
+    return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)
 
 
 def _config_error(code: str, message: str, file: Path | None = None, hint: str = "") -> ConfigError:
@@ -149,7 +135,7 @@ def compare_sources(
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
 
-    One that fails does not stop the others. Without `against`, the robots must be those of the configuration.
+    One that fails does not stop the others. Without a configuration there has to be another version.
     """
     for count, robot in enumerate(robots):
         options.progress(robot.name, count, len(robots))
@@ -165,7 +151,7 @@ def compare_sources(
 
 def _result(robot: RobotConfig, config: Config | None) -> Result:
     """Return an empty result; the paths of a robot that is in no configuration count from its package."""
-    if config is None or robot not in config.robots:
+    if config is None:
         return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
     return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
 
@@ -221,9 +207,7 @@ def _with_version(
     found = changes.compare(old, new, domain, robot.options)
     if not found.changes:
         return Comparison(result, shown(robot.source), against)
-    own = config if config and robot in config.robots else None
-    folders = (templates_folder(domain),)
-    templates = source_files.templates(own, robot, domain) if own else Templates(folders, templates_digest(folders))
+    templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
@@ -241,8 +225,8 @@ def _with_version(
             actions.append(Action(place, kind, known_file[0], known_file[1]))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
-    if own:  # a dry build knows which files are others than the last one wrote
-        (dry,) = build(own, [robot], msgspec.structs.replace(options, dry=True))
+    if config:  # a dry build knows which files are others than the last one wrote
+        (dry,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
         edited = frozenset(action.path for action in dry.actions.decided if action.kind in {*_MINE, Kind.KEEP})
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)

@@ -48,6 +48,12 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     return Templates(tuple(folders), templates_digest(folders))
 
 
+def domain_templates(domain: Domain) -> Templates:
+    """Return the templates of a domain, for a source that no robot of a configuration has."""
+    folders = (templates_folder(domain),)
+    return Templates(folders, templates_digest(folders))
+
+
 def _check_templates(folder: Path) -> None:
     """Refuse links that lead out of a template folder, and files that are too large to be templates.
 
