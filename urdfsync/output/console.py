@@ -66,11 +66,6 @@ def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: b
     return [*lines[: most - 1], line((f"  … and {rest} more {noun}s; --verbose shows them", "dim"))]
 
 
-def text(*parts: tuple[str, str]) -> Text:
-    """The same as a text of rich, for what rich has to wrap, cut or align."""
-    return line(*parts).__rich__()
-
-
 def visible(text: str) -> str:
     """The text with everything escaped that a terminal would obey instead of showing it."""
     if text.isprintable():
