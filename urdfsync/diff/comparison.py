@@ -100,12 +100,12 @@ def find_sources(
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
             hint = f"it has {', '.join(robot.name for robot in config.robots)}"
             raise _config_error("no-source", message, hint=hint)
-        if not (using or names) and against is None:
+        if not (using or names):
+            if against is not None:
+                return None, [_robot_of_file(path)]
             message = f"{path.name} was never built: it is no robot's source"
             hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
             raise _config_error("no-robot", message, config.file, hint)
-        if not (using or names):
-            return None, [_robot_of_file(path)]
         chosen = tuple(robot for robot in using if robot in chosen)
         if not chosen:
             message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
@@ -212,17 +212,15 @@ def _with_version(
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
     ]
-    files = [_files_of(*pair) for pair in zip(packages, (old, new), strict=True)]
+    older, newer = (_files_of(*pair) for pair in zip(packages, (old, new), strict=True))
     actions = []
-    for path in files[0].keys() | files[1].keys():
-        was, now = files[0].get(path), files[1].get(path)
-        is_text = all(path in package.artifacts for package in packages)
-        if was == now or (is_text and packages[0].content(path) == packages[1].content(path)):
-            continue
-        if known_file := now or was:
-            kind = Kind.UPDATE if was and now else Kind.CREATE if now else Kind.DELETE
+    for path, (role, owner, _) in (older | newer).items():
+        are_texts = all(path in package.artifacts for package in packages)
+        is_same = older.get(path) == newer.get(path)
+        if not is_same and not (are_texts and packages[0].content(path) == packages[1].content(path)):
+            kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
             place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
-            actions.append(Action(place, kind, known_file[0], known_file[1]))
+            actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
     if config:  # a dry build knows which files are others than the last one wrote
