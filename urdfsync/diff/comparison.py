@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync import registry
+from urdfsync import outcome, registry
 from urdfsync.config import Config, RobotConfig, read_source, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
@@ -68,10 +68,9 @@ class Comparison(msgspec.Struct, frozen=True):
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
-    if any(one.result.failed and not one.result.locked for one in comparisons):
-        return Exit.ERROR
-    if any(one.result.locked for one in comparisons):
-        return Exit.LOCKED
+    code = outcome.exit_code(one.result for one in comparisons)
+    if code in (Exit.ERROR, Exit.LOCKED):
+        return code
     return Exit.IN_STEP if all(one.in_step for one in comparisons) else Exit.OUT_OF_STEP
 
 

@@ -115,7 +115,7 @@ def rich_console(stream: IO[str]) -> rich.console.Console:
     return Console(file=stream, highlight=False, force_terminal=is_terminal(stream), color_system=system)
 
 
-def write_lines(lines: Iterable[StyledLine | Text], stream: IO[str]) -> None:
+def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
     """Write lines, none of which is broken."""
     if is_terminal(stream):
         screen = rich_console(stream)
@@ -139,7 +139,7 @@ class Console:
         self._bar: tuple[Progress, TaskID] | None = None
 
     @profiling.stage("presentation")
-    def print(self, lines: Iterable[StyledLine | Text], *, error: bool = False) -> None:
+    def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
         write_lines(lines, sys.stderr if error else sys.stdout)
