@@ -17,14 +17,13 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import msgspec
 from support.corpus import FOLDER
 
 import urdfsync
-from urdfsync import config
+from urdfsync import config, registry
 from urdfsync.check import libraries, run
 from urdfsync.check.results import EFFORTS, MASSES, POSES, CheckOptions, CheckResult, largest
-from urdfsync.config import init
+from urdfsync.commands import init
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Deviation, Quantity
 
@@ -61,14 +60,13 @@ def _check(files: Sequence[Path], options: argparse.Namespace, folder: Path) -> 
     readable = [file for file in files if not _refused(file, options.folder, folder)]
     if not readable:
         return 0
-    draft = init.make_draft(folder / config.FILE_NAME, readable, "urdf")
-    text = draft.text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n')
-    init.write(msgspec.structs.replace(draft, text=text))
-    configuration = config.load(draft.file)
+    domain, file = registry.domain("urdf"), folder / config.FILE_NAME
+    guesses, _ = init.guess_robots(domain, folder, readable)
+    text = init.configuration_text(domain, guesses)
+    file.write_text(text.replace("[defaults]\n", f'[defaults]\napproach = ["{options.approach}"]\n'))
+    configuration = config.load(file)
     check_options = CheckOptions(physics=True, timeout=options.timeout, jobs=options.jobs)
-    bases = {
-        guess.robot: str(next((o.value for o in guess.options if o.option == "base"), "")) for guess in draft.guesses
-    }
+    bases = {guess.name: str(next((o.value for o in guess.options if o.option == "base"), "")) for guess in guesses}
     names = {robot.name: robot.source for robot in configuration.robots}
     results = []
     for result in run.check_robots(configuration, configuration.robots, check_options, lambda *_: None):
@@ -86,7 +84,7 @@ def _agrees(result: CheckResult) -> bool:
 def _refused(file: Path, root: Path, folder: Path) -> bool:
     """Whether a file has errors; if so its row says which."""
     try:
-        init.make_draft(folder / config.FILE_NAME, [file], "urdf")
+        init.guess_robots(registry.domain("urdf"), folder, [file])
     except SourceError as error:
         codes = ", ".join(sorted({found.code for found in error.diagnostics}))
         _row([file.relative_to(root).as_posix(), *[""] * (len(HEADER) - 2), f"refused: {codes}"])

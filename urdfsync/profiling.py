@@ -17,18 +17,8 @@ Measured: TypeAlias = tuple[dict[str, int], dict[str, int]]
 """What one process measured: ns of each stage, and counts."""
 
 STAGES = (
-    *(
-        "start",
-        "imports",
-        "saved answer",
-        "configuration",
-        "looking at files",
-        "reading",
-        "cross-check",
-        "meshes",
-        "artifacts",
-    ),
-    *("rendering", "comparing", "deciding", "recording", "waiting", "writing", "syncing", "presentation"),
+    *("start", "imports", "saved answer", "configuration", "looking at files", "reading", "cross-check", "meshes"),
+    *("artifacts", "rendering", "comparing", "deciding", "recording", "waiting", "writing", "syncing", "presentation"),
 )
 """In the order in which they are shown, to people and to programs; `other` is what is in none of them."""
 OTHER = "other"
@@ -46,18 +36,14 @@ class Profile:
         """Files that were `read` or `written`, texts that were `rendered`."""
         self.has_answer: bool | None = None
         """Whether a saved answer would have done; None for a command that has none."""
-        self._stages = [OTHER]
-        self._since = time.perf_counter_ns()
+        self._stage, self._since = OTHER, time.perf_counter_ns()
 
-    def enter(self, stage: str) -> None:
-        """Begin a stage."""
-        self._count_time()
-        self._stages.append(stage)
-
-    def leave(self) -> None:
-        """End the innermost stage."""
-        self._count_time()
-        self._stages.pop()
+    def switch(self, stage: str) -> str:
+        """Count the time for another stage from now on; return the one before."""
+        now, before = time.perf_counter_ns(), self._stage
+        self.here[before] += now - self._since
+        self._stage, self._since = stage, now
+        return before
 
     def add(self, measured: Measured) -> None:
         """Add what another process measured."""
@@ -66,13 +52,8 @@ class Profile:
 
     def results(self) -> Measured:
         """Return what was measured so far."""
-        self._count_time()
+        self.switch(self._stage)
         return dict(self.here), dict(self.counts)
-
-    def _count_time(self) -> None:
-        now = time.perf_counter_ns()
-        self.here[self._stages[-1]] += now - self._since
-        self._since = now
 
 
 _profile: ContextVar[Profile | None] = ContextVar("profile", default=None)
@@ -85,11 +66,11 @@ def stage(name: str) -> Iterator[None]:
     if profile is None:
         yield
         return
-    profile.enter(name)
+    outer = profile.switch(name)
     try:
         yield
     finally:
-        profile.leave()
+        profile.switch(outer)
 
 
 def count(what: str, number: int = 1) -> None:

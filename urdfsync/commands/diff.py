@@ -6,7 +6,7 @@ import argparse
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -14,6 +14,8 @@ from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diff import comparison
+from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.outcome import Exit
@@ -24,9 +26,6 @@ from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import action_word, file_line, headline
-
-if TYPE_CHECKING:
-    from urdfsync.diff.comparison import Comparison
 
 _STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
 _WIDEST = 44
@@ -57,11 +56,9 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Show what changed in each source."""
-    from urdfsync.diff import comparison  # imports all that a build needs: for other commands' parsers it is not loaded
-
     folder = config.working_folder()
-    configuration = _configuration(args, folder)
-    robots = comparison.find_sources(args.source, configuration, args.robot or [], args.against, folder)
+    nearest = _configuration(args, folder)
+    configuration, robots = comparison.find_sources(args.source, nearest, args.robot or [], args.against, folder)
     found = []
     request = arguments.request(args, console)
     for one in comparison.compare_sources(robots, args.against, configuration, request, folder):

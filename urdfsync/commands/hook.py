@@ -10,19 +10,16 @@ import os
 import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, working_folder
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.hooks.check import CommitFault, check_index
+from urdfsync.hooks.index import Index
 from urdfsync.outcome import Exit, exit_code
 from urdfsync.output.console import Console, line
 from urdfsync.output.phrases import summary
 from urdfsync.output.results import show_result
-
-if TYPE_CHECKING:
-    from urdfsync.hooks.check import CommitFault
-    from urdfsync.hooks.index import Index
 
 _FEW = 5
 """So many files are named one by one."""
@@ -47,9 +44,6 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Judge the configurations that the arguments name, or all that git tracks."""
-    from urdfsync.hooks.check import check_index  # not at the top: no other command needs git or temporary folders
-    from urdfsync.hooks.index import Index
-
     folder = working_folder()
     index = Index(folder)
     named = [*args.configs, *filter(None, [args.config])]

@@ -1,21 +1,55 @@
-"""`urdfsync init`: writes a configuration for some sources."""
+"""`urdfsync init`: writes a first configuration, guessed from the sources, with the reason of every guess."""
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator
+import os
+import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from urdfsync import config
+import msgspec
+import tomli_w
+
+from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.config import shown
+from urdfsync.config.values import in_words
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.domain import Domain, Proposal
+from urdfsync.engine import source as source_files
+from urdfsync.files import put
+from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, StyledLine, line
 
-if TYPE_CHECKING:
-    from urdfsync.config.init import Draft
+_HEADER = """\
+# Robots that urdfsync keeps in step with their Modelica packages.
+# Paths count from this file's folder. `urdfsync build` builds all of them.
+"""
+_DEFAULTS = """\
+# Settings for all robots; a robot's own table wins.
+[defaults]
+output = "modelica"  # the folder that the packages go into
+# create_parents = true  # make the packages around `package` if they do not exist
+# on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
+# on_conflict = "merge"  # where you and the source changed a file, merge if that leaves no doubt; default "keep"
+# package_paths = []  # folders that hold packages, where sources refer to files in them
+# templates = "templates"  # a folder with templates that replace single ones of urdfsync
+"""
+_LONGEST = 80
+"""A longer stem is cut: robots and packages become names of files."""
+
+
+class Guess(msgspec.Struct, frozen=True):
+    """What is proposed for one robot."""
+
+    name: str
+    source: str
+    package: str
+    options: tuple[Proposal, ...]
 
 
 def add(commands: arguments.Commands) -> None:
@@ -34,35 +68,135 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Write the configuration, and show what was guessed."""
-    from urdfsync.config import init  # no other command writes TOML
-
-    draft = init.make_draft(config.working_folder() / (args.config or config.FILE_NAME), args.sources, args.domain)
-    init.write(draft)
-    console.warnings(draft.diagnostics)
+    file = config.working_folder() / (args.config or config.FILE_NAME)
+    _refuse_existing(file)
+    domain = registry.domain(args.domain)
+    guesses, warnings = guess_robots(domain, file.parent, args.sources)
+    _write(file, configuration_text(domain, guesses))
+    console.warnings(warnings)
     if console.json:
-        console.write_json("init", Exit.IN_STEP, _values(draft))
+        console.write_json("init", Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
     elif not console.quiet:
-        console.print(_lines(draft))
+        console.print(_lines(file, guesses))
     return Exit.IN_STEP
 
 
-def _values(draft: Draft) -> dict[str, Any]:
-    robots = [
-        {
-            "name": guess.robot,
-            "source": guess.source,
-            "package": guess.package,
-            "options": [{"option": o.option, "value": o.value, "reason": o.reason} for o in guess.options],
-        }
-        for guess in draft.guesses
+def guess_robots(domain: Domain, root: Path, named: Sequence[Path]) -> tuple[list[Guess], list[Diagnostic]]:
+    """Guess a robot for each source that is named, or for each below `root` if none is; with warnings about them.
+
+    A source that is named twice counts once. Raises ConfigError if there is no source, SourceError if one that is named
+    can't be read, or none of those that were found.
+    """
+    unique: dict[str, Path] = {}
+    for source in named or _search(root, f".{domain.name}"):
+        unique.setdefault(os.path.realpath(source), source)
+    if not unique:
+        message, hint = f"no *.{domain.name} below {shown(root)}", "name the sources: `urdfsync init SOURCE`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
+    guesses: list[Guess] = []
+    warnings: list[Diagnostic] = []
+    errors: list[Diagnostic] = []
+    for source in unique.values():
+        try:
+            guess, found = _guess(domain, source, root, guesses)
+        except SourceError as error:
+            if named:
+                raise
+            errors += error.diagnostics
+            first = next(one for one in error.diagnostics if one.severity is Severity.ERROR)
+            hint = f"put it right and add it, or run `urdfsync init {shown(source)}`"
+            message = f"{first.message}; passed over"
+            warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
+        else:
+            guesses.append(guess)
+            warnings += found
+    if not guesses:
+        raise SourceError(*errors)
+    return guesses, warnings
+
+
+def _search(folder: Path, suffix: str) -> Iterator[Path]:
+    """Files with this suffix below `folder`, hidden files and folders left out, sorted."""
+    for parent, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        found = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
+        yield from (Path(parent, name) for name in found)
+
+
+def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> tuple[Guess, Sequence[Diagnostic]]:
+    """A robot for a source, under a name that none of the others has; with warnings. Raises SourceError."""
+    path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
+    if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
+        message, hint = "the name of the source can't be written into a configuration", "rename it"
+        raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
+    snapshot, reading = source_files.read(domain, domain.options(), config.read_source(source), shown(source))
+    stem = source.name.partition(".")[0][:_LONGEST]
+    name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
+    name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
+    names = {one for guess in taken for one in (guess.name, guess.package.casefold())}
+    counts = ("", *map(str, range(2, len(taken) + 2)))
+    count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
+    guess = Guess(name + count, path.as_posix(), package + count, tuple(domain.propose(snapshot)))
+    return guess, reading.diagnostics
+
+
+def configuration_text(domain: Domain, guesses: Sequence[Guess]) -> str:
+    """Return a configuration with comments."""
+    return "\n".join([_HEADER, _DEFAULTS, *(_table(guess, domain) for guess in guesses)])
+
+
+def _table(guess: Guess, domain: Domain) -> str:
+    """The table of a robot, with its options: those that are guessed, and the others as comments."""
+    lines = [
+        f"[robots.{guess.name}]",
+        _assignment("source", guess.source),
+        _assignment("package", guess.package)
+        + "  # full name, for example Plant.Robots.Arm; its last part names the class",
     ]
-    return {"config": str(draft.file), "robots": robots}
+    if domain.name != "urdf":
+        lines.append(_assignment("domain", domain.name))
+    proposed = {proposal.option: proposal for proposal in guess.options}
+    for field in msgspec.structs.fields(domain.options):
+        words = in_words(field.type)
+        if proposal := proposed.get(field.encode_name):
+            reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
+            lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}; guessed: {reason}")
+        elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
+            lines.append(f"# {_assignment(field.encode_name, field.default)}  # {words}")
+    return "\n".join(lines) + "\n"
 
 
-def _lines(draft: Draft) -> Iterator[StyledLine]:
-    yield line((shown(draft.file), "bold"), (" written", ""))
-    for guess in draft.guesses:
-        name, package = (guess.robot, "bold"), (guess.package, "bold")
+def _assignment(key: str, value: Any) -> str:
+    plain_value = msgspec.to_builtins(value)
+    if isinstance(plain_value, list | tuple):  # tomli_w gives each item a line, which can't be one comment
+        items = (tomli_w.dumps({"item": item}).strip().removeprefix("item = ") for item in plain_value)
+        return f"{key} = [{', '.join(items)}]"
+    return tomli_w.dumps({key: plain_value}).strip()
+
+
+def _write(file: Path, text: str) -> None:
+    """Write the configuration, as a whole or not at all. Raises ConfigError if that fails, or if it exists by now."""
+    _refuse_existing(file)
+    try:
+        put(file, text.encode())
+    except OSError as error:
+        message, place = f"the configuration can't be written: {error.strerror}", shown(file)
+        hint = "check the folder's permissions and the space on the disk, or name another file with --config"
+        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, place, hint=hint)) from None
+
+
+def _refuse_existing(file: Path) -> None:
+    if os.path.lexists(file):
+        hint = "add a table `[robots.NAME]` to it, or name another file with --config"
+        raise ConfigError(
+            Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint)
+        )
+
+
+def _lines(file: Path, guesses: Sequence[Guess]) -> Iterator[StyledLine]:
+    yield line((shown(file), "bold"), (" written", ""))
+    for guess in guesses:
+        name, package = (guess.name, "bold"), (guess.package, "bold")
         yield line(("  ", ""), name, (f": {guess.source} becomes package ", ""), package)
         for option in guess.options:
             value = json.dumps(option.value)

@@ -13,8 +13,10 @@ from urdfsync.commands import arguments
 from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Target, Templates
-from urdfsync.files import kind_of, normalised, put, templates_digest
+from urdfsync.domain import Target
+from urdfsync.engine import source as sources
+from urdfsync.engine.generate import Package
+from urdfsync.files import kind_of, normalised, put
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line
@@ -73,9 +75,6 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[Diagnostic, ...]]:
     """The text of the record, and what there is to say about its source. Raises SourceError or ConfigError."""
-    from urdfsync.engine import source as sources
-    from urdfsync.engine.generate import Package
-
     domain, file = registry.domain(domain_name), shown(source)
     snapshot, reading = sources.read(domain, domain.options(), config.read_source(source), file)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
@@ -83,8 +82,7 @@ def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
-    folders = (config.templates_folder(domain),)
-    generated = Package([found.artifact], Templates(folders, templates_digest(folders)))
+    generated = Package([found.artifact], sources.domain_templates(domain))
     diagnostics = sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line)
     return generated.content(found.artifact.path).decode(), tuple(diagnostics)
 

@@ -96,24 +96,23 @@ def _find_targets(results: Sequence[Result], typed: Sequence[str], root: Path) -
     A folder stands for all conflicts below it; a file that does not conflict has to be named itself. A file is known
     by where the user's is, and by where it is to go.
     """
-    conflicts = find_conflicts(results)
-    others = [Target(result, action) for result in results for action in result.actions.decided]
-    others = [target for target in others if target.action.kind is Kind.ORPHAN or target.is_decided]
+    by_place: dict[Path, list[Target]] = {}
+    for target in find_conflicts(results):
+        for file in _places(target.action, root):
+            for place in (file, *file.parents):
+                by_place.setdefault(place, []).append(target)
+    for target in (Target(result, action) for result in results for action in result.actions.decided):
+        if target.action.kind is Kind.ORPHAN or target.is_decided:
+            for file in _places(target.action, root):
+                by_place.setdefault(file, []).append(target)
     chosen: dict[str, Target] = {}
     unknown = []
     for text in typed:
-        places = set()
-        if text:
-            path = Path(os.path.normpath(config.working_folder() / text))
-            real, real_root = Path(os.path.realpath(path)), Path(os.path.realpath(root))
-            # links may lead to a file of the configuration's folder
-            places = {path, *([root / real.relative_to(real_root)] if real.is_relative_to(real_root) else [])}
-        found = []
-        for target, has_folders in [*((one, True) for one in conflicts), *((one, False) for one in others)]:
-            files = _places(target.action, root)
-            above = {folder for file in files for folder in file.parents} if has_folders else set()
-            if not places.isdisjoint(files | above):
-                found.append(target)
+        path = Path(os.path.normpath(config.working_folder() / text))
+        real, real_root = Path(os.path.realpath(path)), Path(os.path.realpath(root))
+        # links may lead to a file of the configuration's folder
+        places = [path, *([root / real.relative_to(real_root)] if real.is_relative_to(real_root) else [])]
+        found = [target for place in places if text for target in by_place.get(place, ())]
         chosen |= {target.action.path: target for target in found}
         unknown += [] if found else [text]
     return list(chosen.values()), unknown

@@ -42,11 +42,11 @@ def find(start: Path) -> Path:
     raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
 
 
-def load(file: Path) -> Config:
-    """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
+def load(file: Path, copy: Path | None = None) -> Config:
+    """Read a configuration file, or a copy of it. Raises ConfigError with everything that is wrong in it."""
     code, line = "unreadable-config", 0
     try:
-        text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        text = dependencies.read_file(copy or file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         place = file.absolute()
         return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
     except FileNotFoundError:
@@ -75,16 +75,11 @@ def parse(text: str, file: Path, name: str) -> Config:
 
 
 class _Table(NamedTuple):
-    """A table to be read: its values, how messages call it, its path, and the keys that `[defaults]` gave it."""
+    """A table to be read: how messages call it, its values, and the line of each key; that of the table for `""`."""
 
-    values: Mapping[str, Any]
     name: str
-    path: tuple[str, ...]
-    inherited: Collection[str] = ()
-
-    def place(self, key: str) -> tuple[str, ...]:
-        """Where a key stands."""
-        return ("defaults", key) if key in self.inherited else (*self.path, key)
+    values: Mapping[str, Any]
+    lines: Mapping[str, int]
 
 
 class _Reader:
@@ -100,70 +95,75 @@ class _Reader:
         """No name, path or option has a use for a control character, and some systems stop at one."""
         for path, text in tomlfile.strings(self._document):
             if any(ord(char) < 32 or ord(char) == 127 for char in text):
-                self._report("control-character", path, f"there is a control character in {text!r}", "write it without")
+                message = f"there is a control character in {text!r}"
+                self._report("control-character", self._line(*path), message, "write it without")
 
     def robots(self) -> Iterator[RobotConfig]:
         """Every robot whose table is right."""
-        self._refuse_unknown(_Table(self._document, "the configuration", ()), ("check", "defaults", "robots"))
+        self._refuse_unknown(self._table("the configuration", self._document), {"check", "defaults", "robots"})
         defaults, robots = self._subtable("defaults"), self._subtable("robots")
         if not robots and not self.problems:
             hint = "add a table `[robots.NAME]` with `source` and `package`"
-            self._report("no-robots", (), "the configuration has no robot", hint)
+            self._report("no-robots", 0, "the configuration has no robot", hint)
         known = set(_KEY_NAMES)
         for name, values in robots.items():
             if not isinstance(values, dict):
-                self._report("wrong-value", ("robots", name), f"`robots.{name}` must be a table")
+                self._report("wrong-value", self._line("robots", name), f"`robots.{name}` must be a table")
             elif not is_robot_name(name):
                 message = f"the robot's name {name!r} can't be a file's name"
                 hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
-                self._report("robot-name", ("robots", name), message, hint)
+                self._report("robot-name", self._line("robots", name), message, hint)
             elif (domain := self._domain(name, values, defaults)) is not None:
                 known |= _names_of(domain.options)
                 if (robot := self._robot(name, values, defaults, domain)) is not None:
                     yield robot
+        table = self._table("`[defaults]`", defaults, "defaults")
         for key in OWN_KEYS:
             if key in defaults:
                 message = f"`{key}` can't have a default: every robot has its own"
-                self._report("unknown-key", ("defaults", key), message)
-        self._refuse_unknown(_Table(defaults, "`[defaults]`", ("defaults",)), known)
+                self._report("unknown-key", table.lines[key], message)
+        self._refuse_unknown(table, known)
 
     def check(self) -> CheckConfig:
         """The table `[check]`."""
-        table = _Table(self._subtable("check"), "`[check]`", ("check",))
+        table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckKeys))
         keys = self._read(table, CheckKeys)
         if keys is None or keys.library is None:
             return CheckConfig()
         if not keys.library:
             hint = "give the path of the folder that holds the Modelica Standard Library, or take the line out"
-            self._report("wrong-value", ("check", "library"), "`library` must name a folder", hint)
-        return CheckConfig(_absolute(self._root / keys.library), self._line("check", "library"))
+            self._report("wrong-value", table.lines["library"], "`library` must name a folder", hint)
+        return CheckConfig(_absolute(self._root / keys.library), table.lines["library"])
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
         names: dict[str, str] = {}
         folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:
-            place = ("robots", robot.name, "package")
-            inside = [folders[_folded(parent)] for parent in robot.folder.parents if _folded(parent) in folders]
+            clashes = []
             if (other := names.setdefault(robot.name.casefold(), robot.name)) != robot.name:
-                self._report("clash", place, f"robots `{other}` and `{robot.name}` differ in case only")
+                clashes.append(f"robots `{other}` and `{robot.name}` differ in case only")
             elif (other := folders[_folded(robot.folder)]) != robot.name:
-                self._report("clash", place, f"robots `{other}` and `{robot.name}` have the same package")
-            for other in inside:
-                message = f"the package of robot `{robot.name}` lies inside that of robot `{other}`"
-                self._report("clash", place, message)
+                clashes.append(f"robots `{other}` and `{robot.name}` have the same package")
+            around = filter(None, (folders.get(_folded(parent)) for parent in robot.folder.parents))
+            clashes += [f"the package of robot `{robot.name}` lies inside that of robot `{other}`" for other in around]
+            for message in clashes:
+                self._report("clash", robot.lines["package"], message)
 
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
         """A robot by its own table and the defaults; None if anything in it is wrong."""
-        before, options = len(self.problems), _names_of(domain.options)
-        self._refuse_unknown(_Table(own, f"robot `{name}`", ("robots", name)), _KEY_NAMES | options)
-        usable = {key: value for key, value in defaults.items() if key in (_KEY_NAMES - set(OWN_KEYS)) | options}
-        table = _Table(usable | own, f"robot `{name}`", ("robots", name), usable.keys() - own.keys())
-        keys, chosen = self._read(table, Keys), self._read(table, domain.options)
+        before, known = len(self.problems), _KEY_NAMES | _names_of(domain.options)
+        inheritable = known.difference(OWN_KEYS, own)
+        inherited = {key: value for key, value in defaults.items() if key in inheritable}
+        lines = {key: self._line("defaults", key) for key in inherited}
+        lines |= {key: self._line("robots", name, key) for key in ("", *own)}
+        table = _Table(f"robot `{name}`", inherited | own, lines)
+        self._refuse_unknown(table, known)
+        keys, options = self._read(table, Keys), self._read(table, domain.options)
         if keys is not None:
             self._check_keys(table, keys)
-        if keys is None or chosen is None or len(self.problems) > before:
+        if keys is None or options is None or len(self.problems) > before:
             return None
         source = Path(keys.source)
         return RobotConfig(
@@ -178,8 +178,8 @@ class _Reader:
             create_parents=keys.create_parents,
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",
-            options=chosen,
-            lines={key: self._line(*table.place(key)) for key in ("", *table.values)},
+            options=options,
+            lines=lines,
         )
 
     def _domain(self, robot: str, own: dict[str, Any], defaults: dict[str, Any]) -> Domain | None:
@@ -193,16 +193,16 @@ class _Reader:
     def _check_keys(self, table: _Table, keys: Keys) -> None:
         """Names and paths that can be read, and can't be used."""
         for key, message, hint in find_name_problems(keys.package, keys.class_):
-            self._report("modelica-name", table.place(key), message, hint)
+            self._report("modelica-name", table.lines[key], message, hint)
         if not keys.source:
             hint = "give the path of the source"
-            self._report("wrong-value", table.place("source"), "`source` must name a file", hint)
+            self._report("wrong-value", table.lines["source"], "`source` must name a file", hint)
         if not keys.output:
             hint = 'write "." for the folder of the configuration itself'
-            self._report("wrong-value", table.place("output"), "`output` must name a folder", hint)
+            self._report("wrong-value", table.lines["output"], "`output` must name a folder", hint)
         if Path(_folded(_absolute(self._root / keys.output))).is_relative_to(_folded(self._root / STATE_FOLDER)):
             message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
-            self._report("wrong-value", table.place("output"), message, "name another folder")
+            self._report("wrong-value", table.lines["output"], message, "name another folder")
 
     def _read(self, table: _Table, struct: type[Any]) -> Any:
         """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
@@ -214,13 +214,15 @@ class _Reader:
                 if key in table.values:
                     values[field.name] = convert(key, table.values[key], field.type)
                 elif field.required:
-                    self._report("missing-key", table.path, f"{table.name} has no `{key}`", f"add a line `{key} = …`")
+                    self._report(
+                        "missing-key", table.lines[""], f"{table.name} has no `{key}`", f"add a line `{key} = …`"
+                    )
             except ValueError as error:
-                self._report("wrong-value", table.place(key), str(error))
+                self._report("wrong-value", table.lines[key], str(error))
         try:
             return struct(**values) if len(self.problems) == before else None
         except (TypeError, ValueError) as error:
-            self._report("wrong-value", table.path, f"{table.name}: {error}")
+            self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
 
     def _refuse_unknown(self, table: _Table, known: Collection[str]) -> None:
@@ -228,20 +230,23 @@ class _Reader:
             if key not in known:
                 near = nearest(key, sorted(known))
                 hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(sorted(known))}"
-                self._report("unknown-key", (*table.path, key), f"unknown key `{key}` in {table.name}", hint)
+                self._report("unknown-key", table.lines[key], f"unknown key `{key}` in {table.name}", hint)
+
+    def _table(self, name: str, values: Mapping[str, Any], *path: str) -> _Table:
+        return _Table(name, values, {key: self._line(*path, key) for key in ("", *values)})
 
     def _subtable(self, key: str) -> dict[str, Any]:
         value = self._document.get(key, {})
         if isinstance(value, dict):
             return value
-        self._report("wrong-value", (key,), f"`{key}` must be a table")
+        self._report("wrong-value", self._line(key), f"`{key}` must be a table")
         return {}
 
     def _line(self, *path: str) -> int:
         return tomlfile.nearest(self._lines, *filter(None, path))
 
-    def _report(self, code: str, path: tuple[str, ...], message: str, hint: str = "") -> None:
-        self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, self._line(*path), hint=hint))
+    def _report(self, code: str, line: int, message: str, hint: str = "") -> None:
+        self.problems.append(Diagnostic(Severity.ERROR, code, message, self._file, line, hint=hint))
 
 
 def _names_of(struct: type[Any]) -> set[str]:

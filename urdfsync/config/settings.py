@@ -51,15 +51,15 @@ class RobotConfig(msgspec.Struct, frozen=True):
     output: Path
     target: Target
     domain: str
-    templates: Path | None
-    package_paths: tuple[Path, ...]
-    create_parents: bool
-    merging: bool
-    """Whether a file that both sides changed gets their merge, if that is without doubt."""
-    checking: bool
-    """Whether the package is checked after each build."""
     options: Any
-    lines: Mapping[str, int]
+    templates: Path | None = None
+    package_paths: tuple[Path, ...] = ()
+    create_parents: bool = False
+    merging: bool = False
+    """Whether a file that both sides changed gets their merge, if that is without doubt."""
+    checking: bool = False
+    """Whether the package is checked after each build."""
+    lines: Mapping[str, int] = {}
     """Line of every key in the configuration; of the robot's table for `""`."""
 
     @property

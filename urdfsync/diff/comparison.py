@@ -15,13 +15,13 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, read_source, shown, templates_folder
+from urdfsync import outcome, registry
+from urdfsync.config import Config, RobotConfig, read_source, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff import changes
 from urdfsync.diff.changes import Changes
 from urdfsync.diff.revisions import Revision
-from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Templates, Version
+from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Kind
@@ -29,7 +29,6 @@ from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import templates_digest
 from urdfsync.modelica.names import class_name
 from urdfsync.outcome import Exit, Result
 from urdfsync.state.modelfile import ConversionFacts
@@ -69,10 +68,9 @@ class Comparison(msgspec.Struct, frozen=True):
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
-    if any(one.result.failed and not one.result.locked for one in comparisons):
-        return Exit.ERROR
-    if any(one.result.locked for one in comparisons):
-        return Exit.LOCKED
+    code = outcome.exit_code(one.result for one in comparisons)
+    if code in (Exit.ERROR, Exit.LOCKED):
+        return code
     return Exit.IN_STEP if all(one.in_step for one in comparisons) else Exit.OUT_OF_STEP
 
 
@@ -81,18 +79,18 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 
 def find_sources(
     source: str, config: Config | None, names: Sequence[str], against: str | None, folder: Path
-) -> list[RobotConfig]:
+) -> tuple[Config | None, Sequence[RobotConfig]]:
     """Return what `source` means: a path from `folder`, else a robot's name; empty for all robots.
 
-    `names` leaves only robots of these names. A file that no robot has is compared by itself. Raises ConfigError if
-    there is nothing of that name, or if it can't be compared with `against`.
+    `names` leaves only robots of these names. A file that no robot has is compared by itself, without a configuration.
+    Raises ConfigError if there is nothing of that name, or if it can't be compared with `against`.
     """
     path = Path(os.path.normpath(folder / source))
     is_file = bool(source) and path.is_file()
     if config is None:
         if not is_file:
             raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
-        return [_robot_of_file(path)]
+        return None, [_robot_of_file(path)]
     chosen = config.select(names)
     if source:
         using = [robot for robot in config.robots if os.path.realpath(robot.source) == os.path.realpath(path)]
@@ -101,12 +99,12 @@ def find_sources(
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
             hint = f"it has {', '.join(robot.name for robot in config.robots)}"
             raise _config_error("no-source", message, hint=hint)
-        if not (using or names) and against is None:
+        if not (using or names):
+            if against is not None:
+                return None, [_robot_of_file(path)]
             message = f"{path.name} was never built: it is no robot's source"
             hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
             raise _config_error("no-robot", message, config.file, hint)
-        if not (using or names):
-            return [_robot_of_file(path)]
         chosen = tuple(robot for robot in using if robot in chosen)
         if not chosen:
             message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
@@ -114,27 +112,14 @@ def find_sources(
     if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
         message = f"one file can't be the older version of {len(chosen)} sources"
         raise _config_error("one-file", message, hint="name the source to compare it with")
-    return list(chosen)
+    return config, chosen
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that is in no configuration, with all settings as they are by default."""
     name = class_name(path.name.partition(".")[0])
-    return RobotConfig(
-        name=path.name,
-        source=path,
-        source_text=path.name,
-        output=Path(),
-        target=Target(name, name),
-        domain=_DOMAIN,
-        templates=None,
-        package_paths=(),
-        create_parents=False,
-        merging=False,
-        checking=False,
-        options=registry.domain(_DOMAIN).options(),
-        lines={},
-    )
+    options = registry.domain(_DOMAIN).options()
+    return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)
 
 
 def _config_error(code: str, message: str, file: Path | None = None, hint: str = "") -> ConfigError:
@@ -149,7 +134,7 @@ def compare_sources(
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
 
-    One that fails does not stop the others. Without `against`, the robots must be those of the configuration.
+    One that fails does not stop the others. Without a configuration there has to be another version.
     """
     for count, robot in enumerate(robots):
         options.progress(robot.name, count, len(robots))
@@ -165,7 +150,7 @@ def compare_sources(
 
 def _result(robot: RobotConfig, config: Config | None) -> Result:
     """Return an empty result; the paths of a robot that is in no configuration count from its package."""
-    if config is None or robot not in config.robots:
+    if config is None:
         return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
     return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
 
@@ -221,28 +206,24 @@ def _with_version(
     found = changes.compare(old, new, domain, robot.options)
     if not found.changes:
         return Comparison(result, shown(robot.source), against)
-    own = config if config and robot in config.robots else None
-    folders = (templates_folder(domain),)
-    templates = source_files.templates(own, robot, domain) if own else Templates(folders, templates_digest(folders))
+    templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
     ]
-    files = [_files_of(*pair) for pair in zip(packages, (old, new), strict=True)]
+    older, newer = (_files_of(*pair) for pair in zip(packages, (old, new), strict=True))
     actions = []
-    for path in files[0].keys() | files[1].keys():
-        was, now = files[0].get(path), files[1].get(path)
-        is_text = all(path in package.artifacts for package in packages)
-        if was == now or (is_text and packages[0].content(path) == packages[1].content(path)):
-            continue
-        if known_file := now or was:
-            kind = Kind.UPDATE if was and now else Kind.CREATE if now else Kind.DELETE
+    for path, (role, owner, _) in (older | newer).items():
+        are_texts = all(path in package.artifacts for package in packages)
+        is_same = older.get(path) == newer.get(path)
+        if not is_same and not (are_texts and packages[0].content(path) == packages[1].content(path)):
+            kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
             place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
-            actions.append(Action(place, kind, known_file[0], known_file[1]))
+            actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
-    if own:  # a dry build knows which files are others than the last one wrote
-        (dry,) = build(own, [robot], msgspec.structs.replace(options, dry=True))
+    if config:  # a dry build knows which files are others than the last one wrote
+        (dry,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
         edited = frozenset(action.path for action in dry.actions.decided if action.kind in {*_MINE, Kind.KEEP})
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)

@@ -44,8 +44,13 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
         _check_templates(folder)
-    folders.append(templates_folder(domain))
-    return Templates(tuple(folders), templates_digest(folders))
+    return domain_templates(domain, *folders)
+
+
+def domain_templates(domain: Domain, *own: Path) -> Templates:
+    """Return the templates of a domain, behind folders of the user's own whose files hide them."""
+    folders = (*own, templates_folder(domain))
+    return Templates(folders, templates_digest(folders))
 
 
 def _check_templates(folder: Path) -> None:

@@ -19,7 +19,7 @@ import msgspec
 
 from urdfsync import config as configuration
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.parents import files as parent_files
@@ -40,11 +40,6 @@ class IndexCheckout:
     def place(self, path: Path) -> Path:
         """Return the path in here of a file of the repository."""
         return self._scratch / path.relative_to(path.anchor)
-
-    def real(self, path: Path) -> Path:
-        """Return the real path for one in here; any other path is real already."""
-        inside = path.is_relative_to(self._scratch)
-        return Path(self._index.top.anchor) / path.relative_to(self._scratch) if inside else path
 
     def add(self, paths: Iterable[str]) -> None:
         """Check out files, as files and not as links; what is not staged is removed from here."""
@@ -74,20 +69,6 @@ class IndexCheckout:
             state = Store(self.place(root)).load(robot.name)
             if state is not None and root / state.manifest.folder != robot.folder:
                 self.add_folder(root / state.manifest.folder)
-
-    def real_config(self, config: Config) -> Config:
-        """Return a configuration that was read in here, with its real paths."""
-        robots = (
-            msgspec.structs.replace(
-                robot,
-                source=self.real(robot.source),
-                output=self.real(robot.output),
-                templates=self.real(robot.templates) if robot.templates else None,
-                package_paths=tuple(map(self.real, robot.package_paths)),
-            )
-            for robot in config.robots
-        )
-        return Config(self.real(config.file), tuple(robots))
 
     def real_diagnostic(self, found: Diagnostic) -> Diagnostic:
         """Return a finding about files in here, told of the real ones."""
@@ -146,24 +127,21 @@ def plan_index(
     with index_checkout(index) as checkout:
         checkout.add(index.changed)
         checkout.add_folder(file.parent / STATE_FOLDER)
-        try:
-            config = configuration.load(checkout.place(file))
-        except ConfigError as error:
-            raise ConfigError(*map(checkout.real_diagnostic, error.diagnostics)) from None
-        real_config = checkout.real_config(config)
+        place = checkout.place(file)
+        config, here = configuration.load(file, place), configuration.load(place)
+        real = {robot.name: robot for robot in config.robots if names is None or robot.name in names}
         robots = []
-        for robot, real in zip(config.robots, real_config.robots, strict=True):
-            if names is None or robot.name in names:
-                checkout.add_outputs(real, real_config.root)
-                # packages that a search from in here does not find, since it does not follow links
-                others = tuple(path for path in real.package_paths if path not in robot.package_paths)
-                robots.append(msgspec.structs.replace(robot, package_paths=robot.package_paths + others))
+        for robot in (robot for robot in here.robots if robot.name in real):
+            checkout.add_outputs(real[robot.name], config.root)
+            # packages that a search from in here does not find, since it does not follow links
+            others = tuple(path for path in real[robot.name].package_paths if path not in robot.package_paths)
+            robots.append(msgspec.structs.replace(robot, package_paths=robot.package_paths + others))
         results = {}
-        for result in build(config, robots, options):
+        for result in build(here, robots, options):
             results[result.robot] = msgspec.structs.replace(
                 result,
-                root=checkout.real(result.root),
-                folder=checkout.real(result.folder),
+                root=config.root,
+                folder=real[result.robot].folder,
                 diagnostics=tuple(map(checkout.real_diagnostic, result.diagnostics)),
             )
-        return real_config, results
+        return config, results

@@ -6,11 +6,14 @@ import os
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
+from urdfsync import registry
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import mark_incomplete, walk_files
 from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.domain import Lookup
+from urdfsync.engine import source
 from urdfsync.engine.actions import DELETES, Action, Kind
-from urdfsync.engine.inputs import NO_MODEL, inspect
+from urdfsync.engine.imports import find_dependencies
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.parents import files as parent_files
 from urdfsync.hooks.index import Index
@@ -92,15 +95,13 @@ class RobotFiles:
 
     def _dependencies(self, options: BuildOptions) -> Iterator[Path]:
         """Return the files that the source may refer to; none if that can't be read, which the build reports."""
+        robot = self.robot
+        lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
         try:
-            inputs = inspect(self.config, self.robot, options)
-            model = inputs.state.model if inputs.state else None
-            if model is None or inputs.recorded is None or inputs.recorded.source.hash != inputs.source.hash:
-                reading = inputs.domain.read(inputs.content, self.robot.source_text, self.robot.options)
-                found = inputs.dependencies(reading.snapshot or {}, {})
-            else:
-                found = inputs.dependencies(model.snapshot, {})
-        except (UrdfsyncError, OSError, *NO_MODEL):
+            domain, content = registry.domain(robot.domain), source.read_source(self.config, robot)
+            snapshot, reading = source.read(domain, robot.options, content, robot.source_text)
+            found = find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
+        except (UrdfsyncError, OSError):
             return
         for dependency in found:
             for candidate in dependency.candidates:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import msgspec
 
@@ -26,6 +27,15 @@ class ConflictingLines(msgspec.Struct, frozen=True):
     base: range
     mine: range
     generated: range
+
+
+class ChangedLines(NamedTuple):
+    """Where a side differs from base: the indices of the lines in the three texts, and `mine`, `generated` or both."""
+
+    base: range
+    mine: range
+    generated: range
+    sides: set[str]
 
 
 class Merge(msgspec.Struct, frozen=True):
@@ -73,27 +83,33 @@ def split_lines(text: str) -> list[str]:
 
 def merge_lines(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[Region]:
     """Return the regions in which `mine` needs changing, in order: git's three-way merge of whole lines."""
-    changes = [(change, side) for side, text in enumerate((mine, generated)) for change in compare(base, text)]
-    groups: list[list[tuple[Replacement, int]]] = []
+    regions = []
+    for lines, ours, theirs, sides in find_changes(base, mine, generated):
+        text = "".join(generated[theirs.start : theirs.stop])
+        if "generated" in sides and "".join(mine[ours.start : ours.stop]) != text:
+            regions.append(Region((lines, ours, theirs), None if "mine" in sides else text))
+    return regions
+
+
+def find_changes(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[ChangedLines]:
+    """Yield the places where a side differs from base, in order; changes that overlap or touch are one."""
+    sides = {"mine": mine, "generated": generated}
+    changes = [(change, side) for side, text in sides.items() for change in compare(base, text)]
+    groups: list[list[tuple[Replacement, str]]] = []
     stop = -1
-    for change, side in sorted(changes, key=lambda pair: (pair[0].start, pair[0].stop, pair[1])):
+    for change, side in sorted(changes, key=lambda pair: pair[0]):
         if change.start > stop:  # an unchanged line keeps it apart from those before
             groups.append([])
         groups[-1].append((change, side))
         stop = max(stop, change.stop)
-    regions = []
-    shifts = [0, 0]  # how far a line of base has moved in mine, in generated
+    shifts = dict.fromkeys(sides, 0)  # how far a line of base has moved in each side
     for group in groups:
-        lines = range(min(change.start for change, _ in group), max(change.stop for change, _ in group))
-        starts = [lines.start + shift for shift in shifts]
+        lines = range(group[0][0].start, max(change.stop for change, _ in group))
+        starts = [lines.start + shift for shift in shifts.values()]
         for change, side in group:
             shifts[side] = change.new_stop - change.stop
-        ours, theirs = (range(start, lines.stop + shift) for start, shift in zip(starts, shifts, strict=True))
-        text = "".join(generated[theirs.start : theirs.stop])
-        sides = {side for _, side in group}
-        if 1 in sides and "".join(mine[ours.start : ours.stop]) != text:
-            regions.append(Region((lines, ours, theirs), None if 0 in sides else text))
-    return regions
+        ours, theirs = (range(start, lines.stop + shift) for start, shift in zip(starts, shifts.values(), strict=True))
+        yield ChangedLines(lines, ours, theirs, {side for _, side in group})
 
 
 def _retry_by_tokens(regions: Sequence[Region], texts: Sequence[Sequence[str]]) -> Iterator[Region]:

@@ -66,11 +66,6 @@ def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: b
     return [*lines[: most - 1], line((f"  … and {rest} more {noun}s; --verbose shows them", "dim"))]
 
 
-def text(*parts: tuple[str, str]) -> Text:
-    """The same as a text of rich, for what rich has to wrap, cut or align."""
-    return line(*parts).__rich__()
-
-
 def visible(text: str) -> str:
     """The text with everything escaped that a terminal would obey instead of showing it."""
     if text.isprintable():
@@ -120,7 +115,7 @@ def rich_console(stream: IO[str]) -> rich.console.Console:
     return Console(file=stream, highlight=False, force_terminal=is_terminal(stream), color_system=system)
 
 
-def write_lines(lines: Iterable[StyledLine | Text], stream: IO[str]) -> None:
+def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
     """Write lines, none of which is broken."""
     if is_terminal(stream):
         screen = rich_console(stream)
@@ -144,7 +139,7 @@ class Console:
         self._bar: tuple[Progress, TaskID] | None = None
 
     @profiling.stage("presentation")
-    def print(self, lines: Iterable[StyledLine | Text], *, error: bool = False) -> None:
+    def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
         write_lines(lines, sys.stderr if error else sys.stdout)

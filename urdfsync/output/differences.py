@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import zip_longest
+from itertools import repeat, zip_longest
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from urdfsync.engine.conflicts import Conflict
-from urdfsync.merge import Merge, split_lines
-from urdfsync.merge.sequence import compare
+from urdfsync.merge import ChangedLines, Merge, find_changes, split_lines
 from urdfsync.output.console import StyledLine, has_marks, line, visible
 
 if TYPE_CHECKING:
@@ -31,8 +30,6 @@ _COLOURS = {"base": "red", "mine": "cyan", "generated": "green", "both": "magent
 
 Texts: TypeAlias = Mapping[str, Sequence[str]]
 """Lines of `base`, `mine` and `generated`."""
-Block: TypeAlias = Mapping[str, range]
-"""One place where a side changed something: the indices of its lines in each version."""
 
 
 class Line(NamedTuple):
@@ -59,59 +56,43 @@ def find_hunks(base: str | None, mine: str, generated: str, merge: Merge | None)
     versions = {"base": mine if base is None else base, "mine": mine, "generated": generated}
     texts = {name: split_lines(one.replace("\r\n", "\n")) for name, one in versions.items()}
     clashes = [conflict.base for conflict in merge.conflicts] if merge else []
-    groups: list[list[Block]] = []
-    for block in _find_blocks(texts):
-        if groups and block["base"].start - groups[-1][-1]["base"].stop <= 2 * CONTEXT:
-            groups[-1].append(block)
-        else:
-            groups.append([block])
+    groups: list[list[ChangedLines]] = []
+    for change in find_changes(**texts):
+        if not groups or change.base.start - groups[-1][-1].base.stop > 2 * CONTEXT:
+            groups.append([])
+        groups[-1].append(change)
     hunks = []
-    for blocks in groups:
-        start, stop = blocks[0]["base"].start, blocks[-1]["base"].stop
+    for changes in groups:
+        start, stop = changes[0].base.start, changes[-1].base.stop
         clash = any(start < lines.start <= lines.stop <= stop + 1 for lines in clashes)
-        hunks.append(Hunk(list(_hunk_lines(texts, blocks, base is not None)), clash))
+        hunks.append(Hunk(list(_hunk_lines(texts, changes, base is not None)), clash))
     return hunks
 
 
-def _find_blocks(texts: Texts) -> Iterator[Block]:
-    """Yield the places where a side differs from base; changes that touch are one."""
-    changes = {name: compare(texts["base"], texts[name])[::-1] for name in ("mine", "generated")}
-    shifts = {"base": 0, "mine": 0, "generated": 0}
-    while starts := [found[-1].start for found in changes.values() if found]:
-        start = stop = min(starts)
-        begins = {name: start + shift for name, shift in shifts.items()}
-        while nexts := [name for name, found in changes.items() if found and found[-1].start <= stop]:
-            change = changes[nexts[0]].pop()
-            stop = max(stop, change.stop)
-            shifts[nexts[0]] = change.new_stop - change.stop
-        yield {name: range(begin, stop + shifts[name]) for name, begin in begins.items()}
+def _hunk_lines(texts: Texts, changes: Sequence[ChangedLines], has_base: bool) -> Iterator[Line]:
+    """Yield the lines of some changes, those between them, and some around them."""
+    mine, end = texts["mine"], max(0, changes[0].mine.start - CONTEXT)
+    for change in changes:
+        yield from (Line("", index + 1, mine[index]) for index in range(end, change.mine.start))
+        yield from _changed_lines(texts, change, has_base)
+        end = change.mine.stop
+    yield from (Line("", index + 1, mine[index]) for index in range(end, min(end + CONTEXT, len(mine))))
 
 
-def _hunk_lines(texts: Texts, blocks: Sequence[Block], has_base: bool) -> Iterator[Line]:
-    """Yield the lines of some blocks, those between them, and some around them."""
-    base, end = texts["base"], max(0, blocks[0]["base"].start - CONTEXT)
-    for block in blocks:
-        shift = block["mine"].start - block["base"].start
-        yield from (Line("", index + shift + 1, base[index]) for index in range(end, block["base"].start))
-        yield from _block_lines(texts, block, has_base)
-        end, shift = block["base"].stop, block["mine"].stop - block["base"].stop
-    yield from (Line("", index + shift + 1, base[index]) for index in range(end, min(end + CONTEXT, len(base))))
-
-
-def _block_lines(texts: Texts, block: Block, has_base: bool) -> Iterator[Line]:
+def _changed_lines(texts: Texts, change: ChangedLines, has_base: bool) -> Iterator[Line]:
     """Yield the lines of base that are gone, and those of each side that changed something."""
-    parts = {name: texts[name][lines.start : lines.stop] for name, lines in block.items()}
-    old = parts["base"] if has_base else None
-    found = {name: parts[name] for name in ("mine", "generated") if parts[name] != old}
-    if len(found) == 2 and found["mine"] == found["generated"]:
-        found = {"both": found["mine"]}
-    found = {"base": parts["base"], **found} if has_base else found
-    in_place = zip_longest(*found.values(), fillvalue="")
+    places = {"base": change.base, "mine": change.mine, "generated": change.generated, "both": change.mine}
+    parts = {name: texts[name][places[name].start : places[name].stop] for name in texts}
+    names = [name for name in ("mine", "generated") if not has_base or parts[name] != parts["base"]]
+    if len(names) == 2 and parts["mine"] == parts["generated"]:
+        names, parts["both"] = ["both"], parts["mine"]
+    names = ["base", *names] if has_base else names
+    in_place = zip_longest(*(parts[name] for name in names), fillvalue="")
     shared = [len(os.path.commonprefix(lines)) for lines in in_place]  # noqa: RUF071 - of texts
-    for name, lines in found.items():
-        start = block["mine" if name == "both" else name].start
-        yield from (Line(name, start + index + 1, line, shared[index]) for index, line in enumerate(lines))
-        if has_base and not lines and name != "base":
+    for name in names:
+        numbers = range(places[name].start + 1, places[name].stop + 1)
+        yield from map(Line, repeat(name), numbers, parts[name], shared)
+        if has_base and not parts[name] and name != "base":
             yield Line(name, 0, "(removed)\n")
 
 
