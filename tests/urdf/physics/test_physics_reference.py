@@ -15,7 +15,6 @@ from support.urdfs import dynamics, joint, link, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import free_joints, motion
-from urdfsync.urdf.physics.free_joints import FrameMotion
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Configuration, Instant, Reference
 from urdfsync.urdf.robot import Joint
