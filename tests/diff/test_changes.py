@@ -1,16 +1,16 @@
-"""Comparing two versions: what differs, meanings from the domain, files that follow."""
+"""Comparing two versions: equality first, deepdiff on what differs, meanings from the domain, files that follow."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
+import deepdiff
 import pytest
-from deepdiff import DeepDiff
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.diff.changes import Change, Changes, compare, find_differences, moved_files
+from urdfsync.diff.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -71,43 +71,41 @@ def import_(content: str, **facts: Any) -> Import:
     return Import("Resources/a.stl", f"source of {content}", content, 1, facts)
 
 
-def test_equal_versions_have_no_changes() -> None:
+@pytest.fixture
+def compared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, Any]]:
+    """What deepdiff is called with."""
+    calls: list[tuple[Any, Any]] = []
+    original: Callable[..., Any] = deepdiff.DeepDiff
+
+    def counted(old: Any, new: Any, **options: Any) -> Any:
+        assert not options.get("ignore_order")
+        assert options.get("significant_digits") is None
+        calls.append((old, new))
+        return original(old, new, **options)
+
+    monkeypatch.setattr(deepdiff, "DeepDiff", counted)
+    return calls
+
+
+def test_equal_versions_have_no_changes(compared: list[tuple[Any, Any]]) -> None:
     found = changes(shelf(a={"size": [1, 2]}), shelf(a={"size": [1.0, 2]}))
     assert (found.changes, found.change_class, found.noise) == ((), ChangeClass.NONE, False)
+    assert compared == []
 
 
-KINDS = {
-    "dictionary_item_added": ChangeKind.ADDED,
-    "dictionary_item_removed": ChangeKind.REMOVED,
-    "iterable_item_added": ChangeKind.ADDED,
-    "iterable_item_removed": ChangeKind.REMOVED,
-    "type_changes": ChangeKind.CHANGED,
-    "values_changed": ChangeKind.CHANGED,
-}
+def test_only_elements_that_differ_are_compared_in_depth(compared: list[tuple[Any, Any]]) -> None:
+    books = {f"b{k}": {"size": [k, 1.0, 2.0]} for k in range(1000)}
+    other = {**books, "b500": {"size": [500, 1.0]}, "b600": {"size": [600, 1.0, 3.0]}}
+    found = changes(shelf(**books), shelf(**other))
+    assert lines(found) == [("b500 / size / 2", "removed", 2.0, None), ("b600 / size / 2", "changed", 2.0, 3.0)]
+    assert compared == [(books["b500"], other["b500"])], "where only numbers differ, deepdiff need not be loaded"
 
 
 @given(PLAIN, PLAIN, st.data())
-def test_the_differences_are_those_that_deepdiff_finds(old: Any, new: Any, data: st.DataObject) -> None:
+def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
     new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
-    tree = DeepDiff(
-        old,
-        new,
-        view="tree",
-        zip_ordered_iterables=True,
-        threshold_to_diff_deeper=0,
-        ignore_private_variables=False,
-    )
-    expected = []
-    for report, levels in tree.items():
-        kind = KINDS[report]
-        for level in levels:
-            if level.t1 != level.t2:  # 1 and 1.0 are of two types
-                before = None if kind is ChangeKind.ADDED else level.t1
-                after = None if kind is ChangeKind.REMOVED else level.t2
-                expected.append(Difference((*level.path(output_format="list"),), kind, before, after))
-    found = list(find_differences((), old, new))
-    assert [difference.path for difference in found] == sorted(difference.path for difference in expected)
-    assert sorted(found, key=repr) == sorted(expected, key=repr)
+    found = of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
 
 
 def _with_other_leaves(value: Any, data: st.DataObject) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import traceback
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -75,6 +76,7 @@ def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:
     So libraries are imported and templates compiled while nobody waits: without it the first change in the daemon
     takes about a second more than the rows "one mass changed in the daemon" of docs/speed.md allow.
     """
+    importlib.import_module("deepdiff")  # only the first difference imports it
     with contextlib.suppress(OSError):  # a source that is missing is told when the robot is built
         robots = sorted(robots, key=lambda robot: robot.source.stat().st_size, reverse=True)
     for robot in {robot.domain: robot for robot in robots}.values():
