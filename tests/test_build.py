@@ -16,8 +16,8 @@ from support.networks import kinds as all_kinds
 
 from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import text_digest
-from urdfsync.outcome import Exit, Result, exit_code
 from urdfsync.state import file_operations
 
 

@@ -18,7 +18,7 @@ from support.networks import LADDER, ROBOT, configure, edit, source
 from urdfsync import cli, config
 from urdfsync.__main__ import main as program
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 Capture = pytest.CaptureFixture[str]

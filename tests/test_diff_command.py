@@ -13,9 +13,9 @@ from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
 from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
-from urdfsync.diff.changes import Changes
+from urdfsync.changes import Changes
 from urdfsync.diff.comparison import Comparison, exit_code
-from urdfsync.outcome import Exit, Result
+from urdfsync.engine.result import Exit, Result
 
 ARM = """<robot name="arm">
   <link name="base"/>

@@ -13,9 +13,9 @@ import pytest
 from support.meshes import stl
 
 from urdfsync import config, registry
+from urdfsync.changes import compare
 from urdfsync.config import Keys
 from urdfsync.diagnostics import Severity
-from urdfsync.diff.changes import compare
 from urdfsync.domain import (
     Artifact,
     Dependency,

@@ -14,7 +14,7 @@ from support.daemon import Daemons
 from support.networks import edit
 
 from urdfsync import cli, registry
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.watch import events
 
 PAGE = REPOSITORY / "docs" / "domains.md"

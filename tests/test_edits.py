@@ -32,7 +32,7 @@ from support.networks import (
 )
 
 from urdfsync.engine.actions import Kind
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.state.record import Choice
 
 ASIDE = Path(".urdfsync/conflicts/ladder/Elements")

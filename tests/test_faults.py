@@ -18,8 +18,8 @@ from support.networks import R1 as MODEL
 
 from urdfsync import cli
 from urdfsync.diagnostics import OutputError
+from urdfsync.engine.result import Exit
 from urdfsync.files import Tree
-from urdfsync.outcome import Exit
 
 MINE = "// mine\n"
 CAN_CHANGE_MODES = os.name == "posix"

@@ -17,10 +17,9 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, RECORD, ROBOT, Snapshot, configure, edit, resistor
 
-from urdfsync import cli, hook
+from urdfsync import cli, hook, precommit
 from urdfsync.hooks.index import Index
 from urdfsync.state.lock import build_lock
-from urdfsync.watch import precommit
 
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 

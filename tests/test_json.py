@@ -22,7 +22,7 @@ from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import Kind
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.profiling import OTHER, STAGES
 from urdfsync.watch import events

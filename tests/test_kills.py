@@ -19,7 +19,7 @@ import pytest
 from support import crashes
 from support.crashes import Operation, contents, run
 
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.state.journal import JournalFolder
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))

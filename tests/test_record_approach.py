@@ -13,7 +13,7 @@ from urdfsync.config import load
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 
 SOURCES = Path(__file__).parent / "golden"
 RECORD = {"package.mo", "package.order", "TwigParameters.mo", "TwigGeneric.mo"}

@@ -16,7 +16,7 @@ from support.packages import read
 from support.replay import Files, Fresh, Project, Stamps
 
 from urdfsync.domain import ChangeClass
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.state.store import Store
 from urdfsync.urdf.domain import DOMAIN
 

@@ -24,7 +24,7 @@ from support.replay import Files, Fresh, Project
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.conflicts import Conflict
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.state.manifest import text_hash
 from urdfsync.state.record import Choice
 

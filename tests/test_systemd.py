@@ -41,4 +41,4 @@ def test_the_unit_is_right(tmp_path: Path) -> None:
 
 def test_the_unit_starts_what_can_be_started_again() -> None:
     assert f"ExecStart=%h/{PROGRAM} watch\n" in UNIT
-    assert "RestartPreventExitStatus=2 4\n" in UNIT, "an error and a lock, see `urdfsync.outcome.Exit`"
+    assert "RestartPreventExitStatus=2 4\n" in UNIT, "an error and a lock, see `urdfsync.engine.result.Exit`"

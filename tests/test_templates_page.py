@@ -14,7 +14,7 @@ from support.corpus import REPOSITORY
 from support.modelica import Run, Task, execute
 
 from urdfsync import cli
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 
 PAGE = REPOSITORY / "docs" / "templates.md"
 TEMPLATE = "link/model.mo.jinja"

@@ -15,7 +15,7 @@ from support.commands import Execute
 from support.replay import Project, in_haste
 
 from urdfsync.diagnostics import Severity
-from urdfsync.outcome import Exit, exit_code
+from urdfsync.engine.result import Exit, exit_code
 
 FULL = """\
 <?xml version="1.0" encoding="utf-8"?>

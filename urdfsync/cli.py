@@ -17,7 +17,7 @@ from urdfsync import __version__, profiling, streams, uptodate
 from urdfsync.commands import arguments
 from urdfsync.dependencies import mark_incomplete, record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 _COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")

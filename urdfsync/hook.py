@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
 
 from urdfsync import uptodate
+from urdfsync.hooks.answers import answer_key, find_configurations
 
-STATES = ".urdfsync/robots/"
-"""Where a configuration has the recorded states of its robots."""
 _TRACKED = (b"H 100644 ", b"H 100755 ", b"H 120000 ")
 """How the entry of a file begins that the working tree has as it is staged; other modes are submodules."""
 
@@ -51,21 +49,3 @@ def is_answered() -> bool:
     except Exception:  # noqa: BLE001 - whatever it is: the command meets it again, and reports it
         return False
     return True
-
-
-def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return the configurations among tracked files, and the recorded states that belong to none of them."""
-    found, states = [], []
-    for path in files:
-        if path.rpartition("/")[2] == uptodate.CONFIGURATION:
-            found.append(path)
-        elif path.endswith(".toml") and f"/{path}".count(f"/{STATES}") == 1:
-            states.append(path)
-    folders = {path.removesuffix(uptodate.CONFIGURATION) for path in found}
-    return sorted(found), sorted(path for path in states if path.rpartition(STATES)[0] not in folders)
-
-
-def answer_key(top: str, file: str) -> str:
-    """Return the key of the answer for a configuration: all that it depends on beside files."""
-    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH"))
-    return repr(("hook", top, file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here

@@ -21,7 +21,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions, Progress
-from urdfsync.outcome import Checked, Exit, Result, exit_code
+from urdfsync.engine.result import Checked, Exit, Result, exit_code
 
 RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)

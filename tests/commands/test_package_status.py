@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from urdfsync.changes import Change, Changes
 from urdfsync.commands.status import FileStatus, file_status, is_in_step, lines, summary
-from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Happening
 from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 
 
 def action(kind: Kind, held: bool = False, path: str = "") -> Action:

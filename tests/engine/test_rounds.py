@@ -15,7 +15,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from urdfsync.diff import changes
+from urdfsync import changes
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve

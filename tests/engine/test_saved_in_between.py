@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.state import file_operations
 
 R1 = "modelica/Ladder/Elements/R1Parameters.mo"

@@ -21,7 +21,7 @@ from support.packages import read
 from support.replay import Project
 
 from urdfsync.domain import ElementKey, Target
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.urdf.domain import DOMAIN
 
 ROTOR = 0.03

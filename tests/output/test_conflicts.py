@@ -12,8 +12,8 @@ from rich.console import Console
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.result import Result
 from urdfsync.merge import Merge, merge
-from urdfsync.outcome import Result
 from urdfsync.output.conflicts import FULL, conflict_lines
 from urdfsync.output.console import Console as CommandConsole
 from urdfsync.output.differences import LINES

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from urdfsync.diff.changes import Change, Changes
+from urdfsync.changes import Change, Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import change_lines

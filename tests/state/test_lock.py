@@ -22,7 +22,7 @@ from urdfsync import cli, config
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.state.lock import Lock, LockedError, _try, build_lock
 
 HOLD = """

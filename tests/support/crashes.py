@@ -21,7 +21,7 @@ from support.urdfs import joint, limit, link, robot
 from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 from urdfsync.state.store import Store
 

@@ -11,7 +11,7 @@ from urdfsync import config
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 """The fixture `snapshot_of`."""

@@ -18,7 +18,7 @@ from support.packages import proposed_base, read
 from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 
 ALL = "URDFSYNC_REPLAYS"

@@ -18,7 +18,7 @@ from unittest import mock
 
 from support import audit
 from urdfsync import __main__, hook
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 
 CODES = {int(code) for code in Exit}
 WATCHING = 0.4

@@ -20,7 +20,7 @@ from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
-from urdfsync.outcome import Checked
+from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
 RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)

@@ -26,11 +26,11 @@ from support.daemon import MODEL, RECORD, REPOSITORY, Daemons, holds, ladder, un
 from support.git import NEEDS_GIT, Repository
 from support.networks import configure
 
-from urdfsync import cli, registry
+from urdfsync import cli, precommit, registry
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
-from urdfsync.watch import build, events, observer, precommit
+from urdfsync.engine.result import Result
+from urdfsync.watch import build, events, observer
 from urdfsync.watch.daemon import Daemon
 from urdfsync.watch.robot import Times
 

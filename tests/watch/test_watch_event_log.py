@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from rich.console import Console as Screen
 
+from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog

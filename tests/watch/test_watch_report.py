@@ -14,12 +14,12 @@ from typing import Any
 import pytest
 from support.screen import Screen
 
+from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.diff.changes import Change, Changes
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
 from urdfsync.engine.actions import Action, Actions, Kind
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events, report
 from urdfsync.watch.report import TextReport

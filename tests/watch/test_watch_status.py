@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Kind
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.watch import events
 from urdfsync.watch.status import Activity, StatusTable
 

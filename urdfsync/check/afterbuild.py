@@ -18,7 +18,7 @@ from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, Progress
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 
 _ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library")
 """Codes of what this machine lacks; the package is not to blame."""

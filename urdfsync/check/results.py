@@ -13,7 +13,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""

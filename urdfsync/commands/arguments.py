@@ -12,7 +12,7 @@ from urdfsync import config, profiling
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"

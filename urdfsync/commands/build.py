@@ -12,7 +12,7 @@ from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
 

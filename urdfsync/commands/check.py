@@ -17,7 +17,7 @@ from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.report import closing_lines, robot_lines, to_json
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.commands import arguments
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, has_marks, line
 
 _CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")

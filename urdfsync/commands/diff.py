@@ -18,7 +18,7 @@ from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.json_values import result_values

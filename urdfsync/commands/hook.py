@@ -14,9 +14,9 @@ from pathlib import Path
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, working_folder
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.result import Exit, exit_code
 from urdfsync.hooks.check import CommitFault, check_index
 from urdfsync.hooks.index import Index
-from urdfsync.outcome import Exit, exit_code
 from urdfsync.output.console import Console, line
 from urdfsync.output.phrases import summary
 from urdfsync.output.results import show_result

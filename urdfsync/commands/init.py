@@ -20,9 +20,9 @@ from urdfsync.config.values import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.engine import source as source_files
+from urdfsync.engine.result import Exit
 from urdfsync.files import put
 from urdfsync.modelica.names import class_name
-from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, StyledLine, line
 
 _HEADER = """\

@@ -9,7 +9,7 @@ import sys
 
 from urdfsync import config
 from urdfsync.commands import arguments
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
 
 

@@ -16,9 +16,9 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Target
 from urdfsync.engine import source as sources
 from urdfsync.engine.generate import Package
+from urdfsync.engine.result import Exit
 from urdfsync.files import kind_of, normalised, put
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
-from urdfsync.outcome import Exit
 from urdfsync.output.console import Console, line
 
 _SUFFIX = "Parameters"

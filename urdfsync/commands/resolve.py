@@ -13,7 +13,7 @@ from urdfsync.commands.build import build_and_check
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.conflicts import NOT_HERE, Target, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result, show_results

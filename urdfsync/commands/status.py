@@ -13,7 +13,7 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
-from urdfsync.outcome import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.json_values import action_values, result_values

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from urdfsync import config
 from urdfsync.commands import arguments
-from urdfsync.outcome import Exit
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 if TYPE_CHECKING:

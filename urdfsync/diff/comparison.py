@@ -15,11 +15,10 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync import outcome, registry
+from urdfsync import changes, registry
+from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig, read_source, shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
-from urdfsync.diff import changes
-from urdfsync.diff.changes import Changes
 from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -29,8 +28,9 @@ from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.result import Exit, Result
+from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.modelica.names import class_name
-from urdfsync.outcome import Exit, Result
 from urdfsync.state.modelfile import ConversionFacts
 
 _DOMAIN = "urdf"
@@ -68,7 +68,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
-    code = outcome.exit_code(one.result for one in comparisons)
+    code = exit_code_of(one.result for one in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
     return Exit.IN_STEP if all(one.in_step for one in comparisons) else Exit.OUT_OF_STEP

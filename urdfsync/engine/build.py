@@ -22,8 +22,8 @@ from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan, partly_done
-from urdfsync.outcome import Result
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError

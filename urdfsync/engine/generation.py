@@ -11,11 +11,10 @@ from functools import cached_property
 
 import msgspec
 
-from urdfsync import profiling
+from urdfsync import changes, profiling
+from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.diff import changes
-from urdfsync.diff.changes import Changes
 from urdfsync.domain import Role, Target, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate

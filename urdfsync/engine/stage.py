@@ -8,9 +8,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import profiling
+from urdfsync.changes import Changes
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.diff.changes import Changes
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Actions
 from urdfsync.engine.conflicts import Conflict, conflict_files

@@ -12,19 +12,18 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import uptodate
+from urdfsync import precommit, uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
 from urdfsync.dependencies import record_dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.hook import STATES, answer_key, find_configurations
+from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.hooks.answers import STATES, answer_key, find_configurations
 from urdfsync.hooks.checkout import plan_index
 from urdfsync.hooks.index import Index
 from urdfsync.hooks.robot_files import RobotFiles
-from urdfsync.outcome import Exit, Result, exit_code
-from urdfsync.watch import precommit
 
 
 class CommitFault(msgspec.Struct, frozen=True):

@@ -23,8 +23,8 @@ from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.parents import files as parent_files
+from urdfsync.engine.result import Result
 from urdfsync.hooks.index import Index
-from urdfsync.outcome import Result
 from urdfsync.state.store import Store
 
 

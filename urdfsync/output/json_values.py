@@ -9,12 +9,12 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Action
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.output import conflicts
 from urdfsync.output.phrases import reason, summary
 
 if TYPE_CHECKING:
-    from urdfsync.diff.changes import Change, Changes
+    from urdfsync.changes import Change, Changes
     from urdfsync.output.conflicts import Target
 
 

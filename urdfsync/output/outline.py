@@ -16,7 +16,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.diff.changes import Change, Changes, is_number
+from urdfsync.changes import Change, Changes, is_number
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 
 _NOT_MODELLED, _ROUNDING = "not modelled", "rounding"

@@ -11,11 +11,11 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Kind
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.output.outline import change_row, outline
 
 if TYPE_CHECKING:
-    from urdfsync.diff.changes import Changes
+    from urdfsync.changes import Changes
 
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
 _NAMED = {

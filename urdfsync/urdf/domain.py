@@ -26,6 +26,7 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import names, option_names
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects
 from urdfsync.urdf.diff.interface import interface
@@ -34,7 +35,6 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
 from urdfsync.urdf.meshes.single_thread import single_thread
-from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot

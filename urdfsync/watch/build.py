@@ -16,7 +16,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.watch.robot import WatchedRobot
 
 _MANY = 3

@@ -14,7 +14,7 @@ from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Checked
+from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 from urdfsync.watch.build import internal_error
 

@@ -18,13 +18,13 @@ from queue import Empty, SimpleQueue
 
 import msgspec
 
-from urdfsync import config
+from urdfsync import config, precommit
 from urdfsync.config import Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
-from urdfsync.outcome import Result
-from urdfsync.watch import build, events, precommit
+from urdfsync.engine.result import Result
+from urdfsync.watch import build, events
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer

@@ -14,7 +14,7 @@ import msgspec
 from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Actions, Kind
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line
 from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary

@@ -13,7 +13,7 @@ from typing import Protocol
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 
 
 class Event(msgspec.Struct, frozen=True, tag=str.lower):

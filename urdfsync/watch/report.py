@@ -11,7 +11,7 @@ from typing import Any, Self
 import msgspec
 
 from urdfsync.engine.actions import Kind
-from urdfsync.outcome import Result
+from urdfsync.engine.result import Result
 from urdfsync.output.console import JSON_VERSION, Console, has_marks, rich_console, write_lines
 from urdfsync.output.json_values import result_values
 from urdfsync.watch import events

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.outcome import Checked, Result
+from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import StyledLine, line
 from urdfsync.watch import events
 from urdfsync.watch.event_log import NAME_WIDTH

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from urdfsync.domain import Target
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.diagram.drawing import draw
 from urdfsync.urdf.diagram.layout import Diagram, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot
 

@@ -16,7 +16,7 @@ from support import mutations
 from support.corpus import ABSENT, FOLDER
 from support.packages import RENDERER, read
 
-from urdfsync.diff.changes import Changes, compare
+from urdfsync.changes import Changes, compare
 from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Templates, Version
 from urdfsync.engine.generate import Package
 from urdfsync.urdf.domain import DOMAIN

@@ -12,7 +12,7 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.diff.changes import Change, compare
+from urdfsync.changes import Change, compare
 from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes import lookup

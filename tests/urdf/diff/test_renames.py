@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from support import mutations
 from support.packages import read
 
-from urdfsync.diff.changes import compare, moved_files
+from urdfsync.changes import compare, moved_files
 from urdfsync.domain import Artifact, ChangeKind, ElementKey, Role, Snapshot, Target, Version
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN

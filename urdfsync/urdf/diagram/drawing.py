@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
 from urdfsync.domain import Target
+from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, LineKind, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Motion, Robot
 

@@ -26,8 +26,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
+from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import Connectors
 from urdfsync.urdf.robot import MOTION_KINDS
 
 Point: TypeAlias = tuple[int, int]

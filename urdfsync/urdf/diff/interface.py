@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 from urdfsync.urdf.snapshot import from_snapshot

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
+from urdfsync.urdf.connectors import connector_names, visual_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names, visual_names
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import has_tables, tables
 from urdfsync.urdf.options import USES, Options

@@ -10,11 +10,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Target
+from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model import notes
-from urdfsync.urdf.model.connectors import Connectors, connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
 

@@ -12,8 +12,8 @@ import msgspec
 
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import free_joints, motion
 from urdfsync.urdf.robot import MOTION_KINDS, Motion

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from support.robots import robots, tree
 
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.connectors import connector_names
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Mimic, Robot
 

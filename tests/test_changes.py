@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.diff.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
+from urdfsync.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, IN_STEP, Action, Actions, Kind
 
 if TYPE_CHECKING:
-    from urdfsync.diff.changes import Changes
+    from urdfsync.changes import Changes
     from urdfsync.engine.conflicts import Conflict
 
 
