@@ -52,6 +52,30 @@ def test_meshes_are_imported_and_named_by_modelica_uris(arm: Path) -> None:
     assert "package://" not in texts
 
 
+def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(arm: Path) -> None:
+    """Whether the meshes are there or not, what is built in the end is what one build makes of it."""
+    run(arm)
+    assert '"hull"' not in (arm / ".urdfsync/robots/arm.json").read_text()
+    meshes = arm / "ws/src/six_axis_arm/meshes"
+    meshes.rename(arm / "away")
+    floating = CONFIGURATION + 'base = "floating"\n'
+    (arm / "urdfsync.toml").write_text(floating)
+    (error,) = run(arm).diagnostics
+    assert (error.severity, error.code) == (Severity.ERROR, "lost-state")
+    assert "not all is recorded that is needed now" in error.message
+    (arm / "away").rename(meshes)
+    run(arm)
+    assert '"hull"' in (arm / ".urdfsync/robots/arm.json").read_text()
+    found = contents(arm / "modelica")
+    shutil.rmtree(arm / "modelica")
+    shutil.rmtree(arm / ".urdfsync")
+    run(arm)
+    assert contents(arm / "modelica") == found
+    (arm / "urdfsync.toml").write_text(CONFIGURATION)
+    run(arm)
+    assert '"hull"' not in (arm / ".urdfsync/robots/arm.json").read_text()
+
+
 def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The library on MODELICAPATH comes before a folder of its name beside the source."""
     folder = arm / "ws" / "src" / "six_axis_arm"

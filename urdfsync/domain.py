@@ -87,6 +87,8 @@ class Dependency(msgspec.Struct, frozen=True):
     """Line of the source that first refers to it; 0 if unknown."""
     guessed: bool = False
     """Whether it is found only in a folder that does not have the name of its package."""
+    facts: tuple[str, ...] = ()
+    """Names of the facts that artifacts need of it, where not all conversions have the same."""
 
 
 class Conversion(msgspec.Struct, frozen=True):

@@ -24,7 +24,7 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import process
 from urdfsync.urdf.meshes.convert import convert
-from urdfsync.urdf.meshes.lookup import key, target
+from urdfsync.urdf.meshes.lookup import BOUNDS, HULL, key, target
 from urdfsync.urdf.robot import Mesh
 
 SECONDS = 0.5
@@ -94,7 +94,8 @@ def _case(folder: Path, random: Random) -> str:
     if random.random() < 0.02:  # what one format is made of, under the name of another
         suffix, _ = random.choice(SEEDS)
     mesh = Mesh(f"mesh{suffix}", random.choice(((1.0, 1.0, 1.0), (0.001, 0.001, 0.001), (-1.0, 2.0, 1e30))))
-    dependency = Dependency(key(mesh), mesh.filename, (), target(mesh), "mesh")
+    facts = random.choice(((BOUNDS,), (BOUNDS, HULL)))
+    dependency = Dependency(key(mesh), mesh.filename, (), target(mesh), "mesh", facts=facts)
     outcome = "read"
     with contextlib.chdir(folder):
         try:
@@ -119,7 +120,7 @@ def _check(mesh: Mesh, found: Conversion) -> None:
     if is_stl and len(content) != 84 + 50 * int.from_bytes(content[80:84], "little"):
         raise Fault("it is no binary STL file")
     least, greatest = found.facts["bounds"]
-    numbers = [*least, *greatest, *(number for point in found.facts["hull"] for number in point)]
+    numbers = [*least, *greatest, *(number for point in found.facts.get(HULL, ()) for number in point)]
     if not all(map(math.isfinite, numbers)) or any(a > b for a, b in zip(least, greatest, strict=True)):
         raise Fault(f"its facts are {found.facts}")
 

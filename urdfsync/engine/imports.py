@@ -169,11 +169,12 @@ def _import(
     sha256 = digest(content)
     record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
     made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
-    if record and facts and not again and made_from == {(sha256, domain.converter)}:
+    needed = _needed(dependency, facts)
+    if record and needed is not None and not again and made_from == {(sha256, domain.converter)}:
         copy = recorded.copy(record.target)
         if copy is not None and digest(copy) == record.target_hash:
             moves = recorded.moved or record.target != target
-            entry = Import(target, sha256, record.target_hash, domain.converter, facts.facts)
+            entry = Import(target, sha256, record.target_hash, domain.converter, needed)
             result.add(dependency, entry, copy if moves else None)
             return None, ""
     if content.startswith(_POINTER):
@@ -186,6 +187,14 @@ def _import(
     entry = Import(target, sha256, digest(conversion.content), domain.converter, conversion.facts)
     result.add(dependency, entry, conversion.content)
     return None, ""
+
+
+def _needed(dependency: Dependency, recorded: ConversionFacts | None) -> Mapping[str, Any] | None:
+    """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
+    if recorded is None or not dependency.facts:
+        return None if recorded is None else recorded.facts
+    found = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
+    return found if len(found) == len(dependency.facts) else None
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
@@ -223,6 +232,11 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
         message = f"{trouble.message}, and what is recorded of its imported copy is lost"
         hint = "restore `.urdfsync/robots` from version control, or the file itself"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
+    if (needed := _needed(dependency, facts)) is None:
+        message = f"{trouble.message}, and of its imported copy not all is recorded that is needed now"
+        raise StateError(
+            Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=trouble.hint)
+        )
     copied = digest(copy)
     written = copied if copied == recorded.bases.get(record.target) else record.target_hash or copied
     converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
@@ -231,7 +245,7 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
         written = copied
     elif written != copied:
         result.hashes_only.add(dependency.target)
-    entry = Import(dependency.target, record.source_hash, written, converter, facts.facts)
+    entry = Import(dependency.target, record.source_hash, written, converter, needed)
     result.add(dependency, entry, copy if moves else None)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")

@@ -85,12 +85,13 @@ class UrdfDomain(Domain):
         links = {name: link for name, link in snapshot["links"].items() if _has_mesh(link)}
         if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
             links = {name: {**link, "collisions": []} for name, link in links.items()}
-        return dependencies(from_snapshot({**snapshot, "links": links, "joints": {}, "extensions": {}}), lookup, lines)
+        robot = from_snapshot({**snapshot, "links": links, "joints": {}, "extensions": {}})
+        return dependencies(robot, lookup, lines, touches=options.base == "floating")
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """Return a mesh as STL or OBJ, with its bounds and its outermost points."""
         with single_thread():
-            from urdfsync.urdf.meshes.convert import convert  # with numpy, which only a new mesh needs
+            from urdfsync.urdf.meshes.convert import convert  # with numpy, which most new meshes need
 
         return convert(dependency, file, content)
 

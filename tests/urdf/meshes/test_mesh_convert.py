@@ -12,7 +12,8 @@ import trimesh
 from urdfsync.diagnostics import Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes.convert import convert
-from urdfsync.urdf.meshes.lookup import key, target
+from urdfsync.urdf.meshes.geometry import triangles
+from urdfsync.urdf.meshes.lookup import BOUNDS, HULL, key, target
 from urdfsync.urdf.meshes.plain import read_stl
 from urdfsync.urdf.robot import Mesh, Vector
 
@@ -27,13 +28,14 @@ CONTENTS = {
 UNIT = (1.0, 1.0, 1.0)
 
 
-def _convert(uri: str, content: bytes, scale: Vector = UNIT) -> Conversion:
+def _convert(uri: str, content: bytes, scale: Vector = UNIT, facts: tuple[str, ...] = (BOUNDS,)) -> Conversion:
     mesh = Mesh(uri, scale)
-    return convert(Dependency(key(mesh), uri, (), target(mesh), "mesh"), Path("/ws/arm") / Path(uri).name, content)
+    dependency = Dependency(key(mesh), uri, (), target(mesh), "mesh", facts=facts)
+    return convert(dependency, Path("/ws/arm") / Path(uri).name, content)
 
 
 def _volume(stl: bytes) -> float:
-    points, faces = read_stl(stl)
+    points, faces = triangles(read_stl(stl))
     a, b, c = np.moveaxis(points[faces], 1, 0)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
@@ -55,6 +57,22 @@ def test_other_formats_become_binary_stl(suffix: str) -> None:
     assert not conversion.content.startswith(b"solid")
     assert _volume(conversion.content) == pytest.approx(6)
     assert conversion.facts["bounds"] == [[0, 0, 0], [1, 2, 3]]
+
+
+UNUSED = b"v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 1 -1\nf 1 3 4\n"
+
+
+@pytest.mark.parametrize("scale", [UNIT, (1.0, 2.0, -1.0)])
+@pytest.mark.parametrize(("suffix", "content"), [*CONTENTS.items(), (".obj", UNUSED)])
+def test_outermost_points_come_beside_the_same_bounds_if_they_are_needed(
+    suffix: str, content: bytes, scale: Vector
+) -> None:
+    alone, both = (_convert("a" + suffix, content, scale, facts) for facts in ((BOUNDS,), (BOUNDS, HULL)))
+    assert alone.facts.keys() == {BOUNDS}
+    assert both.content == alone.content
+    assert both.facts[BOUNDS] == alone.facts[BOUNDS]
+    hull = np.array(both.facts[HULL])
+    assert [hull.min(axis=0).tolist(), hull.max(axis=0).tolist()] == alone.facts[BOUNDS]
 
 
 @pytest.mark.parametrize("suffix", CONTENTS)
@@ -90,6 +108,9 @@ def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
     ("package://arm/box.obj", CONTENTS[".obj"], (1e300, 1.0, 1.0), "its coordinates are too large"),
     ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
     ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
+    ("package://arm/box.obj", b"v 0 0 nan\nf 1 1 1", UNIT, "it has coordinates that aren't finite"),
+    ("package://arm/box.obj", b"v 0 0 1_0\nf 1 1 1", UNIT, "it is damaged or of another format"),
+    ("package://arm/box.obj", b"v 0 0 0\nf 1 1 99999999999999999999", UNIT, "it is damaged or of another format"),
 ])  # fmt: skip
 def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vector, reason: str) -> None:
     with pytest.raises(SourceError) as caught:

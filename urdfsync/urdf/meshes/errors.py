@@ -6,7 +6,9 @@ import contextlib
 import warnings
 from collections.abc import Iterator
 
-import numpy as np
+NO_TRIANGLES = "it has no triangles"
+NOT_FINITE = "it has coordinates that aren't finite numbers"
+TOO_LARGE = "its coordinates are too large for single precision"
 
 
 class MeshError(Exception):
@@ -19,6 +21,8 @@ def damage_is_an_error() -> Iterator[None]:
 
     Numbers that numpy can't read to the end are an error in all its versions. Lack of memory is told by the caller.
     """
+    import numpy as np  # a quarter of a first build of a small robot, which needs MeshError alone
+
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.filterwarnings("error", "string or file could not be read", DeprecationWarning)
@@ -28,5 +32,10 @@ def damage_is_an_error() -> Iterator[None]:
     except ImportError as error:
         raise MeshError(f"a Python package is missing ({error})") from error
     except Exception as error:
-        detail = f": {error}" if str(error) else ""
-        raise MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})") from error
+        raise damaged(error) from error
+
+
+def damaged(error: Exception) -> MeshError:
+    """Return what to say of a file that made a reader fail."""
+    detail = f": {error}" if str(error) else ""
+    return MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})")

@@ -11,7 +11,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.errors import NO_TRIANGLES, NOT_FINITE, TOO_LARGE, MeshError
+from urdfsync.urdf.meshes.plain import LARGEST, Corners, check_count
 from urdfsync.urdf.robot import Vector
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -20,8 +21,6 @@ Facts: TypeAlias = dict[str, list[list[float]]]
 
 FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """A triangle of a binary STL file."""
-MAX_TRIANGLES = 1_000_000
-"""Of one mesh, in all its places; so many have 50 MB as binary STL."""
 
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _STEPS = 36  # directions on each great circle
@@ -42,6 +41,13 @@ class Triangles(NamedTuple):
     """n × 3."""
     faces: Indices
     """m × 3, of `points`."""
+
+
+def triangles(corners: Corners) -> Triangles:
+    """The same triangles as arrays of numpy, in the same memory."""
+    points = np.frombuffer(corners.points) if corners.points else np.empty(0)
+    faces = np.frombuffer(corners.faces, dtype=np.int64) if corners.faces else np.empty(0, dtype=np.int64)
+    return Triangles(points.reshape(-1, 3), faces.reshape(-1, 3))
 
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
@@ -68,28 +74,22 @@ def joined(parts: Iterable[Triangles]) -> Triangles:
     return Triangles(np.concatenate(points), np.concatenate(faces))
 
 
-def check_count(triangles: int) -> None:
-    """Raise MeshError for more triangles than a mesh may have."""
-    if triangles > MAX_TRIANGLES:
-        raise MeshError(f"it has more than {MAX_TRIANGLES:,} triangles")
-
-
-def import_form(mesh: Triangles, scale: Vector) -> tuple[Triangles, Facts]:
-    """A mesh in metres, and what models need of its shape: `bounds` and `hull` (see `support_points`).
+def import_form(mesh: Triangles, scale: Vector, with_hull: bool = True) -> tuple[Triangles, Facts]:
+    """A mesh in metres, and what models need of its shape: `bounds`, and perhaps `hull` (see `support_points`).
 
     Raises MeshError for a mesh without triangles, and for numbers that an STL file can't hold.
     """
     if not len(mesh.faces):
-        raise MeshError("it has no triangles")
+        raise MeshError(NO_TRIANGLES)
     if not np.isfinite(bounds(_used_points(mesh))).all():
-        raise MeshError("it has coordinates that aren't finite numbers")
+        raise MeshError(NOT_FINITE)
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = placed(mesh, np.diag((*scale, 1.0)))
     points = _used_points(scaled)
     extent = bounds(points)
-    if not (np.abs(extent) <= np.finfo(np.float32).max).all():
-        raise MeshError("its coordinates are too large for single precision")
-    return scaled, {"bounds": extent, "hull": support_points(points)}
+    if not (np.abs(extent) <= LARGEST).all():
+        raise MeshError(TOO_LARGE)
+    return scaled, {"bounds": extent, **({"hull": support_points(points)} if with_hull else {})}
 
 
 def _used_points(mesh: Triangles) -> Array:

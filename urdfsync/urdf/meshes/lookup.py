@@ -19,6 +19,8 @@ from urdfsync.domain import Dependency, Lookup
 from urdfsync.urdf.robot import Geometry, Mesh, Robot, Vector
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
+BOUNDS, HULL = "bounds", "hull"
+"""Names of facts: all models need the first one, ground contacts the other as well."""
 AS_IS = (".stl", ".obj")
 """Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
 
@@ -66,8 +68,12 @@ def target(mesh: Mesh) -> str:
     return f"Resources/{stem}_{digits}{suffix(mesh.filename) if as_is(mesh) else '.stl'}"
 
 
-def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tuple[Dependency, ...]:
+def dependencies(
+    robot: Robot, lookup: Lookup, lines: Mapping[str, int], *, touches: bool = True
+) -> tuple[Dependency, ...]:
     """The mesh files of all visuals and collisions, each URI and scale once, in the order of their keys.
+
+    Those of collisions need outermost points if the robot touches the ground.
 
     `lines` holds the line of each element by its path, for example `link wheel / visual 2`, as reading
     the source gave it.
@@ -76,6 +82,8 @@ def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tupl
     for path, shape in _shapes(robot):
         if isinstance(shape, Mesh):
             found.setdefault(key(shape), (shape, []))[1].append(_line(f"{path} / geometry / mesh", lines))
+    collisions = [shape.geometry for link in robot.links for shape in link.collisions] if touches else []
+    touching = {key(shape) for shape in collisions if isinstance(shape, Mesh)}
     return tuple(
         Dependency(
             name,
@@ -84,6 +92,7 @@ def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int]) -> tupl
             target(mesh),
             "mesh",
             min(filter(None, at), default=0),
+            facts=(BOUNDS, HULL) if name in touching else (BOUNDS,),
         )
         for name, (mesh, at) in sorted(found.items())
     )

@@ -1,43 +1,84 @@
 """STL and OBJ, read strictly: a part of a mesh is no mesh.
 
 They are read here since Modelica tools draw them, so most packages have no others, and trimesh takes most of a second
-to load. Of trimesh's readings of OBJ, a relative index counts from the end of the file and not from its own line,
-index 0 is the last vertex, and a comment after a number is an error.
+to load. numpy is not loaded either: that takes a quarter of a first build of a small robot, and most need bounds alone.
+Of trimesh's readings of OBJ, a relative index counts from the end of the file and not from its own line, index 0 is the
+last vertex, and a comment after a number is an error.
 """
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
-from collections.abc import Callable
+import struct
+from array import array
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeVar
 
-import numpy as np
+from urdfsync.urdf.meshes.errors import NO_TRIANGLES, NOT_FINITE, TOO_LARGE, MeshError, damaged
 
-from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
-from urdfsync.urdf.meshes.geometry import FACET, Indices, Triangles, check_count
+MAX_TRIANGLES = 1_000_000
+"""Of one mesh, in all its places; so many have 50 MB as binary STL."""
+LARGEST = 3.4028234663852886e38
+"""The largest number in single precision, which STL has."""
+
+_Number = TypeVar("_Number", int, float)
 
 _AXES = 3
 _TRIANGLE = 3
+_FACET = struct.Struct("<12x9f2x")  # the corners between a normal and an attribute
 _STL_COUNT = slice(80, 84)
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)  # the name may be any words
 _STL_VERTEX = re.compile(rb"\bvertex\s+(\S+\s+\S+\s+\S+)", re.IGNORECASE)
 
 
-def read_stl(content: bytes) -> Triangles:
+class Corners(NamedTuple):
+    """Triangles as plain arrays."""
+
+    points: array[float]
+    """x, y and z of each point in turn."""
+    faces: array[int]
+    """Three indices of points for each triangle."""
+
+
+def bounds(mesh: Corners) -> list[list[float]]:
+    """Least and greatest coordinates of used points: `[[x, y, z], [x, y, z]]`. Raises MeshError if unfit for STL."""
+    if not mesh.faces:
+        raise MeshError(NO_TRIANGLES)
+    used = set(mesh.faces)
+    axes: list[Sequence[float]] = [mesh.points[axis::_AXES] for axis in range(_AXES)]
+    if len(used) < len(axes[0]):
+        axes = [[axis[index] for index in used] for axis in axes]
+    if not all(all(map(math.isfinite, axis)) for axis in axes):
+        raise MeshError(NOT_FINITE)
+    found = [list(map(min, axes)), list(map(max, axes))]
+    if max(map(abs, itertools.chain(*found))) > LARGEST:
+        raise MeshError(TOO_LARGE)
+    return found
+
+
+def check_count(triangles: int) -> None:
+    """Raise MeshError for more triangles than a mesh may have."""
+    if triangles > MAX_TRIANGLES:
+        raise MeshError(f"it has more than {MAX_TRIANGLES:,} triangles")
+
+
+def read_stl(content: bytes) -> Corners:
     """Read a binary or a text file. Raises MeshError."""
     announced = int.from_bytes(content[_STL_COUNT], "little")
-    if len(content) == _STL_COUNT.stop + announced * FACET.itemsize:  # some of these begin with `solid`, too
+    if len(content) == _STL_COUNT.stop + announced * _FACET.size:  # some of these begin with `solid`, too
         check_count(announced)
-        points = np.frombuffer(content, FACET, offset=_STL_COUNT.stop)["corners"].reshape(-1, _AXES)
-        with np.errstate(invalid="ignore"):  # numbers that are none are found later
-            return _separate(points.astype(np.float64))
+        facets = _FACET.iter_unpack(content[_STL_COUNT.stop :])
+        return _separate(array("d", itertools.chain.from_iterable(facets)))
     if content.lstrip()[:5].lower() == b"solid":
         return _read_ascii_stl(content)
     if not announced:
-        raise MeshError("it has no triangles")
+        raise MeshError(NO_TRIANGLES)
     raise MeshError(f"its length doesn't fit the {announced} triangles that it announces")
 
 
-def _read_ascii_stl(content: bytes) -> Triangles:
+def _read_ascii_stl(content: bytes) -> Corners:
     facets = _SOLID_LINE.sub(b"", content).lower()
     check_count(facets.count(b"endfacet"))
     vertices = _STL_VERTEX.findall(facets)
@@ -45,16 +86,15 @@ def _read_ascii_stl(content: bytes) -> Triangles:
     is_complete = facets.count(b"facet") == 2 * ends and _TRIANGLE * ends == len(vertices) == facets.count(b"vertex")
     if not is_complete or not content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
         raise MeshError("its end is missing")
-    with damage_is_an_error():
-        return _separate(np.fromstring(b" ".join(vertices), sep=" ").reshape(len(vertices), _AXES))
+    return _separate(_numbers(float, b" ".join(vertices)))
 
 
-def _separate(points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Triangles:
+def _separate(points: array[float]) -> Corners:
     """Triangles each of which has points of its own, in their order."""
-    return Triangles(points, np.arange(len(points)).reshape(-1, _TRIANGLE))
+    return Corners(points, array("q", range(len(points) // _AXES)))
 
 
-def read_obj(content: bytes) -> Triangles:
+def read_obj(content: bytes) -> Corners:
     """Read positions and faces. Raises MeshError."""
     coordinates, corners = bytearray(), bytearray()
     vertices, triangles = 0, 0
@@ -72,32 +112,39 @@ def read_obj(content: bytes) -> Triangles:
                 check_count(triangles)
                 corners += b" ".join(words[1:]) + b" "
                 faces.append((len(words) - 1, vertices))
-    with damage_is_an_error():
-        points = np.fromstring(bytes(coordinates), sep=" ").reshape(vertices, _AXES)
-        indices = np.fromstring(re.sub(rb"/\S*", b"", corners), dtype=np.int64, sep=" ")
-    return Triangles(points, _from_zero(indices, np.array(faces, dtype=np.int64).reshape(-1, 2), vertices))
+    points = _numbers(float, coordinates)
+    indices = _numbers(int, re.sub(rb"/\S*", b"", corners))
+    return Corners(points, _from_zero(indices, faces, vertices))
 
 
-def _from_zero(indices: Indices, faces: Indices, vertices: int) -> Indices:
-    """Triangles (n × 3) as indices that count from 0; OBJ counts from 1, or back from the last vertex so far."""
-    sizes, counts = faces.T
-    if len(indices) != sizes.sum():
+def _from_zero(indices: array[int], faces: Sequence[tuple[int, int]], vertices: int) -> array[int]:
+    """Triangles as indices that count from 0; OBJ counts from 1, or back from the last vertex so far."""
+    if len(indices) != sum(size for size, _ in faces):
         raise MeshError("one of its faces refers to no vertex")
-    absolute = np.where(indices > 0, indices - 1, indices + np.repeat(counts, sizes))
-    unknown = (indices == 0) | (absolute < 0) | (absolute >= vertices)
-    if unknown.any():
-        raise MeshError(f"one of its faces refers to vertex {indices[unknown][0]} of {vertices}")
-    triangles: Indices = absolute[_fans(sizes)]
-    return triangles
+    if indices and len(indices) == _TRIANGLE * len(faces) and min(indices) > 0 and max(indices) <= vertices:
+        return array("q", [index - 1 for index in indices])  # as nearly all files: large ones take a second less
+    found, begin = array("q"), 0
+    for size, so_far in faces:
+        corners = []
+        for index in indices[begin : begin + size]:
+            corners.append(index - 1 if index > 0 else so_far + index)
+            if index == 0 or not 0 <= corners[-1] < vertices:
+                raise MeshError(f"one of its faces refers to vertex {index} of {vertices}")
+        for second, third in itertools.pairwise(corners[1:]):
+            found.extend((corners[0], second, third))
+        begin += size
+    return found
 
 
-def _fans(sizes: Indices) -> Indices:
-    """Triangles (n × 3) of polygons that have `sizes` corners each, as indices into the row of all their corners."""
-    counts = sizes - (_TRIANGLE - 1)
-    first = np.repeat(np.cumsum(sizes) - sizes, counts)
-    step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    return np.column_stack((first, first + step + 1, first + step + 2))
+def _numbers(kind: type[_Number], words: bytes | bytearray) -> array[_Number]:
+    """Numbers of a kind between blanks. Raises MeshError."""
+    if b"_" in words:  # which Python reads in numbers
+        raise MeshError("it is damaged or of another format: `_` is in one of its numbers")
+    try:
+        return array("d" if kind is float else "q", map(kind, words.split()))
+    except (OverflowError, ValueError) as error:
+        raise damaged(error) from error
 
 
-PLAIN: dict[str, Callable[[bytes], Triangles]] = {".stl": read_stl, ".obj": read_obj}
+PLAIN: dict[str, Callable[[bytes], Corners]] = {".stl": read_stl, ".obj": read_obj}
 """The readers by suffix."""

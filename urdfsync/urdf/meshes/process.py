@@ -39,6 +39,7 @@ class Request(msgspec.Struct, frozen=True):
     suffix: str
     scale: Vector
     size: int
+    with_hull: bool
     seconds: float
     """CPU time that reading it may take."""
 
@@ -64,7 +65,7 @@ class MeshProcess:
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()  # workers of a cluster are threads
 
-    def read(self, suffix: str, scale: Vector, content: bytes) -> tuple[bytes, Facts]:
+    def read(self, suffix: str, scale: Vector, content: bytes, with_hull: bool = True) -> tuple[bytes, Facts]:
         """Return a mesh as binary STL, with its facts. Raises MeshError, or OSError if no process can be started."""
         with self._lock:
             process = self._process = self._process or self._start()
@@ -72,7 +73,7 @@ class MeshProcess:
             timer = threading.Timer(WALL_SECONDS, process.kill)
             timer.start()
             try:
-                answer, stl = _ask(process, Request(suffix, scale, len(content), CPU_SECONDS), content)
+                answer, stl = _ask(process, Request(suffix, scale, len(content), with_hull, CPU_SECONDS), content)
                 if answer.is_last:
                     self.end()
             except (OSError, ValueError) as error:  # it ends, or the answer is none

@@ -15,7 +15,7 @@ import msgspec
 
 from urdfsync.processes import reserve_stdout
 from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
-from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form
+from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form, triangles
 from urdfsync.urdf.meshes.plain import PLAIN
 from urdfsync.urdf.meshes.process import MEMORY, OUT_OF_MEMORY, Answer, Request
 
@@ -48,7 +48,7 @@ def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
     try:
         read = reader(request.suffix)
         with _limits(request.seconds):
-            mesh, facts = import_form(read(content), request.scale)
+            mesh, facts = import_form(read(content), request.scale, request.with_hull)
             stl = binary_stl(mesh)
     except MeshError as error:
         return Answer(problem=str(error)), b""
@@ -65,7 +65,7 @@ def _allocated() -> int:
 def reader(suffix: str) -> Callable[[bytes], Triangles]:
     """Return the reader of a format. Only the library that it needs is loaded: trimesh takes 0.5 s."""
     if suffix in PLAIN:
-        return PLAIN[suffix]
+        return lambda content: triangles(PLAIN[suffix](content))
     with damage_is_an_error():
         if suffix == ".dae":
             from urdfsync.urdf.meshes.collada import read_collada
