@@ -49,7 +49,7 @@ _FEW = 2
 _MAX_LENGTH = 100
 
 
-class Line(NamedTuple):
+class LogLine(NamedTuple):
     """One line, and whether it belongs on the error stream."""
 
     text: StyledLine
@@ -65,7 +65,7 @@ class EventLog:
         self._told: dict[tuple[str, str], Collection[Hashable]] = {}
         self._column = 0
 
-    def lines(self, event: events.Event, clock: str) -> Iterator[Line]:
+    def lines(self, event: events.Event, clock: str) -> Iterator[LogLine]:
         """Yield the lines of an event that happened at this time of day."""
         match event:
             case events.Started(file, robots, again):
@@ -90,7 +90,7 @@ class EventLog:
             case _:
                 pass
 
-    def _built(self, event: events.Built, clock: str) -> Iterator[Line]:
+    def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
         """Yield the line of a build that did or found anything, below its new findings and above its new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
         # a build with nothing to do reads no source and so has other findings: it is compared with the last such one
@@ -118,11 +118,11 @@ class EventLog:
             hidden = frozenset() if verbose else CONFLICTS | (frozenset() if kept else _KEPT)
             actions = Actions(one for one in result.actions if one.kind not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
-            yield from map(Line, result_lines(seen, verbose=verbose))
+            yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
-            yield from map(Line, conflict_lines(result, self._console, self._screen))
+            yield from map(LogLine, conflict_lines(result, self._console, self._screen))
 
-    def _checked(self, event: events.CheckDone, clock: str) -> Iterator[Line]:
+    def _checked(self, event: events.CheckDone, clock: str) -> Iterator[LogLine]:
         """Yield the line of a check, and its findings unless they are those of the last one."""
         wrong = event.checked is Checked.WRONG
         keys = frozenset((one.code, one.message, one.file) for one in event.diagnostics)
@@ -139,14 +139,14 @@ class EventLog:
         self._told[robot, topic] = found
         return bool(found) and found != before
 
-    def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[Line]:
+    def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[LogLine]:
         """Yield findings as all commands show them; with a time of day if there is no line of a build above them."""
         for found in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
-            yield Line(StyledLine(((f"{clock}  " if clock else "", "dim"), *found.parts)), error=True)
+            yield LogLine(StyledLine(((f"{clock}  " if clock else "", "dim"), *found.parts)), error=True)
 
-    def _line(self, clock: str, robot: str, said: str, style: str = "", *, error: bool = False) -> Line:
+    def _line(self, clock: str, robot: str, said: str, style: str = "", *, error: bool = False) -> LogLine:
         name = f"{robot:<{self._column}}  " if robot else ""
-        return Line(line((f"{clock}  ", "dim"), (name, "bold"), (said, style)), error)
+        return LogLine(line((f"{clock}  ", "dim"), (name, "bold"), (said, style)), error)
 
 
 def _changes(result: Result) -> list[str]:
