@@ -37,14 +37,14 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
 
 def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     """Return the robot's templates: those in its own folder hide the domain's. Raises ConfigError for a bad folder."""
-    folders = [robot.templates] if robot.templates else []
-    for folder in folders:
+    folders, folder = [templates_folder(domain)], robot.templates
+    if folder is not None:
         if not is_folder(folder):
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
         _check_templates(folder)
-    folders.append(templates_folder(domain))
+        folders.insert(0, folder)
     return Templates(tuple(folders), templates_digest(folders))
 
 
