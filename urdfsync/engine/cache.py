@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from urdfsync import uptodate
 from urdfsync.dependencies import NO_STAT
-from urdfsync.engine.package_files import FileState, FileStates
+from urdfsync.engine.package_files import FileStates
 
 _FEW = 4
 """Hashing so few files again is quicker than reading the file system's clock."""
@@ -55,12 +55,8 @@ class Cache:
         if len(racy) > _FEW and (clock := read_clock()):
             elapsed = uptodate.elapsed_since(begin)
             racy = {path: state for path, state in racy.items() if uptodate.is_racy(state.stat, clock, elapsed)}
-        self._states[robot] = {**states, **{path: _without_stat(state) for path, state in racy.items()}}
+        self._states[robot] = {**states, **{path: state._replace(stat=NO_STAT) for path, state in racy.items()}}
 
     def forget_others(self, robots: Collection[str]) -> None:
         """Drop the file states of all other robots."""
         self._states = {robot: states for robot, states in self._states.items() if robot in robots}
-
-
-def _without_stat(state: FileState) -> FileState:
-    return state._replace(stat=NO_STAT)

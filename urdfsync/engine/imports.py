@@ -270,15 +270,12 @@ def find_dependencies(
     if all(map(_is_found, found)):
         return found
     guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
-    return [one if _is_found(one) else _guessed(guess) for one, guess in zip(found, guesses, strict=True)]
+    guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in guesses]
+    return [one if _is_found(one) else guess for one, guess in zip(found, guesses, strict=True)]
 
 
 def _is_found(dependency: Dependency) -> bool:
     return any(map(ros_packages.is_visible_file, dependency.candidates))
-
-
-def _guessed(dependency: Dependency) -> Dependency:
-    return msgspec.structs.replace(dependency, guessed=_is_found(dependency))
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:

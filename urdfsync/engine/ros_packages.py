@@ -65,7 +65,8 @@ def is_visible_file(path: Path) -> bool:
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
-    for current, folders, files in os.walk(top, onerror=_passed_over):
+    # what is not there, or can't be read, may change
+    for current, folders, files in os.walk(top, onerror=lambda error: depend_on(error.filename)):
         path = Path(current)
         depend_on(path)
         for mark in _MARKS.intersection(folders):
@@ -79,11 +80,6 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
         elif len(path.relative_to(top).parts) >= _DEPTH:
             folders.clear()
         folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
-
-
-def _passed_over(error: OSError) -> None:
-    """A folder is not there, or can't be read: that may change."""
-    depend_on(error.filename)
 
 
 def _package_name(folder: Path) -> str | None:

@@ -79,12 +79,13 @@ def decide(
     """
     moves = moves or {}
     bases = _bases_of_moves(recorded, moves)
+    # what is at the old and the new places of the files that move: ours is what urdfsync wrote at that very place
     ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
     hashes = {path: mine for path, mine in ends.items() if mine != CLASS_FOLDER}
     ours = {path: hash_ for path, hash_ in hashes.items() if path in recorded and recorded[path].written_hash == hash_}
     taken = ends.keys() - ours.keys()
     edited = {new: old for new, old in moves.items() if bases[new] and hashes.get(old) not in (None, bases[new])}
-    # a file that can't move blocks the one that would take its place, and so on
+    # an edited file that can't move blocks the one that would take its place, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
         edited = {new: old for new, old in edited.items() if new not in blocked}
     moved_away = set(edited.values())
