@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from urdfsync.check import libraries
 from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import ANYTHING, OPAQUE, Element, Missing, Node, Scopes
+from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Node, Scopes
 from urdfsync.modelica.syntax import Name
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
@@ -104,27 +103,16 @@ PLANT, USER = MARKED_PLANT.replace("~", ""), MARKED_USER.replace("~", "")
 """Without the marks, which stand before each use of a name."""
 
 
-class Texts:
-    """Sources from texts with one class each."""
-
-    def __init__(self, *texts: str) -> None:
-        found = [one for text in texts for one in parse(text).classes]
-        names = [(str(one.name),) for one in found]
-        self.classes: dict[tuple[str, ...], Node] = {
-            name: Node(one, name, f"{one.name}.mo") for name, one in zip(names, found, strict=True)
-        }
-
-    def stored(self, name: tuple[str, ...]) -> Node | None:
-        return OPAQUE if name == ("Modelica",) else self.classes.get(name)
-
-    def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
-        return [other[-1] for other in self.classes if other[:-1] == name]
+def classes_in(*texts: str) -> StoredClasses:
+    """Classes in texts, beside a library that can't be read."""
+    files = {Path(f"/nowhere/{number}.mo"): text.encode() for number, text in enumerate(texts)}
+    return StoredClasses("None", Path("None"), {}, files, lambda name: Path("Gone.mo") if name == "Modelica" else None)
 
 
 def found(*texts: str) -> list[Unresolved]:
-    sources = Texts(*texts)
+    sources = classes_in(*texts)
     scopes = Scopes(sources)
-    nodes = (scopes.node(name) for name in sources.classes)
+    nodes = (scopes.node(name) for name in sources.users)
     return [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)]
 
 
@@ -221,7 +209,7 @@ def test_an_element_that_is_redeclared_is_one_of_a_base() -> None:
 
 
 def test_what_a_name_means() -> None:
-    scopes = Scopes(Texts(PLANT, USER))
+    scopes = Scopes(classes_in(PLANT, USER))
     mine = scopes.node(("User", "MyTest"))
     assert isinstance(mine, Node)
     boom = scopes.lookup(Name(("crane", "boom"), 1), mine)

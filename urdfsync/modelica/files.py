@@ -25,7 +25,7 @@ _NOT_CLASSES = "Resources"
 
 
 class StoredClasses:
-    """The `Sources` of one robot's package, see `modelica.scopes`; files are known by their absolute paths."""
+    """The classes that are stored in files, for one robot's package; files are known by their absolute paths."""
 
     def __init__(
         self,
@@ -66,7 +66,7 @@ class StoredClasses:
                 self.users.setdefault(name, Node(one, name, str(file)))
 
     def stored(self, name: ClassName) -> Node | None:
-        """Return the class with this full name, see `Sources`."""
+        """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
         if name in self.users:
             return self.users[name]
         if name in self.own:
@@ -82,7 +82,7 @@ class StoredClasses:
             return OPAQUE
 
     def names_in(self, name: ClassName) -> Iterable[str]:
-        """Return the names of the classes that are stored below a package, see `Sources`."""
+        """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
         found = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
         path = self._file(name) if name and name not in self.own else None
         if path is not None and path.name == _PACKAGE:

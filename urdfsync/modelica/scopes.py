@@ -10,12 +10,15 @@ from __future__ import annotations
 import contextlib
 import functools
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import msgspec
 
 from urdfsync.modelica.names import FUNCTIONS
 from urdfsync.modelica.syntax import Class, Component, Extends, Modifier, Name
+
+if TYPE_CHECKING:
+    from urdfsync.modelica.files import StoredClasses  # which reads classes for their scopes
 
 _NUMBER = "value quantity min max start fixed"
 _PREDEFINED = {
@@ -34,18 +37,6 @@ _ICONS = ("Modelica", "Icons")
 """The package of the Modelica Standard Library whose classes are pictures: there is nothing to inherit."""
 _DEEPEST = 40
 """So many lookups may lead to each other: more of them go in circles."""
-
-
-class Sources(Protocol):
-    """The classes that are stored in files."""
-
-    def stored(self, name: tuple[str, ...]) -> Node | None:
-        """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
-        ...
-
-    def names_in(self, name: tuple[str, ...]) -> Iterable[str]:
-        """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
-        ...
 
 
 class Node(msgspec.Struct, eq=False, dict=True):
@@ -125,7 +116,7 @@ _TYPES = {name: _predefined(name, attributes.split()) for name, attributes in _P
 class Scopes:
     """Resolves names, and keeps the classes that it has read."""
 
-    def __init__(self, sources: Sources) -> None:
+    def __init__(self, sources: StoredClasses) -> None:
         self._sources = sources
         self._tops: dict[str, Node | None] = {}
         self._resolving: frozenset[Node] = frozenset()
