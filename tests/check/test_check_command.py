@@ -109,19 +109,11 @@ def test_an_interruption_leaves_what_was_found(
     assert "[interrupted]" in streams.err
 
 
-@pytest.mark.parametrize("arguments", [
-    ["--jobs", "0"],
-    ["--timeout", "0"],
-    ["--timeout", "soon"],
-    ["--memory", "inf"],
-    ["--memory", "nan"],
-    ["--tool", "dymola"],
-    ["ladder", "--clear-cache"],
-    ["--robot", "ladder", "--clear-cache"],
-    ["--clear-cache", "--physics"],
-    ["--clear-cache", "--timeout", "5"],
-    ["--clear-cache", "--wait", "5"],
-])  # fmt: skip
+BAD = """--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola; ladder --clear-cache;
+    --robot ladder --clear-cache; --clear-cache --physics; --clear-cache --timeout 5; --clear-cache --wait 5"""
+
+
+@pytest.mark.parametrize("arguments", [words.split() for words in BAD.split(";")], ids=" ".join)
 def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> None:
     assert cli.main(["check", *arguments]) == 2
     streams = capsys.readouterr()

@@ -17,8 +17,7 @@ COMMAND = [sys.executable, "-m", "urdfsync", "check", "--json"]
 MEGABYTE = 1e6
 
 ARM = robot(
-    *links(base=3.0, arm=2.0),
-    joint("shoulder", "continuous", "base", "arm", axis="0 1 0", inside=[dynamics(0.5, 0.2)]),
+    *links(base=3.0, arm=2.0), joint("shoulder", "continuous", "base", "arm", axis="0 1 0", inside=[dynamics(0.5, 0.2)])
 )
 
 pytestmark = pytest.mark.slow

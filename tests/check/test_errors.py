@@ -24,10 +24,7 @@ SHADOW = f"variability violation: sphereDiameter has parameter variability but b
 
 
 def explain(
-    text: str,
-    edits: Mapping[str, str | bytes | None] | None = None,
-    model: str = "",
-    compiler: Compiler = rumoca,
+    text: str, edits: Mapping[str, str | bytes | None] | None = None, model: str = "", compiler: Compiler = rumoca
 ) -> list[Diagnostic]:
     """The findings about the package with some edits."""
     return explain_problem(text, compiler.complaints(text), arm.package(edits), model)

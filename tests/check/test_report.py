@@ -61,11 +61,7 @@ INCOMPLETE = msgspec.structs.replace(
 )
 WRONG = msgspec.structs.replace(RIGHT, robot="picker", notes=(), deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
 FAILED = CheckResult(
-    "cart",
-    "Cart",
-    gaps=("nothing was compiled, since the files are not in order",),
-    diagnostics=(BROKEN,),
-    seconds=0.9,
+    "cart", "Cart", gaps=("nothing was compiled, since the files are not in order",), diagnostics=(BROKEN,), seconds=0.9
 )
 ABSENT = msgspec.structs.replace(RIGHT, robot="new", notes=(), built=False, in_step=False)
 STALE = msgspec.structs.replace(ABSENT, robot="hoist", built=True)

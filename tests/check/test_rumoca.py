@@ -12,13 +12,7 @@ import pytest
 from urdfsync import processes
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import MISSING, require, run_job
-from urdfsync.check.compilers.compiler import (
-    CompileJob,
-    CompilerError,
-    CompileResult,
-    CompileTask,
-    Simulation,
-)
+from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileResult, CompileTask, Simulation
 from urdfsync.diagnostics import Diagnostic
 
 DECAY = """

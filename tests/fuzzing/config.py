@@ -14,18 +14,15 @@ from random import Random
 from typing import Any
 
 import tomli_w
-from support.workplace import WATCH, Fault, Workplace, changes, contents
+from support.workplace import Fault, Workplace, changes, contents
 
+from fuzzing import state
 from fuzzing.cases import run_cases
 from fuzzing.state import commit, edit, require_edits
 from fuzzing.urdf import damaged, small_robot
 
 CONFIGURATION = '[defaults]\ncross_check = false\n[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
-COMMANDS = (
-    *(["build"], ["build"], ["build", "--full"], ["build", "--check"], ["build", "--dry-run"], ["build", "--svg"]),
-    *(["status"], ["status", "--json"], ["diff"], ["hook", "check"], ["hook", "build"], ["resolve", "--all", "--keep"]),
-    *(["resolve", "--all", "--merge"], ["build", "bot"], ["init", "bot.urdf"], WATCH),
-)
+COMMANDS = (*state.COMMANDS, ["status", "--json"], ["build", "bot"], ["init", "bot.urdf"])
 NAMES = (
     *("bot", "Bot", "BOT", "other", "a.b", "-x", "..", ".", "", "con", "a/b", "é", "x" * 300, "\u202e", "a b"),
     *("__proto__", "\x1b[2J"),

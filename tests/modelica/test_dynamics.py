@@ -20,10 +20,7 @@ from urdfsync.domain import Target
 pytestmark = pytest.mark.slow
 
 CLOSE = 1e-12
-STILL = {
-    "stone": STONE,
-    "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head")),
-}
+STILL = {"stone": STONE, "statue": robot(link("base", 1.0), link("head", 2.0), joint("neck", "fixed", "base", "head"))}
 """No moving joint: tables and results are empty, but for poses."""
 CASES = {
     "gripper": (ROBOTS["gripper"], SAMPLED),

@@ -69,12 +69,7 @@ RANGES = {
 }
 """Smallest and largest position, and speed, that a joint and all that follow it allow, followers first."""
 
-WAYS = {
-    "lead": (0, 0.36),
-    "rail": (-0.15, -0.15 - 0.9 * 0.01 * 10 / np.pi),
-    "wheel": (0, 1),
-    "crank": (-0.5, -0.95),
-}
+WAYS = {"lead": (0, 0.36), "rail": (-0.15, -0.15 - 0.9 * 0.01 * 10 / np.pi), "wheel": (0, 1), "crank": (-0.5, -0.95)}
 """Beginning and turning point of each leader: 90 % of the roomier side, as far as speed and reach allow."""
 
 FAR = 1e50

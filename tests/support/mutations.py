@@ -8,11 +8,13 @@ from random import Random
 from typing import Any
 
 from support import robots
-from support.robots import NAMES, SCALAR
+from support.robots import NAMES
+from urdfsync.diagnostics import Severity
 from urdfsync.domain import Import, Version
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.robot import Mesh
-from urdfsync.urdf.snapshot import to_snapshot
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.validate import ADVICE, check
 
 Data = dict[str, Any]
 
@@ -23,11 +25,15 @@ def version(random: Random) -> Version:
 
 
 def mutated(old: Version, random: Random, count: int) -> Version:
-    """The version after `count` random changes, some of which may change nothing."""
+    """The version after up to `count` random changes; those that would make it wrong are not made."""
     snapshot: Data = copy.deepcopy(dict(old.snapshot))
     found = _imports(random) if random.random() < 0.2 else old.imports
     for _ in range(count):
-        random.choice(MUTATIONS)(snapshot, random)
+        changed = copy.deepcopy(snapshot)
+        random.choice(MUTATIONS)(changed, random)
+        findings = {finding.code for finding in check(from_snapshot(changed))}
+        if not any(ADVICE[code][0] is Severity.ERROR for code in findings):
+            snapshot = changed
     return Version(snapshot, found)
 
 
@@ -43,7 +49,7 @@ def driven_and_passive(random: Random) -> tuple[Version, Version]:
             joint["actuated"] = True
     snapshot: Data = copy.deepcopy(dict(old.snapshot))
     for _ in range(random.randint(1, 3)):
-        _toggle_drive(snapshot, random)
+        _toggle(snapshot, random, "actuated")
     return old, Version(snapshot, old.imports)
 
 
@@ -77,23 +83,6 @@ def _imports(random: Random) -> Mapping[str, Import]:
     return found
 
 
-def _leaders(snapshot: Data, follower: str) -> list[str]:
-    """Joints that a joint can follow without a cycle."""
-    joints = snapshot["joints"]
-
-    def chain(name: str) -> list[str]:
-        return [name, *(chain(joints[name]["mimic"]["joint"]) if "mimic" in joints[name] else [])]
-
-    return [
-        name for name in joints if name != follower and joints[name]["type"] in SCALAR and follower not in chain(name)
-    ]
-
-
-def _leaves(snapshot: Data) -> list[str]:
-    parents = {joint["parent"] for joint in snapshot["joints"].values()}
-    return [name for name, joint in snapshot["joints"].items() if joint["child"] not in parents]
-
-
 # Changes
 
 
@@ -125,20 +114,13 @@ def _take_over(snapshot: Data, random: Random) -> None:
         element |= {key: other[key]} if key in other else {}
 
 
-def _toggle_mimic(snapshot: Data, random: Random) -> None:
-    if snapshot["joints"]:
-        name, joint = random.choice(list(snapshot["joints"].items()))
-        if random.random() < 0.5:
-            joint.pop("mimic", None)
-        elif leaders := _leaders(snapshot, name):
-            joint["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
-
-
-def _toggle_drive(snapshot: Data, random: Random) -> None:
-    if snapshot["joints"]:
-        joint = random.choice(list(snapshot["joints"].values()))
-        if not joint.pop("actuated", False):
-            joint["actuated"] = True
+def _toggle(snapshot: Data, random: Random, key: str = "") -> None:
+    """A joint begins or ceases to follow another, or to be driven."""
+    if joints := snapshot["joints"]:
+        joint, key = random.choice(list(joints.values())), key or random.choice(("mimic", "mimic", "actuated"))
+        mimic = {"joint": random.choice(list(joints)), "multiplier": 2.0, "offset": 0.0}
+        if not joint.pop(key, None):
+            joint[key] = mimic if key == "mimic" else True
 
 
 def _change_shapes(snapshot: Data, random: Random) -> None:
@@ -167,30 +149,27 @@ def _rename(snapshot: Data, random: Random) -> None:
 
 def _add_leaf(snapshot: Data, random: Random) -> None:
     """A link and a joint of another robot, which is a leaf here."""
-    donor, links = _donor(random), list(snapshot["links"])
+    donor = _donor(random)
     for name, joint in donor["joints"].items():
-        if name not in snapshot["joints"] and joint["child"] not in links:
+        if name not in snapshot["joints"] and joint["child"] not in snapshot["links"]:
             joint.pop("mimic", None)
+            snapshot["joints"][name] = {**joint, "parent": random.choice(list(snapshot["links"]))}
             snapshot["links"][joint["child"]] = donor["links"][joint["child"]]
-            snapshot["joints"][name] = {**joint, "parent": random.choice(links)}
-            if random.random() < 0.4 and (leaders := _leaders(snapshot, name)):
-                snapshot["joints"][name]["mimic"] = {"joint": random.choice(leaders), "multiplier": 2.0, "offset": 0.0}
             return
 
 
 def _remove_leaf(snapshot: Data, random: Random) -> None:
-    if leaves := _leaves(snapshot):
-        joint = random.choice(leaves)
-        del snapshot["links"][snapshot["joints"].pop(joint)["child"]]
-        for other in snapshot["joints"].values():
-            if other.get("mimic", {}).get("joint") == joint:
+    if joints := snapshot["joints"]:
+        name = random.choice(list(joints))
+        del snapshot["links"][joints.pop(name)["child"]]
+        for other in joints.values():
+            if other.get("mimic", {}).get("joint") == name:
                 del other["mimic"]
 
 
-def _move_leaf(snapshot: Data, random: Random) -> None:
-    if leaves := _leaves(snapshot):
-        joint = snapshot["joints"][random.choice(leaves)]
-        joint["parent"] = random.choice([name for name in snapshot["links"] if name != joint["child"]])
+def _move(snapshot: Data, random: Random) -> None:
+    if joints := snapshot["joints"]:
+        random.choice(list(joints.values()))["parent"] = random.choice(list(snapshot["links"]))
 
 
 def _change_rest(snapshot: Data, random: Random) -> None:
@@ -201,6 +180,6 @@ def _change_rest(snapshot: Data, random: Random) -> None:
 
 
 MUTATIONS: tuple[Callable[[Data, Random], None], ...] = (
-    *(_change_number, _take_over, _take_over, _take_over, _toggle_mimic, _toggle_drive, _change_shapes, _change_shapes),
-    *(_rename, _add_leaf, _remove_leaf, _move_leaf, _change_rest),
+    *(_change_number, _take_over, _take_over, _take_over, _toggle, _toggle, _change_shapes, _change_shapes),
+    *(_rename, _add_leaf, _remove_leaf, _remove_leaf, _move, _change_rest),
 )

@@ -10,8 +10,8 @@ from urdfsync.domain import Target
 TARGET = Target("Plant.Nasty", "Nasty")
 
 NAMES = (
-    *("world", "../../evil", 'a"b', "end", "Links", "frame_a", "base link", "Gelenk_ä", "L_arm", "l_arm", "both", "_"),
-    *("-", "7", "time", "parameters", "Nasty", "nastyRun", "x\\", "a</code></html>", "*/ //", "'q'", "phi_start"),
+    *("world", "../../evil", 'a"b', "end", "Links", "frame_a", "base link", "Gelenk_ä", "L_arm", "l_arm", "both"),
+    *("_", "-", "7", "time", "parameters", "Nasty", "nastyRun", "x\\", "a</code></html>", "*/ //", "'q'", "phi_start"),
     *("modelica", "${prefix}link", "rotationalAxis[1]", "m", "con", "a" * 120),
 )
 """Links in a chain; each joint has the name of its child link."""

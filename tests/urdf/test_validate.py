@@ -212,6 +212,7 @@ SHAPES = """
     <cylinder radius="1" length="0"/>             is empty
     <capsule radius="1" length="0"/>
     <capsule radius="0" length="1"/>              is empty
+    <capsule radius="1" length="-1"/>             is empty
     <sphere radius="0"/>
     <sphere radius="-1"/>                         is empty
     <mesh filename="a.stl" scale="-1 1 1"/>

@@ -238,10 +238,7 @@ CASTERS = (
 WHEEL, MAST = (f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "mast"))
 
 
-PAIR = (
-    '<link name="a"/><link name="b"/>',
-    '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>',
-)
+PAIR = ('<link name="a"/><link name="b"/>', '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>')
 EYE = '<link name="b"><sensor name="camera"/></link>'
 
 

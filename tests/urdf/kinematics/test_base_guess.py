@@ -12,19 +12,7 @@ from urdfsync.urdf.kinematics.base_guess import guess_base
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 
-MOBILE = (
-    "atlas",
-    "jackal",
-    "qbot2e",
-    "robotisop2",
-    "turtlebot3",
-    "mir",
-    "upkie",
-    "sigmaban",
-    "stompy",
-    "gpr",
-    "spirit",
-)
+MOBILE = "atlas jackal qbot2e robotisop2 turtlebot3 mir upkie sigmaban stompy gpr spirit".split()
 STATIONARY = """
     robotiq openmanipulator open_manipulator qarm sawyer ur5e onrobot schunk al5d iiwa puma560 px100 irb rx160 m430ia
     m900ib so101 reachy_mini

@@ -14,21 +14,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from support.robots import SCALAR, robots, urdf
 
-from urdfsync.urdf.kinematics.poses import (
-    Pose,
-    link_poses,
-    own_range,
-    start_positions,
-)
+from urdfsync.urdf.kinematics.poses import Pose, link_poses, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import (
-    Joint,
-    JointType,
-    Limit,
-    Link,
-    Mimic,
-    Robot,
-)
+from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Mimic, Robot
 
 Array = NDArray[np.float64]
 NUMBERS = st.floats(-3, 3)

@@ -1,6 +1,6 @@
 """The reference against other ways to the same numbers: forward dynamics, and derivatives of momentum.
 
-That it moves and pushes as generated robots do, planar joints and followers too, tests/modelica/test_joints.py shows.
+That it moves and pushes as generated robots do, on planes too, tests/modelica/test_joints.py shows.
 """
 
 from __future__ import annotations
@@ -112,6 +112,18 @@ def test_a_state_is_found_again_from_the_frames_of_links() -> None:
     again = bot.reference.state(0.0, [motion.axis_course(joint) for joint in bot.axes], frames, in_world=True)
     assert again.q == pytest.approx(state.q, abs=1e-12)
     assert again.v == pytest.approx(state.v, abs=1e-12)
+
+
+def test_followers_move_with_their_leader_and_load_it() -> None:
+    bot = Bot(DRIVEN)
+    state, model = bot.state(), bot.reference.model
+    (shoulder, _) = [motion.axis_course(joint) for joint in bot.axes]
+    grip = model.joints[model.getJointId("grip")]
+    angle = np.arctan2(state.q[grip.idx_q + 1], state.q[grip.idx_q])
+    assert angle == pytest.approx(-1.5 * shoulder.position + 0.2)
+    efforts = pin.rnea(model, model.createData(), state.q, state.v, state.a)
+    both = efforts[model.joints[model.getJointId("shoulder")].idx_v] - 1.5 * efforts[grip.idx_v]
+    assert bot.instant().efforts[0] == pytest.approx(both)
 
 
 def test_free_joints_without_inertia_are_singular() -> None:
