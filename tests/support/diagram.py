@@ -45,7 +45,7 @@ _PREFIXES = "equation|protected|public|parameter|final|constant|inner|outer|repl
 _EXTENDS = re.compile(r"\s*extends\s+([\w.]+)")
 _DECLARATION = re.compile(rf"\s*(?:(?:{_PREFIXES})\s+)*([\w.]+)\s+(\w+)")
 _CONNECT = re.compile(r"\s*(?:equation\s+)?connect\((.*?)\)\s*annotation.*?points\s*=\s*(\{\{.*?\}\})", re.DOTALL)
-_SUBSCRIPTS = re.compile(r"\[(?:[^\[\]]|\[[^\[\]]*\])*\]")
+_SUBSCRIPTS = re.compile(r"\[[^\[\]]*\]")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -122,7 +122,10 @@ def read(text: str, find: Find) -> Diagram:
             components += base.components
             lines += base.lines
         elif found := _CONNECT.match(statement):
-            start, end = _SUBSCRIPTS.sub("", found[1]).replace(" ", "").split(",")  # a vector stands in one place
+            ends = found[1]
+            while "[" in ends:  # the innermost first; all connectors of a vector stand in one place
+                ends = _SUBSCRIPTS.sub("", ends)
+            start, end = map(str.strip, ends.split(","))
             lines.append(Line(start, end, tuple(_points(found[2]))))
         elif re.match(r"\s*annotation\b", statement):
             extent = _extent(statement, r"Diagram\(\s*coordinateSystem") or extent
