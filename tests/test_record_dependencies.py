@@ -80,17 +80,12 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
     assert str(folder / "later") in absent
 
 
-def test_a_build_that_renders_is_incomplete(folder: Path) -> None:
+@pytest.mark.parametrize("options", [["--full"], ["--jobs", "1"], ["--jobs", "2"]], ids=" ".join)
+def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: list[str]) -> None:
+    if options != ["--full"]:
+        (folder / "modelica/Leg/Leg.mo").unlink()
     with dependencies.record_dependencies() as found:
-        assert cli._main(["build", "--full", "--quiet"]) == 0
-    assert not found.complete
-
-
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_so_is_one_that_writes(folder: Path, jobs: int) -> None:
-    (folder / "modelica/Leg/Leg.mo").unlink()
-    with dependencies.record_dependencies() as found:
-        assert cli._main(["build", "--quiet", "--jobs", str(jobs)]) == 0
+        assert cli._main(["build", "--quiet", *options]) == 0
     assert not found.complete
 
 

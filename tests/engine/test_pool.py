@@ -128,8 +128,8 @@ def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monke
 
 def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run_all(jobs=1)
-    for number in range(COUNT):
-        edit(robots / f"n{number}.json", "220.5", "330")
+    for path in robots.glob("n*.json"):
+        path.write_text(path.read_text().replace("220.5", "330"))
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
     answer = pool.Pool._result
 

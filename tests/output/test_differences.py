@@ -80,6 +80,10 @@ def test_without_a_base_only_the_difference_is_known() -> None:
     assert shown(hunk) == [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"]
 
 
+def test_kinds_of_line_endings_are_no_difference() -> None:
+    assert three("a\nb\n", "a\r\nb\r\n", "a\nb\n") == []
+
+
 def versions(hunk: Hunk) -> dict[str, list[Line]]:
     """The lines of a hunk as each version has them; a side that changed nothing has those of base."""
     found: dict[str, list[Line]] = {"base": [], "mine": [], "generated": []}
