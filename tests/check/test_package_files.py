@@ -12,7 +12,7 @@ import pytest
 
 from urdfsync import config
 from urdfsync.check import package as files
-from urdfsync.check.package import PackageFiles
+from urdfsync.check.package import PackageTexts
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 
@@ -136,10 +136,10 @@ def test_a_package_is_written_where_its_name_says_without_byte_order_marks(plant
     assert (root / "package.mo").read_bytes() == b"package Plant"
 
 
-def package(**texts: str) -> PackageFiles:
+def package(**texts: str) -> PackageTexts:
     """A robot's package with these files, written with `_` for `/` and without `.mo`."""
     contents = {f"{name.replace('_', '/')}.mo": text.encode() for name, text in texts.items()}
-    return PackageFiles("Plant.Robots.Arm", Path("/out/Plant/Robots/Arm"), contents)
+    return PackageTexts("Plant.Robots.Arm", Path("/out/Plant/Robots/Arm"), contents)
 
 
 def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:

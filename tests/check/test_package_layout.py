@@ -10,7 +10,7 @@ import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
 
-from urdfsync.check.package import PackageFiles, package_texts
+from urdfsync.check.package import PackageTexts, package_texts
 from urdfsync.check.texts import check_around, check_layout
 from urdfsync.domain import Target
 
@@ -28,7 +28,7 @@ def findings(edits: Mapping[str, str | bytes | None]) -> list[str]:
 
 
 def test_the_library_with_its_examples_is_sound() -> None:
-    assert check_layout(PackageFiles("UrdfSync", LIBRARY, package_texts(LIBRARY))) == []
+    assert check_layout(PackageTexts("UrdfSync", LIBRARY, package_texts(LIBRARY))) == []
 
 
 SMALL = [file for file in corpus.robots() if 0 < corpus.moving_joints()[file] <= 3][:4] or [corpus.ABSENT]
@@ -38,7 +38,7 @@ SMALL = [file for file in corpus.robots() if 0 < corpus.moving_joints()[file] <=
 def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
     made = packages.generate(corpus / file, Target("Plant.Robots.Bot", "Bot"))
     texts = {path: text.encode() for path, text in made.texts.items()}
-    assert check_layout(PackageFiles("Plant.Robots.Bot", Path("Bot"), texts)) == []
+    assert check_layout(PackageTexts("Plant.Robots.Bot", Path("Bot"), texts)) == []
 
 
 @pytest.mark.parametrize("edits", [
@@ -176,9 +176,9 @@ def test_the_order_is_not_judged_by_a_package_file_that_does_not_parse() -> None
 
 def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
     texts = {"package.mo": b"within;\npackage Arm\nend Arm;\n"}
-    assert check_layout(PackageFiles("Arm", Path("Arm"), texts)) == []
-    assert check_layout(PackageFiles("Arm", Path("Arm"), {"package.mo": b"package Arm\nend Arm;\n"})) == []
-    (found,) = check_layout(PackageFiles("Plant.Arm", Path("Arm"), texts))
+    assert check_layout(PackageTexts("Arm", Path("Arm"), texts)) == []
+    assert check_layout(PackageTexts("Arm", Path("Arm"), {"package.mo": b"package Arm\nend Arm;\n"})) == []
+    (found,) = check_layout(PackageTexts("Plant.Arm", Path("Arm"), texts))
     assert found.code == "wrong-within"
 
 
@@ -190,7 +190,7 @@ def test_a_folder_of_classes_is_a_package() -> None:
     assert findings({"Joints/package.mo": None}) == [
         f"Joints: error: the folder holds classes, but no package.mo; {hint} [no-package-file]"
     ]
-    (found,) = check_layout(PackageFiles("Arm", Path("Arm"), {}))
+    (found,) = check_layout(PackageTexts("Arm", Path("Arm"), {}))
     assert (found.code, found.file) == ("no-package-file", "Arm")
 
 

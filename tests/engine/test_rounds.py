@@ -22,6 +22,7 @@ from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
     DesiredFile,
+    OnDisk,
     decide,
     hold,
     keep_needed,
@@ -129,7 +130,7 @@ class Project:
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
         return hold(actions, {path for path, (old, new) in texts.items() if numbers_only(old, new)}), merged
 
-    def _found(self, path: str) -> str | None:
+    def _found(self, path: str) -> OnDisk:
         if path in self.files:
             return self.files[path]
         return CLASS_FOLDER if path != PACKAGE and as_folder(path) in self.files else None

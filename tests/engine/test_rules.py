@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.engine.actions import WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.engine.rules import CLASS_FOLDER, DesiredFile, decide, decide_file, records_after
+from urdfsync.engine.rules import CLASS_FOLDER, ClassFolder, DesiredFile, OnDisk, decide, decide_file, records_after
 from urdfsync.state.record import Choice, FileRecord, RecordState
 
 
@@ -24,6 +24,7 @@ from urdfsync.state.record import Choice, FileRecord, RecordState
         pytest.param("old", None, "new", Kind.RESTORE, id="deleted by the user, source changed"),
         pytest.param("old", CLASS_FOLDER, "old", Kind.KEEP, id="made a package by the user"),
         pytest.param("old", CLASS_FOLDER, "new", Kind.CONFLICT, id="made a package by the user, source changed"),
+        pytest.param("folder", CLASS_FOLDER, "new", Kind.CONFLICT, id="the same with a word of a stranger's manifest"),
         pytest.param(None, CLASS_FOLDER, "new", Kind.UNOWNED, id="a package of the user in the way"),
         pytest.param("old", CLASS_FOLDER, None, Kind.ORPHAN, id="made a package by the user, no longer generated"),
         pytest.param("same", "same", "same", Kind.UNCHANGED, id="nothing to do"),
@@ -77,7 +78,7 @@ paths = st.sampled_from("abcde")
 @st.composite
 def situations(
     draw: st.DrawFn,
-) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, str | None], dict[str, str]]:
+) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], dict[str, str]]:
     """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
     recorded = {path: FileRecord("", Role.MODEL, base) for path, base in draw(st.dictionaries(paths, bases)).items()}
     hashes = st.sampled_from("uvw12")
@@ -109,7 +110,7 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
         if action.kind in WRITES and mine not in (None, base, action.generated):
             others = {old.base for old in recorded.values()}
             assert action.path in moved or (action.kind is Kind.UPDATE and mine in others), "moved by hand, unedited"
-        if mine == CLASS_FOLDER:
+        if isinstance(mine, ClassFolder):
             assert action.kind not in WRITES
 
 

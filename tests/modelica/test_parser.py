@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from urdfsync.merge.tokens import tokens
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.syntax import Class, Component, Declared, Extends, Import, Modifier, Name, declared
+from urdfsync.modelica.syntax import Class, Component, Declared, Extends, ImportClause, Modifier, Name, declared
 
 LIBRARY = Path(__file__).parents[2] / "modelica"
 STANDARD = Path.home() / ".openmodelica" / "libraries"
@@ -183,10 +183,10 @@ def test_classes_come_in_several_forms() -> None:
 def test_imports() -> None:
     found = class_in("import A.B;\n import C = A.D;\n import A.*;\n import A.{x, y = z};")
     assert tuple(found.imports) == (
-        Import(name(".A.B", 2), {"B": name(".A.B", 2)}),
-        Import(name(".A.D", 3), {"C": name(".A.D", 3)}),
-        Import(name(".A", 4)),
-        Import(name(".A", 5), {"x": name(".A.x", 5), "y": name(".A.z", 5)}),
+        ImportClause(name(".A.B", 2), {"B": name(".A.B", 2)}),
+        ImportClause(name(".A.D", 3), {"C": name(".A.D", 3)}),
+        ImportClause(name(".A", 4)),
+        ImportClause(name(".A", 5), {"x": name(".A.x", 5), "y": name(".A.z", 5)}),
     )
 
 

@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from urdfsync.check import libraries
+from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Node, Scopes
+from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Scopes
 from urdfsync.modelica.syntax import Name
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 

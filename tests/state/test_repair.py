@@ -20,7 +20,7 @@ from urdfsync.state import modelfile
 from urdfsync.state.manifest import DependencyRecord, Generator, Manifest, Source, dumps, text_hash
 from urdfsync.state.modelfile import ConversionFacts
 from urdfsync.state.record import FileRecord
-from urdfsync.state.repair import Recovered, rebuilt, recover, sides
+from urdfsync.state.repair import RecoveredState, rebuilt, recover, sides
 
 GRIPPER = "Arm/Links/Gripper.mo"
 BASE = "Arm/Links/Base.mo"
@@ -62,11 +62,11 @@ def conflict(ours: str, theirs: str, ancestor: str = "") -> str:
     return f"<<<<<<< HEAD\n{ours}{middle}=======\n{theirs}>>>>>>> feature\n"
 
 
-def merged_texts(ours: str, theirs: str, json: str | None = None) -> Recovered:
+def merged_texts(ours: str, theirs: str, json: str | None = None) -> RecoveredState:
     return recover(conflict(ours, theirs), json, "arm.toml", "arm.json")
 
 
-def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = None) -> Recovered:
+def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = None) -> RecoveredState:
     return merged_texts(dumps(ours), dumps(theirs), json)
 
 
@@ -188,7 +188,7 @@ def chosen(candidates: list[str], mine: str | None, generated: str | None) -> st
     """The base of a file with these recorded hashes on so many sides."""
     hashes: list[str | None] = [*candidates] or [None]
     sides = tuple(manifest({GRIPPER: base}) for base in hashes)
-    state = rebuilt(Recovered(sides, {}, frozenset(candidates)), {GRIPPER: mine}, {GRIPPER: generated or ""})
+    state = rebuilt(RecoveredState(sides, {}, frozenset(candidates)), {GRIPPER: mine}, {GRIPPER: generated or ""})
     assert state is not None
     return state.files[GRIPPER].base
 

@@ -13,7 +13,7 @@ import pytest
 from urdfsync.diagnostics import StateError
 from urdfsync.files import digest
 from urdfsync.state import file_operations
-from urdfsync.state.transaction import Change, Transactions, UnfinishedError
+from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError
 
 
 @pytest.fixture
@@ -23,16 +23,16 @@ def transactions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Transaction
 
 
 @pytest.fixture
-def changes(tmp_path: Path) -> list[Change]:
+def changes(tmp_path: Path) -> list[FileChange]:
     """A file to renew, one to delete, one to make, and one that records it."""
     for name in ("renewed.mo", "a/deleted.mo"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_bytes(name.encode())
     return [
-        Change(tmp_path / "renewed.mo", b"new", digest(b"renewed.mo")),
-        Change(tmp_path / "a/deleted.mo", None, digest(b"a/deleted.mo")),
-        Change(tmp_path / "b/c/made.mo", b"made", None),
-        Change(tmp_path / "state/robots/arm.json", b"record", None),
+        FileChange(tmp_path / "renewed.mo", b"new", digest(b"renewed.mo")),
+        FileChange(tmp_path / "a/deleted.mo", None, digest(b"a/deleted.mo")),
+        FileChange(tmp_path / "b/c/made.mo", b"made", None),
+        FileChange(tmp_path / "state/robots/arm.json", b"record", None),
     ]
 
 
@@ -52,7 +52,9 @@ OVERTAKEN = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots": b""}
 
 
 @pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
-def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+def test_a_file_gets_the_group_of_its_folder(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange]
+) -> None:
     for folder in (tmp_path, tmp_path / "a"):
         os.chown(folder, -1, 4321)
         folder.chmod(0o2775)
@@ -62,7 +64,7 @@ def test_a_file_gets_the_group_of_its_folder(tmp_path: Path, transactions: Trans
 
 @pytest.mark.parametrize("number", range(4))
 def test_a_file_that_is_not_as_planned_stays(
-    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int
 ) -> None:
     mine = changes[number].path
     mine.parent.mkdir(parents=True, exist_ok=True)
@@ -75,7 +77,7 @@ def test_a_file_that_is_not_as_planned_stays(
 
 @pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
 def test_a_moved_text_that_finds_its_place_taken_is_kept(
-    tmp_path: Path, transactions: Transactions, changes: list[Change], number: int
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int
 ) -> None:
     changes[number] = msgspec.structs.replace(changes[number], content=b"moved", is_moved=True)
     place = changes[number].path
@@ -91,16 +93,16 @@ def test_a_moved_text_that_finds_its_place_taken_is_kept(
     "place", ["notes.txt", ".git/a.mo", "x/.ssh/package.order", "Resources/a.stl", "state/stamp", "state/robots/a.txt"]
 )
 def test_only_files_of_packages_and_of_the_state_are_written(
-    tmp_path: Path, transactions: Transactions, changes: list[Change], place: str
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], place: str
 ) -> None:
     before = contents(tmp_path)
     with pytest.raises(StateError, match="is no file that a build writes"):
-        transactions.apply("arm", [*changes, Change(tmp_path / place, b"", None)])
+        transactions.apply("arm", [*changes, FileChange(tmp_path / place, b"", None)])
     assert contents(tmp_path) == before
 
 
 def test_what_cant_be_finished_is_finished_later(
-    tmp_path: Path, transactions: Transactions, changes: list[Change], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = file_operations.place
 
@@ -122,7 +124,7 @@ def test_what_cant_be_finished_is_finished_later(
     assert transactions.recover() == ()
 
 
-def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[Change]) -> None:
+def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[FileChange]) -> None:
     (tmp_path / "renewed.mo").unlink()
     (tmp_path / "renewed.mo").mkdir()
     assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from support.corpus import REPOSITORY
-from urdfsync.check.package import PackageFiles, package_texts
+from urdfsync.check.package import PackageTexts, package_texts
 
 FOLDER = REPOSITORY / "modelica" / "UrdfSync" / "Examples" / "SixAxisArm"
 NAME = "UrdfSync.Examples.SixAxisArm"
@@ -55,7 +55,7 @@ def line(words: str, path: str = ELBOW) -> int:
     return text(path)[: text(path).index(words)].count("\n") + 1
 
 
-def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = NAME) -> PackageFiles:
+def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = NAME) -> PackageTexts:
     """The package with some files edited, added, or, with None, deleted."""
     files: dict[str, bytes] = dict(texts())
     for path, content in (edits or {}).items():
@@ -63,4 +63,4 @@ def package(edits: Mapping[str, str | bytes | None] | None = None, name: str = N
         if content is not None:
             files[path] = content.encode() if isinstance(content, str) else content
     edited = [path for path in files if path in texts() and files[path] != texts()[path]]
-    return PackageFiles(name, DISK, files, OWNERS, edited)
+    return PackageTexts(name, DISK, files, OWNERS, edited)

@@ -23,7 +23,7 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     compile_task,
 )
-from urdfsync.check.package import CheckedPackage, PackageFiles, write_package
+from urdfsync.check.package import CheckedPackage, PackageTexts, write_package
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
     CheckOptions,
@@ -279,7 +279,7 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(problem: str, complaints: Sequence[Complaint], package: PackageFiles, model: str = "") -> list[Diagnostic]:
+def explain(problem: str, complaints: Sequence[Complaint], package: PackageTexts, model: str = "") -> list[Diagnostic]:
     """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
 
     `complaints` are what the text says, with the files that people know.
@@ -298,7 +298,7 @@ def explain(problem: str, complaints: Sequence[Complaint], package: PackageFiles
     return list(found)[:_MOST_DIAGNOSTICS]
 
 
-def _diagnostic(complaint: Complaint, package: PackageFiles, code: str) -> Diagnostic:
+def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
     """One complaint; where the compiler does not say where it is, perhaps in the edited file, if there is one."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"

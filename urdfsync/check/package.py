@@ -27,7 +27,7 @@ from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 
 
-class PackageFiles(msgspec.Struct, frozen=True):
+class PackageTexts(msgspec.Struct, frozen=True):
     """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
 
     name: str
@@ -85,7 +85,7 @@ class CheckedPackage(msgspec.Struct):
     """Whether it is out of step because edits and new texts contradict each other."""
     generated: Mapping[str, bytes]
     """The files of the package as it is generated, by their path below it."""
-    files: PackageFiles
+    files: PackageTexts
     """What is checked: the package on disk, or what a build would write."""
     around: Mapping[str, bytes]
     """See `files_around`."""
@@ -127,7 +127,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
-        files=PackageFiles(robot.target.package, robot.folder, texts, rendering.owners, edited),
+        files=PackageTexts(robot.target.package, robot.folder, texts, rendering.owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,

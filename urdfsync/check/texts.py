@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageFiles, class_path, holds_class
+from urdfsync.check.package import CheckedPackage, PackageTexts, class_path, holds_class
 from urdfsync.check.results import listed
 from urdfsync.config import find_own_library, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -34,7 +34,7 @@ _ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
-def check_layout(package: PackageFiles) -> list[Diagnostic]:
+def check_layout(package: PackageTexts) -> list[Diagnostic]:
     """All that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
 
     What is generated never gets one.
@@ -72,7 +72,7 @@ def check_layout(package: PackageFiles) -> list[Diagnostic]:
 
 
 def _check_folder(
-    package: PackageFiles, folder: PurePosixPath, stored: Mapping[PurePosixPath, Collection[str]], lines: dict[str, int]
+    package: PackageTexts, folder: PurePosixPath, stored: Mapping[PurePosixPath, Collection[str]], lines: dict[str, int]
 ) -> Iterator[Diagnostic]:
     """Check that a folder is a package, and that each name is only there once.
 
@@ -106,7 +106,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     """
     found: list[Diagnostic] = []
     for path in filter(holds_class, map(PurePosixPath, sorted(files))):
-        package = PackageFiles("", output, {str(path): files[str(path)]})
+        package = PackageTexts("", output, {str(path): files[str(path)]})
         ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
         said = check_file(package, str(path), ".".join(class_path(path).parts))[1]
@@ -114,7 +114,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     return found
 
 
-def check_file(package: PackageFiles, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
+def check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
     """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
     said: list[Diagnostic] = []
 
@@ -161,7 +161,7 @@ def check_file(package: PackageFiles, path: str, name: str) -> tuple[StoredText 
 
 
 def _check_order(
-    package: PackageFiles, folder: PurePosixPath, present: set[str], others: set[str] | None
+    package: PackageTexts, folder: PurePosixPath, present: set[str], others: set[str] | None
 ) -> Iterator[Diagnostic]:
     """Check whether a `package.order` names what is `present` in the folder, each once.
 
@@ -201,7 +201,7 @@ def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
     return None
 
 
-def _decoded(package: PackageFiles, path: str) -> str | Diagnostic:
+def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
     """The text of a file, or the finding that it is not UTF-8."""
     try:
         return normalised(package.texts[path]).decode()

@@ -14,7 +14,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.output.conflicts import NOT_HERE, Target, describe, find_conflicts, saved_texts, shown_path
+from urdfsync.output.conflicts import NOT_HERE, DisputedFile, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result, show_results
 from urdfsync.state.record import Choice
@@ -90,22 +90,22 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     return code
 
 
-def _find_targets(results: Sequence[Result], typed: Sequence[str], root: Path) -> tuple[list[Target], list[str]]:
+def _find_targets(results: Sequence[Result], typed: Sequence[str], root: Path) -> tuple[list[DisputedFile], list[str]]:
     """The files that paths mean, and the paths that mean none.
 
     A folder stands for all conflicts below it; a file that does not conflict has to be named itself. A file is known
     by where the user's is, and by where it is to go.
     """
-    by_place: dict[Path, list[Target]] = {}
+    by_place: dict[Path, list[DisputedFile]] = {}
     for target in find_conflicts(results):
         for file in _places(target.action, root):
             for place in (file, *file.parents):
                 by_place.setdefault(place, []).append(target)
-    for target in (Target(result, action) for result in results for action in result.actions.decided):
+    for target in (DisputedFile(result, action) for result in results for action in result.actions.decided):
         if target.action.kind is Kind.ORPHAN or target.is_decided:
             for file in _places(target.action, root):
                 by_place.setdefault(file, []).append(target)
-    chosen: dict[str, Target] = {}
+    chosen: dict[str, DisputedFile] = {}
     unknown = []
     for text in typed:
         path = Path(os.path.normpath(config.working_folder() / text))
@@ -122,7 +122,7 @@ def _places(action: Action, root: Path) -> set[Path]:
     return {Path(os.path.normpath(root / path)) for path in (action.origin or action.path, action.path)}
 
 
-def _problems(target: Target, choice: Choice) -> Iterator[Diagnostic]:
+def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
     if choice is Choice.TAKE and not target.action.at_hand:
         message = f"it can't be taken: {NOT_HERE}"

@@ -13,10 +13,11 @@ from urdfsync.domain import Target
 from urdfsync.engine.actions import Actions, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
+from urdfsync.modelica.classes import Type
 from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import Element, Scopes, Type
+from urdfsync.modelica.scopes import Element, Scopes
 from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 from urdfsync.state.record import RecordState

@@ -45,7 +45,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """What the last build recorded; None if there was none, or it is lost."""
     former_name: str | None
     """Name of the robot in the last build, if it has another one now."""
-    recovered: repair.Recovered | None
+    recovered: repair.RecoveredState | None
     """What `--repair` could read of a broken state."""
     templates: Templates
     content: bytes
@@ -220,7 +220,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             return self.recorded or self.heading("")
         generated = {key: file.hash for key, file in desired.items()}
         roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
-        mine = {key: self.files.on_disk(key, role) for key, role in roles.items()}
+        mine = {key: self.files.hash(key, role) for key, role in roles.items()}
         return repair.rebuilt(self.recovered, mine, generated) or self.heading("")
 
 
@@ -252,7 +252,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 def _load(
     store: Store, files: PackageFiles, robot: str, options: BuildOptions
-) -> tuple[State | None, repair.Recovered | None]:
+) -> tuple[State | None, repair.RecoveredState | None]:
     """Load the recorded state; with `--repair`, what is left of a broken one."""
     try:
         if options.cache is None:
@@ -263,7 +263,7 @@ def _load(
             raise
     manifest_file, model_file = map(shown, store.paths(robot))
     recovered = repair.recover(*store.texts(robot), manifest_file, model_file)
-    mine = {key: files.on_disk(key, role) for key, role in recovered.roles.items()}
+    mine = {key: files.hash(key, role) for key, role in recovered.roles.items()}
     recorded = repair.rebuilt(recovered, mine, {})
     if recorded is None:
         return None, recovered

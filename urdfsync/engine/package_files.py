@@ -12,7 +12,7 @@ from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.engine.rules import CLASS_FOLDER
+from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
 from urdfsync.files import Tree, digest, placed, text_digest
 
 
@@ -90,12 +90,16 @@ class PackageFiles:
         self.states[path] = state
         return state
 
-    def on_disk(self, key: str, role: Role) -> str | None:
-        """Return the hash of a file: of an imported one of its bytes, of others of their text; or CLASS_FOLDER."""
+    def hash(self, key: str, role: Role) -> str | None:
+        """Return the hash of a file: of an imported one of its bytes, of others of their text; None for no file."""
         state = self.state(key)
-        if state is not None:
-            return state.sha256 if role is Role.IMPORT else state.text_sha256
-        return CLASS_FOLDER if self._is_class_folder(key) else None
+        if state is None:
+            return None
+        return state.sha256 if role is Role.IMPORT else state.text_sha256
+
+    def on_disk(self, key: str, role: Role) -> OnDisk:
+        """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if it is neither."""
+        return self.hash(key, role) or (CLASS_FOLDER if self._is_class_folder(key) else None)
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""

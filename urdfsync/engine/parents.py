@@ -18,7 +18,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest
 from urdfsync.modelica.names import LIBRARY, within
-from urdfsync.state.transaction import Change
+from urdfsync.state.transaction import FileChange
 
 
 class SharedFile(msgspec.Struct, frozen=True):
@@ -35,16 +35,16 @@ class SharedFile(msgspec.Struct, frozen=True):
     owned: tuple[str, ...] = ()
     """Lines of a `package.order` that urdfsync may remove."""
 
-    def change(self, files: PackageFiles) -> Change | None:
+    def change(self, files: PackageFiles) -> FileChange | None:
         """Return what is left to do, from what is on disk now; None if nothing is."""
         found = files.read(files.key(self.path))
         if self.content is not None:
-            return Change(self.path, self.content, None) if found is None else None
+            return FileChange(self.path, self.content, None) if found is None else None
         old = None if found is None else found.decode(errors="surrogateescape")
         new = merge_order(old, self.names, self.owned)
         if new == (old or ""):
             return None
-        return Change(self.path, encode(new) if new else None, None if found is None else digest(found))
+        return FileChange(self.path, encode(new) if new else None, None if found is None else digest(found))
 
 
 class Parents(msgspec.Struct, frozen=True):

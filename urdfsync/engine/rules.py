@@ -6,8 +6,10 @@ written. All are compared by hashes, never by times. Everything here is pure.
 
 from __future__ import annotations
 
+import enum
 import hashlib
 from collections.abc import Callable, Collection, Iterable, Mapping
+from typing import TypeAlias
 
 import msgspec
 
@@ -26,11 +28,21 @@ class DesiredFile(msgspec.Struct, frozen=True):
     """Whether its content is available; otherwise only the hash is known."""
 
 
-CLASS_FOLDER = "folder"
-"""Stands for the hash of a missing file whose class the user has made a folder of (`X/package.mo`)."""
+class ClassFolder(enum.Enum):
+    """Stands for the hash of a missing file whose class the user has made a folder of (`X/package.mo`).
+
+    It is no string, so that no hash in a stranger's manifest is equal to it.
+    """
+
+    CLASS_FOLDER = enum.auto()
 
 
-def decide_file(base: str | None, mine: str | None, generated: str | None) -> Kind:
+CLASS_FOLDER = ClassFolder.CLASS_FOLDER
+OnDisk: TypeAlias = str | ClassFolder | None
+"""Hash of what is at a path; None for nothing."""
+
+
+def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
     """Decide on one file by the table of the design; a hash is None where there is no such text."""
     if generated is None:
         if base is None or mine is None:
@@ -68,7 +80,7 @@ def renamed_files(
 def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
-    on_disk: Mapping[str, str | None],
+    on_disk: Mapping[str, OnDisk],
     moves: Mapping[str, str] | None = None,
 ) -> tuple[Action, ...]:
     """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
@@ -81,7 +93,7 @@ def decide(
     bases = _bases_of_moves(recorded, moves)
     # what is at the old and the new places of the files that move: ours is what urdfsync wrote at that very place
     ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
-    hashes = {path: mine for path, mine in ends.items() if mine != CLASS_FOLDER}
+    hashes = {path: mine for path, mine in ends.items() if isinstance(mine, str)}
     ours = {path: hash_ for path, hash_ in hashes.items() if path in recorded and recorded[path].written_hash == hash_}
     taken = ends.keys() - ours.keys()
     edited = {new: old for new, old in moves.items() if bases[new] and hashes.get(old) not in (None, bases[new])}
@@ -110,8 +122,8 @@ def decide(
             if kind is Kind.FORGET and base is None:
                 continue  # it was never written, and is not wanted any more
         file, at_hand = target or recorded[path], target is None or target.at_hand
-        mine = None if mine == CLASS_FOLDER else mine
-        action = Action(path, kind, file.role, file.owner, base, generated, origin, mine=mine, at_hand=at_hand)
+        known = mine if isinstance(mine, str) else None
+        action = Action(path, kind, file.role, file.owner, base, generated, origin, mine=known, at_hand=at_hand)
         if origin and path in ours:  # remembered in case that the file has to wait
             action = msgspec.structs.replace(action, replaced_hash=ours[path])
         actions.append(action)

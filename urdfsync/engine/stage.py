@@ -22,7 +22,7 @@ from urdfsync.state import manifest, modelfile
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord, RecordState
 from urdfsync.state.store import State, Store, Witness
-from urdfsync.state.transaction import Change
+from urdfsync.state.transaction import FileChange
 
 _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
 """States of files whose base is older than the recorded model, which can't give it back."""
@@ -40,7 +40,7 @@ class Plan(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...] = ()
     changes: Changes | None = None
     """What is new in the model."""
-    writes: tuple[Change, ...] = ()
+    writes: tuple[FileChange, ...] = ()
     """The files to write, the manifest last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
@@ -111,7 +111,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     )
 
 
-def _file_changes(generation: Generation, decision: Decision) -> list[Change]:
+def _file_changes(generation: Generation, decision: Decision) -> list[FileChange]:
     """Return the changes of the package's files, but for those in which other robots may have a part."""
     files, found = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
@@ -120,11 +120,13 @@ def _file_changes(generation: Generation, decision: Decision) -> list[Change]:
             content = None if action.kind in DELETES else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            found.append(Change(files.path(action.path), content, state.sha256 if state else None, is_moved))
+            found.append(FileChange(files.path(action.path), content, state.sha256 if state else None, is_moved))
     return found
 
 
-def partly_done(plan: Plan, robot: str, not_done: Collection[Path], store: Store, files: PackageFiles) -> list[Change]:
+def partly_done(
+    plan: Plan, robot: str, not_done: Collection[Path], store: Store, files: PackageFiles
+) -> list[FileChange]:
     """Return how to record a plan of which some files are not as planned, since somebody saved one in between.
 
     Those keep the records that they had, as conflicts. So the next plan compares them with what was written there

@@ -15,8 +15,8 @@ from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
 from urdfsync.dependencies import file_type, list_folder
+from urdfsync.modelica.classes import OPAQUE, Node
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.scopes import OPAQUE, Node
 from urdfsync.modelica.syntax import StoredText
 
 ClassName: TypeAlias = tuple[str, ...]

@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 import msgspec
 
 from urdfsync.modelica.lexer import Fault, is_name, lex
-from urdfsync.modelica.syntax import Class, Component, Extends, Import, Modifier, Name, StoredText
+from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Modifier, Name, StoredText
 
 _DEEPEST = 50
 """How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
@@ -393,7 +393,7 @@ class _Parser:
         name = self._name()
         return Extends(name, self._arguments())
 
-    def _import(self) -> Import:
+    def _import(self) -> ImportClause:
         alias = ""
         if self.following == "=":
             alias = self._identifier()
@@ -410,7 +410,7 @@ class _Parser:
                 member = self._identifier() if self._accept("=") else short
                 names[short] = name._replace(parts=(*name.parts, member))
         self._comment()
-        return Import(name, names)
+        return ImportClause(name, names)
 
     def _external(self) -> None:
         self._description()

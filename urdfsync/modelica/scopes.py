@@ -8,17 +8,13 @@ type and of its new one are all accepted, which is more than the language allows
 from __future__ import annotations
 
 import contextlib
-import functools
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple
 
-import msgspec
-
+from urdfsync.modelica.classes import OPAQUE, Node, Scoped, Type, Types, predefined
+from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import FUNCTIONS
-from urdfsync.modelica.syntax import Class, Component, Extends, Modifier, Name
-
-if TYPE_CHECKING:
-    from urdfsync.modelica.files import StoredClasses  # which reads classes for their scopes
+from urdfsync.modelica.syntax import Component, Extends, Name
 
 _NUMBER = "value quantity min max start fixed"
 _PREDEFINED = {
@@ -39,50 +35,6 @@ _DEEPEST = 40
 """So many lookups may lead to each other: more of them go in circles."""
 
 
-class Node(msgspec.Struct, eq=False, dict=True):
-    """A class at its place. Equal to itself only."""
-
-    definition: Class
-    name: tuple[str, ...]
-    """Its full name."""
-    file: str = ""
-    """How the source of the class knows its file."""
-    parent: Node | None = None
-    """The class around it."""
-    classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
-    """Its own classes, as far as anybody has asked for them."""
-    bases: tuple[Type, ...] | None = None
-    """What it extends, once that has been resolved."""
-
-    @functools.cached_property
-    def components(self) -> dict[str, Component]:
-        """Its own components by their names."""
-        return {one.name.parts[0]: one for one in self.definition.components}
-
-    def __str__(self) -> str:
-        return ".".join(self.name)
-
-
-class Scoped(NamedTuple):
-    """Modifiers, and the class in whose scope they are written."""
-
-    arguments: tuple[Modifier, ...]
-    scope: Node | None
-
-
-class Type(NamedTuple):
-    """A class as a component or a derived class has it: with all modifiers that are applied to it."""
-
-    node: Node
-    modifiers: tuple[Scoped, ...] = ()
-
-    def __str__(self) -> str:
-        return str(self.node)
-
-
-Types: TypeAlias = tuple[Type, ...]
-
-
 class Element(NamedTuple):
     """Something that has a name: a component, a class, a literal, an attribute, or a part of the language itself."""
 
@@ -101,16 +53,9 @@ class Missing(NamedTuple):
     """False if one of the classes on the way extends one that is not at hand."""
 
 
-def _predefined(name: str, components: Iterable[str] = ()) -> Node:
-    parts = [Component(Name((one,), 0), Name(("",), 0)) for one in components]
-    return Node(Class(Name((name,), 0), "type", components=parts), (name,))
-
-
-OPAQUE = _predefined("")
-"""A class that is not at hand, or can't be read."""
 ANYTHING = Element((Type(OPAQUE),))
 """An element of such a class."""
-_TYPES = {name: _predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
+_TYPES = {name: predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
 
 
 class Scopes:

@@ -63,7 +63,7 @@ class Component(msgspec.Struct, frozen=True):
     constraint: Extends | None = None
 
 
-class Import(msgspec.Struct, frozen=True):
+class ImportClause(msgspec.Struct, frozen=True):
     """An import clause."""
 
     name: Name
@@ -91,7 +91,7 @@ class Class(msgspec.Struct, eq=False):
     arguments: tuple[Modifier, ...] = ()
     """Modifiers of the class that `is_extension` goes on with."""
     constraint: Extends | None = None
-    imports: list[Import] = msgspec.field(default_factory=list)
+    imports: list[ImportClause] = msgspec.field(default_factory=list)
     extends: list[Extends] = msgspec.field(default_factory=list)
     classes: list[Class] = msgspec.field(default_factory=list)
     components: list[Component] = msgspec.field(default_factory=list)

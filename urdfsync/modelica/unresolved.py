@@ -6,7 +6,8 @@ import enum
 from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
-from urdfsync.modelica.scopes import ANYTHING, OPAQUE, Element, Missing, Node, Scopes, Types
+from urdfsync.modelica.classes import OPAQUE, Node, Types
+from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Scopes
 from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 

@@ -27,7 +27,7 @@ FULL = 3
 NOT_HERE = "the file it is made from is not here"
 
 
-class Target(msgspec.Struct, frozen=True):
+class DisputedFile(msgspec.Struct, frozen=True):
     """A file that the user may decide about.
 
     It conflicts, or its merge is about to be written, or it waits for other conflicts after a choice that may
@@ -61,16 +61,16 @@ class Target(msgspec.Struct, frozen=True):
         return self.is_decided or self.action.replaceable
 
 
-def find_conflicts(results: Iterable[Result]) -> list[Target]:
+def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
     """The files that conflict, in the order of robots and paths."""
     found = []
     for result in results:
         by_path = {texts.path: texts for texts in result.conflict_texts}
-        found += [Target(result, action, by_path.get(action.path)) for action in result.conflicts]
+        found += [DisputedFile(result, action, by_path.get(action.path)) for action in result.conflicts]
     return found
 
 
-def describe(target: Target) -> str:
+def describe(target: DisputedFile) -> str:
     """How the sides stand to each other, as a clause."""
     texts = target.texts
     if texts is None:
@@ -87,7 +87,7 @@ def describe(target: Target) -> str:
     return f"the changes contradict each other{f' in {number} places' if number > 1 else ''}"
 
 
-def saved_texts(target: Target) -> dict[str, str]:
+def saved_texts(target: DisputedFile) -> dict[str, str]:
     """Where a build saves the versions of a text, from the configuration's folder: `base`, `generated`, `merge`."""
     if target.texts is None:
         return {}
@@ -126,7 +126,7 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
 
 
-def _full_lines(target: Target, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
+def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
     """One conflict: what happened, the versions, where they are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))

@@ -15,7 +15,7 @@ from urdfsync.output.phrases import reason, summary
 
 if TYPE_CHECKING:
     from urdfsync.changes import Change, Changes
-    from urdfsync.output.conflicts import Target
+    from urdfsync.output.conflicts import DisputedFile
 
 
 def finding_values(diagnostic: Diagnostic) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def result_values(result: Result) -> dict[str, Any]:
     }
 
 
-def _conflict_values(target: Target) -> dict[str, Any]:
+def _conflict_values(target: DisputedFile) -> dict[str, Any]:
     return {
         "path": target.action.path,
         "origin": target.action.origin,

@@ -44,7 +44,7 @@ class Step(msgspec.Struct, frozen=True, omit_defaults=True):
     old: str | None = None
     new: str | None = None
     is_moved: bool = False
-    """As in `transaction.Change`."""
+    """As in `transaction.FileChange`."""
 
 
 class Journal(msgspec.Struct, frozen=True):
@@ -64,7 +64,7 @@ class Journal(msgspec.Struct, frozen=True):
     format: int = FORMAT
 
 
-class _Formatted(msgspec.Struct):
+class _JournalFormat(msgspec.Struct):
     format: int = 0
 
 
@@ -129,7 +129,7 @@ class JournalFolder:
         file = self.file(self.phase())
         content = tree.read(file) if file != self.folder else b'{"format": 0}'
         try:
-            version = msgspec.json.decode(content or b"", type=_Formatted).format
+            version = msgspec.json.decode(content or b"", type=_JournalFormat).format
             journal = msgspec.json.decode(content or b"", type=Journal) if version == FORMAT else None
         except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             self._refuse(file, "the journal of an interrupted build can't be read")

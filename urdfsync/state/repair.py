@@ -30,7 +30,7 @@ _TABLE = r"(?m)^(?=\[)"
 _Parsed = TypeVar("_Parsed")
 
 
-class Recovered(msgspec.Struct, frozen=True):
+class RecoveredState(msgspec.Struct, frozen=True):
     """All that is known from both sides of a state, the own side first."""
 
     manifests: tuple[Manifest, ...]
@@ -71,7 +71,7 @@ class Recovered(msgspec.Struct, frozen=True):
         return msgspec.structs.replace(first, imports=imports, bases=bases)
 
 
-def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recovered:
+def recover(toml: str | None, json: str | None, file: str, beside: str) -> RecoveredState:
     """What can be told from a robot's two files, which errors call `file` and `beside`; None for one that is lost.
 
     Raises StateError if a newer urdfsync wrote any side: it knows better what to do. A side that is no manifest, or
@@ -87,7 +87,7 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
                 raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, name, line, hint="update urdfsync"))
     manifests = (_parse(manifest.loads, _each_table_once(side), file) for side in sides(toml or ""))
     models = ((manifest.text_hash(side), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
-    return Recovered(
+    return RecoveredState(
         tuple(side for side in manifests if side is not None),
         {key: model for key, model in models if model is not None},
         frozenset(re.findall(_BASE, toml or "")) - frozenset(re.findall(_IMPORTED, toml or "")),
@@ -128,10 +128,10 @@ def _parse(parse: Callable[[str, str], _Parsed], text: str, file: str) -> _Parse
         return None
 
 
-def rebuilt(recovered: Recovered, mine: Mapping[str, str | None], generated: Mapping[str, str]) -> Manifest | None:
+def rebuilt(recovered: RecoveredState, mine: Mapping[str, str | None], generated: Mapping[str, str]) -> Manifest | None:
     """One manifest of all sides, given the hashes of what is on disk and of what is generated, by path.
 
-    `mine` should have what is there in the place of all `Recovered.roles` and of everything that is generated.
+    `mine` should have what is there in the place of all `RecoveredState.roles` and of everything that is generated.
     The heading is that of the newest generator, or else the first. Everything that any side lists remains: files,
     names in `package.order` files, dependencies. None if no side is a manifest: then the state is lost, and files
     that are not as they would be generated conflict.
@@ -164,7 +164,7 @@ def rebuilt(recovered: Recovered, mine: Mapping[str, str | None], generated: Map
     )
 
 
-def _record(recovered: Recovered, path: str, mine: str | None, generated: str | None) -> FileRecord:
+def _record(recovered: RecoveredState, path: str, mine: str | None, generated: str | None) -> FileRecord:
     """What the sides say of a file, with one of the recorded hashes as its base.
 
     - What is on disk, if urdfsync wrote it: nobody edited it since. A text that urdfsync wrote is its own base, even
@@ -184,7 +184,7 @@ def _record(recovered: Recovered, path: str, mine: str | None, generated: str | 
     return msgspec.structs.replace(record, base=base)
 
 
-def repaired(recovered: Recovered, robot: str, folder: str) -> Diagnostic:
+def repaired(recovered: RecoveredState, robot: str, folder: str) -> Diagnostic:
     """A note that a state was made again, and from what."""
     origins = ("from the files alone", "from what could be read of it", "from both sides")
     origin = origins[min(len(recovered.manifests), 2)]

@@ -16,7 +16,7 @@ from urdfsync.state import file_operations, manifest, modelfile
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.modelfile import Model
-from urdfsync.state.transaction import Change
+from urdfsync.state.transaction import FileChange
 
 _IGNORE = """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -148,7 +148,7 @@ class Store:
         """The texts that were written last, as far as they are kept."""
         return BaseStore(self._base_folder(robot))
 
-    def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[Change]:
+    def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
         folder = self.folder / "conflicts" / robot
         folders = [folder, *([folder.with_name(former)] if former else [])]
@@ -158,7 +158,7 @@ class Store:
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
         return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]
 
-    def changes(self, robot: str, recorded: str, model: str | None, former: str | None) -> Iterator[Change]:
+    def changes(self, robot: str, recorded: str, model: str | None, former: str | None) -> Iterator[FileChange]:
         """How the new state gets to the disk, the manifest last; `model` is None if it stays.
 
         `former` is the name that the robot had in the state that was loaded, if it has another one now.
@@ -172,12 +172,12 @@ class Store:
             if self._bytes(file) is not None:
                 yield self._change(file, None)
 
-    def ignoring(self) -> list[Change]:
+    def ignoring(self) -> list[FileChange]:
         """How version control is told what is safe to lose, unless it has been told already."""
         ignore = self.folder / ".gitignore"
         return [self._change(ignore, _IGNORE.encode())] if self._bytes(ignore) is None else []
 
-    def drawing(self, robot: str, text: str) -> tuple[Path, list[Change]]:
+    def drawing(self, robot: str, text: str) -> tuple[Path, list[FileChange]]:
         """Where the robot's diagram goes, and how it gets there."""
         path = self.folder / "svg" / f"{robot}.svg"
         return path, [self._change(path, text.encode())] if self._bytes(path) != text.encode() else []
@@ -190,8 +190,8 @@ class Store:
     def _base_folder(self, robot: str) -> Path:
         return self.folder / "base" / robot
 
-    def _change(self, path: Path, content: bytes | None) -> Change:
-        return Change(path, content, self._seen[path][1] if path in self._seen else None)
+    def _change(self, path: Path, content: bytes | None) -> FileChange:
+        return FileChange(path, content, self._seen[path][1] if path in self._seen else None)
 
     def _bytes(self, path: Path) -> bytes | None:
         if path not in self._seen:

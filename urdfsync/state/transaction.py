@@ -45,7 +45,7 @@ class UnfinishedError(OutputError):
     """Some files have changed, and the others could not be; the journal says which, and the next build finishes."""
 
 
-class Change(msgspec.Struct, frozen=True):
+class FileChange(msgspec.Struct, frozen=True):
     """What is to happen to one file."""
 
     path: Path
@@ -79,7 +79,7 @@ class Transactions:
         return self._journals.is_pending()
 
     @profiling.stage("writing")
-    def apply(self, robot: str, changes: Sequence[Change], emptied: Iterable[Path] = ()) -> Applied:
+    def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes. `emptied` are folders to remove if they are empty then.
 
         Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows

@@ -1,0 +1,65 @@
+"""Classes at their places: read from a file, or part of the language, with the modifiers that are applied to them."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from typing import NamedTuple, TypeAlias
+
+import msgspec
+
+from urdfsync.modelica.syntax import Class, Component, Modifier, Name
+
+
+class Node(msgspec.Struct, eq=False, dict=True):
+    """A class at its place. Equal to itself only."""
+
+    definition: Class
+    name: tuple[str, ...]
+    """Its full name."""
+    file: str = ""
+    """How the source of the class knows its file."""
+    parent: Node | None = None
+    """The class around it."""
+    classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
+    """Its own classes, as far as anybody has asked for them."""
+    bases: tuple[Type, ...] | None = None
+    """What it extends, once that has been resolved."""
+
+    @functools.cached_property
+    def components(self) -> dict[str, Component]:
+        """Its own components by their names."""
+        return {one.name.parts[0]: one for one in self.definition.components}
+
+    def __str__(self) -> str:
+        return ".".join(self.name)
+
+
+class Scoped(NamedTuple):
+    """Modifiers, and the class in whose scope they are written."""
+
+    arguments: tuple[Modifier, ...]
+    scope: Node | None
+
+
+class Type(NamedTuple):
+    """A class as a component or a derived class has it: with all modifiers that are applied to it."""
+
+    node: Node
+    modifiers: tuple[Scoped, ...] = ()
+
+    def __str__(self) -> str:
+        return str(self.node)
+
+
+Types: TypeAlias = tuple[Type, ...]
+
+
+def predefined(name: str, components: Iterable[str] = ()) -> Node:
+    """Return a type of the language with these attributes or literals."""
+    parts = [Component(Name((one,), 0), Name(("",), 0)) for one in components]
+    return Node(Class(Name((name,), 0), "type", components=parts), (name,))
+
+
+OPAQUE = predefined("")
+"""A class that is not at hand, or can't be read."""
