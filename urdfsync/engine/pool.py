@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, wait
 from concurrent.futures.process import ProcessPoolExecutor
-from multiprocessing import active_children, get_all_start_methods, get_context, parent_process
+from multiprocessing import active_children, get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
@@ -102,11 +102,11 @@ class Pool:
         if self._executor is None:
             if len(stale) < LEAST_STALE:
                 return
-            # not a plain fork: the thread of a progress bar may hold a lock at that moment
-            method = "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
+            # no fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs
+            # a socket in the folder for temporary files, whose path may be too long for one.
             workers = min(workers, len(stale))
             with _safe_path():
-                self._executor = ProcessPoolExecutor(workers, get_context(method), initializer=_prepare_worker)
+                self._executor = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_prepare_worker)
         dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
         self._stale, self._most, self._waiting = len(stale), _AHEAD * workers, deque(stale)
         self._submit()
