@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import itertools
+import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
@@ -19,6 +21,8 @@ from urdfsync.dependencies import read_unrecorded
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
 
+_LINE = rb"(?m)^([0-9a-f]{64}) (.*)\n"
+
 
 class BaseStore:
     """The kept texts of one robot; `folder` need not exist."""
@@ -26,18 +30,26 @@ class BaseStore:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._file = folder / "texts"
-        self._texts: dict[str, bytes] | None = None
+        self._content: bytes | None = None
+        self._places: dict[str, slice] = {}
+        """Where the texts are in the content, by their hashes."""
+        self._added: set[str] = set()
+        """Hashes of texts that have come since the content was read."""
 
     def __contains__(self, digest: str | None) -> bool:
         """Whether a text is kept under this hash; only `get` checks that it is the right one."""
-        return digest in self._read()
+        self._read()
+        return digest in self._places or digest in self._added
 
     def get(self, digest: str) -> str | None:
         """The text with this hash (see `text_digest`), None if it is not kept."""
+        if digest in self._added:
+            self._content = None
+        content = self._read()
         try:  # it may be a stranger's, who has committed it
-            text = msgspec.json.decode(self._read().get(digest, b"null"), type=str | None)
-            return text if text is not None and text_digest(text.encode()) == digest else None
-        except (msgspec.DecodeError, UnicodeError):
+            text = msgspec.json.decode(content[self._places[digest]], type=str)
+            return text if text_digest(text.encode()) == digest else None
+        except (KeyError, msgspec.DecodeError, UnicodeError):
             return None
 
     def add(self, texts: Mapping[str, str]) -> None:
@@ -45,45 +57,49 @@ class BaseStore:
 
         Nothing is synced: what a power failure takes is rendered again, or its file conflicts.
         """
-        new = {digest: msgspec.json.encode(text) for digest, text in texts.items() if digest not in self}
+        new = {digest: text for digest, text in texts.items() if digest not in self}
         if not new:
             return
+        lines = (_line(digest, msgspec.json.encode(text)) for digest, text in new.items())
         try:
             self._check_links()
             for folder in (self._folder.parent.parent, self._folder.parent, self._folder):
                 file_operations.make_folder(folder)
-            file_operations.append(self._file, b"\n" + _lines(new))  # the last line may have been cut off
+            file_operations.append(self._file, itertools.chain([b"\n"], lines))  # the last line may have been cut off
         except OSError as error:
             raise failure(error, shown(self._folder)) from None
-        self._read().update(new)
+        self._added |= new.keys()
 
     def prune(self, wanted: Collection[str]) -> None:
         """Remove all other texts, once they are more than the wanted ones. What can't be removed stays."""
-        left = {digest: text for digest, text in self._read().items() if digest in wanted}
-        if left and 2 * len(left) >= len(self._read()):
+        self._read()
+        kept = self._places.keys() | self._added
+        if 0 < len(kept) <= 2 * len(kept.intersection(wanted)):
             return
-        temporary = self._folder / f".texts{TEMPORARY}"
+        temporary, self._content = self._folder / f".texts{TEMPORARY}", None
+        content = self._read()
+        left = [_line(digest, content[place]) for digest, place in self._places.items() if digest in wanted]
         with contextlib.suppress(OSError):
             self._check_links()
             file_operations.remove(temporary)  # of a build that was killed here
             if left:
-                file_operations.write(temporary, _lines(left))
+                file_operations.append(temporary, left)
                 file_operations.replace(temporary, self._file)
             else:
                 file_operations.remove(self._file)
                 file_operations.remove_folder(self._folder)
-        self._texts = None
+        self._content = None
 
-    def _read(self) -> dict[str, bytes]:
-        """The texts as JSON, by their hashes."""
-        if self._texts is None:
-            self._texts = {}
-            with contextlib.suppress(OSError):  # there is none, or it can't be read: then nothing is kept
+    def _read(self) -> bytes:
+        """Read the file, once. There may be none, or one that can't be read: then nothing is kept."""
+        if self._content is None:
+            self._content = b""
+            with contextlib.suppress(OSError):
                 self._check_links()
-                for line in read_unrecorded(self._file).split(b"\n")[:-1]:
-                    digest, _, text = line.partition(b" ")
-                    self._texts[digest.decode(errors="replace")] = text
-        return self._texts
+                self._content = read_unrecorded(self._file)
+            self._places = {line[1].decode(): slice(*line.span(2)) for line in re.finditer(_LINE, self._content)}
+            self._added.clear()
+        return self._content
 
     def _check_links(self) -> None:
         """Refuse to go through a link. Raises OSError."""
@@ -92,5 +108,5 @@ class BaseStore:
                 raise NotADirectoryError(errno.ENOTDIR, "a symbolic link is where a folder is needed", str(path))
 
 
-def _lines(texts: Mapping[str, bytes]) -> bytes:
-    return b"".join(b"%s %s\n" % (digest.encode(), text) for digest, text in texts.items())
+def _line(digest: str, text: bytes) -> bytes:
+    return b"%s %s\n" % (digest.encode(), text)

@@ -13,7 +13,7 @@ import functools
 import os
 import stat
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from urdfsync import profiling
@@ -70,16 +70,12 @@ def write(path: Path, content: bytes, like: Path | None = None) -> None:
         os.close(descriptor)
 
 
-def append(path: Path, content: bytes) -> None:
-    """Write at the end of a regular file, which need not exist."""
-    descriptor = os.open(path, _APPEND, 0o666)
-    try:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+def append(path: Path, lines: Iterable[bytes]) -> None:
+    """Write lines at the end of a regular file, which need not exist."""
+    with os.fdopen(os.open(path, _APPEND, 0o666), "ab") as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
             raise OSError(errno.EINVAL, "it is no regular file", str(path))
-        while content:
-            content = content[os.write(descriptor, content) :]
-    finally:
-        os.close(descriptor)
+        file.writelines(lines)
 
 
 def write_bound(path: Path, encode: Callable[[int, int], bytes]) -> None:
