@@ -106,6 +106,7 @@ def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
     ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
     ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
     ("package://arm/box.obj", b"v 0 0 nan\nf 1 1 1", UNIT, "it has coordinates that aren't finite"),
+    ("package://arm/box.obj", b"v 0 0 " + 1000 * b"x", UNIT, "it is damaged or of another format: one"),
     ("package://arm/box.obj", b"v 0 0 1_0\nf 1 1 1", UNIT, "it is damaged or of another format"),
     ("package://arm/box.obj", b"v 0 0 0\nf 1 1 99999999999999999999", UNIT, "it is damaged or of another format"),
 ])  # fmt: skip

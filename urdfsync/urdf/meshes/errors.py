@@ -32,10 +32,5 @@ def damage_is_an_error() -> Iterator[None]:
     except ImportError as error:
         raise MeshError(f"a Python package is missing ({error})") from error
     except Exception as error:
-        raise damaged(error) from error
-
-
-def damaged(error: Exception) -> MeshError:
-    """Return what to say of a file that made a reader fail."""
-    detail = f": {error}" if str(error) else ""
-    return MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})")
+        detail = f": {error}" if str(error) else ""
+        raise MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})") from error

@@ -16,7 +16,7 @@ from array import array
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
-from urdfsync.urdf.meshes.errors import NO_TRIANGLES, NOT_FINITE, TOO_LARGE, MeshError, damaged
+from urdfsync.urdf.meshes.errors import NO_TRIANGLES, NOT_FINITE, TOO_LARGE, MeshError
 
 MAX_TRIANGLES = 1_000_000
 """Of one mesh, in all its places; so many have 50 MB as binary STL."""
@@ -138,12 +138,12 @@ def _from_zero(indices: array[int], faces: Sequence[tuple[int, int]], vertices: 
 
 def _numbers(kind: type[_Number], words: bytes | bytearray) -> array[_Number]:
     """Numbers of a kind between blanks. Raises MeshError."""
-    if b"_" in words:  # which Python reads in numbers
-        raise MeshError("it is damaged or of another format: `_` is in one of its numbers")
     try:
+        if b"_" in words:  # which Python reads in numbers
+            raise ValueError  # noqa: TRY301 - as for one that Python can't read
         return array("d" if kind is float else "q", map(kind, words.split()))
-    except (OverflowError, ValueError) as error:
-        raise damaged(error) from error
+    except (OverflowError, ValueError):  # whose own texts quote the file, which may be long
+        raise MeshError("it is damaged or of another format: one of its numbers can't be read") from None
 
 
 PLAIN: dict[str, Callable[[bytes], Corners]] = {".stl": read_stl, ".obj": read_obj}
