@@ -1,11 +1,12 @@
 """A build that is killed, that fails or that meets the user's saves, at each of its file operations.
 
 The next build must bring about what an undisturbed one does, with the user's edits as they were. Every
-kind of operation is tried in all cases; `URDFSYNC_CRASHES=1` tries each single one.
+kind of operation is tried in all cases; `URDFSYNC_CRASHES=1` tries each single one. With `-s`, the counts are printed.
 """
 
 from __future__ import annotations
 
+import collections
 import errno
 import os
 import shutil
@@ -36,8 +37,17 @@ pytestmark = [
     pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
 ]
 
+Tally = collections.Counter[str]
 Wanted = tuple[list[str], Mapping[str, bytes | None]]
 """The files that conflict after a build, and all files."""
+
+
+@pytest.fixture(scope="module")
+def tally() -> Iterator[Tally]:
+    """How often each trouble was tried."""
+    counts = Tally()
+    yield counts
+    print(f"\n{dict(counts)}")  # noqa: T201
 
 
 def phase(project: Path) -> Phase | None:
@@ -206,7 +216,9 @@ FALLIBLE = [name for name in crashes.NAMES if name != "remove_folder"]  # which 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
 @pytest.mark.parametrize("lasting", [False, True])
 @pytest.mark.parametrize("scenario", ["changed", "edited"], indirect=True)
-def test_a_system_that_refuses_leaves_all_as_it_was(scenario: Path, tmp_path: Path, number: int, lasting: bool) -> None:
+def test_a_system_that_refuses_leaves_all_as_it_was(
+    scenario: Path, tmp_path: Path, tally: Tally, number: int, lasting: bool
+) -> None:
     before, wanted = contents(scenario), expected(scenario, tmp_path / "clean")
     for operation, project in every(scenario, tmp_path / "work", FALLIBLE):
 
@@ -220,6 +232,7 @@ def test_a_system_that_refuses_leaves_all_as_it_was(scenario: Path, tmp_path: Pa
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
         assert result.unfinished or contents(project) == before, operation
         assert lasting or not result.unfinished or phase(project), operation
+        tally[f"{errno.errorcode[number]}"] += 1
         assert_healed(project, wanted, operation)
 
 
@@ -276,7 +289,7 @@ def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize("save", [in_place, by_renaming])
 @pytest.mark.parametrize("path", [RECORD, REMOVED, ADDED, f"{LADDER}/Ladder.mo", f"{LADDER}/package.order"])
 def test_a_save_between_plan_and_replacement_survives(
-    changed: Path, tmp_path: Path, path: str, save: Callable[[Path, bytes], None]
+    changed: Path, tmp_path: Path, tally: Tally, path: str, save: Callable[[Path, bytes], None]
 ) -> None:
     """It is a conflict if it was made of the old text. Without the save, all is as if it had never been."""
     clean = crashes.copy(changed, tmp_path / "clean")
@@ -287,6 +300,8 @@ def test_a_save_between_plan_and_replacement_survives(
         with before_each(saves):
             result = run(project)
         assert not result.failed, operation
+        tally["saves"] += 1
+        tally["conflicts"] += len(result.conflicts)
         mine = (project / path).read_bytes()
         if path.endswith("package.order"):
             assert MINE in mine, operation  # names are merged
@@ -302,7 +317,7 @@ def test_a_save_between_plan_and_replacement_survives(
 @pytest.mark.parametrize("save", [in_place, by_renaming])
 @pytest.mark.parametrize("scenario", ["changed", "edited"], indirect=True)
 def test_a_save_in_the_instant_of_a_kill_survives(
-    scenario: Path, tmp_path: Path, save: Callable[[Path, bytes], None]
+    scenario: Path, tmp_path: Path, tally: Tally, save: Callable[[Path, bytes], None]
 ) -> None:
     """Each target is saved just before it changes, and the build is killed before each of the next operations."""
     found = recorded(crashes.copy(scenario, tmp_path / "work"))
@@ -313,6 +328,7 @@ def test_a_save_in_the_instant_of_a_kill_survives(
             project = crashes.copy(scenario, tmp_path / "work")
             saves = Saves(targets[0], operation.number, save)
             killed(project, killed_at, earlier=_passing_on(saves, tmp_path / "mine"))
+            tally["saves and kills"] += 1
             mine = (tmp_path / "mine").read_bytes()
             (tmp_path / "mine").unlink()
             assert not run(project).failed, operation

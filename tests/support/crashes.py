@@ -188,7 +188,7 @@ def copy(project: Path, to: Path) -> Path:
 
 def bind(file: Path) -> None:
     """Let a copy of a journal, or of the noted folders, be one that was written in its place."""
-    with contextlib.suppress(ValueError):  # cut short
+    with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged to something else
         status, text = file.stat(), json.loads(file.read_bytes())
         file.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
         os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
