@@ -78,7 +78,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         conflicts = {action.path: _conflict(generation, names, action) for action in disputed}
         choices = {**remembered_choices(records, actions), **inputs.options.choices}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, moves, merged))
+    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, generation, actions, moves, merged))
 
     old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
     _refuse_markers(inputs, actions, old_orders)
@@ -135,14 +135,21 @@ def _conflict(generation: Generation, names: DanglingNames | None, action: Actio
 
 
 def _mentioned_records(
-    inputs: Inputs, actions: Sequence[Action], moves: Mapping[str, str], merged: Mapping[str, str]
+    inputs: Inputs,
+    generation: Generation | None,
+    actions: Sequence[Action],
+    moves: Mapping[str, str],
+    merged: Mapping[str, str],
 ) -> frozenset[str]:
     """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
 
-    The record of a renamed element is not needed: the user is told the new name.
+    The record of a renamed element is not needed, also while it waits to be deleted: the user is told the new name.
     """
     files, moved = inputs.files, set(moves.values())
-    leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
+    leaving = [a for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
+    if leaving and generation and generation.changes_since_complete:
+        renamed = {f"{kind} {name}" for kind, name in generation.changes_since_complete.renames}
+        leaving = [action for action in leaving if action.owner not in renamed]
     if not leaving:
         return frozenset()
     from urdfsync.engine.dangling import class_of, code_words
@@ -152,7 +159,7 @@ def _mentioned_records(
     around = files.users_files({inputs.folder, inputs.old_folder})
     texts += [content.decode(errors="replace") for content in around.values()]
     used = {word for text in texts for word in code_words(text)}
-    return frozenset(path for path in leaving if class_of(path) in used)
+    return frozenset(action.path for action in leaving if class_of(action.path) in used)
 
 
 def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:
