@@ -473,3 +473,15 @@ def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(proj
     found = kinds(run())
     assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
     assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
+
+
+def test_the_record_of_a_renamed_element_waits_although_a_text_mentions_it(project: Path) -> None:
+    run()
+    Path("modelica/Bench.mo").write_text("model Bench\n  Ladder.Elements.R1Parameters numbers;\nend Bench;\n")
+    Path(SHUNT.replace(".mo", "Parameters.mo")).write_text("mine")
+    rename("R1", "Shunt")
+    run()
+    state = Path(MANIFEST).read_bytes()
+    assert tomllib.loads(state.decode())["files"]["Elements/R1Parameters.mo"]["state"] == "waiting"
+    run()
+    assert Path(MANIFEST).read_bytes() == state
