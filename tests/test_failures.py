@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import signal
@@ -108,19 +107,6 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     assert "Traceback" not in said
     changed = changes(before, contents(repository.folder))
     assert [name for name in changed if not name.startswith((".urdfsync/lock", ".git/index"))] == []
-
-
-def test_verbose_shows_the_traceback(
-    project: Path, traces: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(config, "load", mock.Mock(side_effect=ValueError("no number")))
-    said = execute("build", "--verbose", code=2).err
-    assert said.startswith("Traceback ")
-    assert said.endswith("please report it with the traceback above [internal]\n")
-    streams = execute("build", "--json", "--verbose", code=2)
-    assert streams.err == ""
-    assert json.loads(streams.out)["diagnostics"][0]["code"] == "internal"
-    assert len(list(traces.iterdir())) == 1
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")

@@ -5,18 +5,16 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from queue import SimpleQueue
-from types import TracebackType
 from typing import Self
 
 import msgspec
 
 from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, internal_error
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Checked
 from urdfsync.watch import events
-from urdfsync.watch.build import internal_error
 
 _PATIENCE = 10.0
 """Seconds that a check gets to end when the daemon does; a compiler that is left ends with the process."""
@@ -61,9 +59,7 @@ class CheckQueue:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         for name in [*self._jobs]:
             self._cancel(name)
         if self._thread is not None:
@@ -123,7 +119,7 @@ class CheckQueue:
         except CancelledError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked"),))
+            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked: "),))
         finally:
             self._queue.put(CheckEnded(job, found))
 

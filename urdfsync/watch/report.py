@@ -5,7 +5,6 @@ from __future__ import annotations
 import datetime
 import json
 import sys
-from types import TracebackType
 from typing import Any, Self
 
 import msgspec
@@ -66,9 +65,7 @@ class TextReport:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Take the status away; what scrolled stays."""
         if self._area:
             self._area.write((), ())
