@@ -106,17 +106,6 @@ def test_a_submodule_is_a_repository_of_its_own(repo: Repository, tmp_path: Path
         assert (checkout.place(repo.folder) / "sub/cad/arm.urdf").is_file()
 
 
-def test_untracked_and_ignored_files(repo: Repository) -> None:
-    Path(".gitignore").write_text("*.bak\n")
-    for name in ("out/Arm/new.mo", "out/Arm/old.bak"):
-        Path(name).write_text("")
-    Path("out/Arm/package.mo").write_text("changed")
-    index = Index(repo.folder)
-    assert index.pending("out/Arm") == {"out/Arm/new.mo", "out/Arm/old.bak", "out/Arm/package.mo"}
-    assert index.ignored(["out/Arm/new.mo", "out/Arm/old.bak"]) == {"out/Arm/old.bak"}
-    assert index.ignored([]) == set()
-
-
 def test_the_files_of_a_patch(repo: Repository, tmp_path: Path) -> None:
     Path("cad/tip \xfc.stl").write_bytes(b"\0binary")
     Path("top.txt").unlink()

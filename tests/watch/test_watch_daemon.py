@@ -567,14 +567,6 @@ def test_without_events_it_looks_by_itself(start: Start, monkeypatch: pytest.Mon
     assert "Noted" not in daemon.kinds()
 
 
-def test_the_rescan_makes_lost_events_good(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
-    daemon = start(rescan=0.1)
-    put("ladder.json", 330)
-    daemon.wait(events.Built, 3)
-    assert holds(330)
-
-
 # --exec
 
 
