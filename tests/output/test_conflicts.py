@@ -18,6 +18,8 @@ from urdfsync.output.conflicts import FULL, conflict_lines
 from urdfsync.output.console import Console as CommandConsole
 from urdfsync.output.differences import LINES
 
+pytestmark = pytest.mark.usefixtures("folder")
+
 ELBOW = "modelica/Arm/Elbow.mo"
 SAVED = ".urdfsync/conflicts/arm/Elbow"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
@@ -26,12 +28,6 @@ EXPORTED = BASE.replace("b = 2;", "b = 3;")
 FOLDER = "you made a folder of the class"
 CHANGED = "You edited it, and what it is made from changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def texts_of(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: str) -> Conflict:

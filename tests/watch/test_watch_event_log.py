@@ -20,6 +20,8 @@ from urdfsync.output.console import Console
 from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog
 
+pytestmark = pytest.mark.usefixtures("folder")
+
 TIME = "14:03:12  "
 ELBOW = "modelica/Arm/Links/Elbow.mo"
 BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf", 12, 3, "correct it")
@@ -30,11 +32,6 @@ SUMMARY = Diagnostic(Severity.NOTE, "left-out", "1 mesh left out", "arm.urdf")
 NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
 LACKING = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
 EVIL = Diagnostic(Severity.ERROR, "odd", "\x1b[2Jgone", "arm.urdf")
-
-
-@pytest.fixture(autouse=True)
-def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
 
 
 def change(path: str, old: Any, new: Any, unit: str = "", kind: Event = Event.CHANGED) -> Change:
