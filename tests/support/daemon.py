@@ -144,10 +144,6 @@ class Watch(Listener):
 
         self.until(rests)
 
-    def builds(self, since: int = 0, robot: str = "ladder") -> list[Event]:
-        """The builds of a robot that wrote or deleted files."""
-        return [e for e in self.events[since:] if e["event"] == "built" and e["robot"] == robot and e["files"]]
-
     def stop(self, number: int = signal.SIGTERM) -> int:
         """Send a signal; returns the exit code."""
         self.process.send_signal(number)
