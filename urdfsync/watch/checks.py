@@ -84,6 +84,7 @@ class CheckQueue:
         if found is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
+        # right as before, perhaps for an earlier daemon: there is nothing new to say
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
         event = self._note(robot, found)
         return () if was_right and found.checked is Checked.RIGHT else (event,)

@@ -177,7 +177,7 @@ class Daemon:
     def _receive(self) -> None:
         """Wait until something happens or is due; let settle what has changed, and take note of all else."""
         paths: set[str] = set()
-        with contextlib.suppress(Empty):
+        with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
                 match message:
@@ -206,7 +206,7 @@ class Daemon:
         now = time.monotonic()
         due = [watched.debouncer.due for watched in self._robots.values() if watched.debouncer.due is not None]
         if not due and not self._is_warm:
-            return 0.0
+            return 0.0  # nobody waits: `_build_settled` gets ready for the first change
         due.append(self._next_rescan)
         due += [self._next_poll] if self._is_polling else []
         due += [now + _PAUSE] if self._is_paused else []
@@ -291,6 +291,7 @@ class Daemon:
 
     def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
         """Return whether a robot is to be built, of which the files have settled."""
+        # the sample has the inputs only, so outputs are read now; not after a failure, which may have had another cause
         if watched.failure is None and watched.hashes() == watched.built == watched.read_files():
             if watched.is_announced:
                 self._listener.show(events.Unchanged(watched.name))
@@ -342,9 +343,9 @@ class Daemon:
             if now == old:
                 self._rest(watched)
             elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
-                self._touch([watched])
+                self._touch([watched])  # somebody saved meanwhile: the user is told
             else:
-                watched.debouncer.touch(time.monotonic())
+                watched.debouncer.touch(time.monotonic())  # most likely its own writes: confirmed without a word
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""

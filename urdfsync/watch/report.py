@@ -80,6 +80,7 @@ class TextReport:
             case events.Ran(robot):
                 self._commands.discard(robot)
         lines = list(self._log.lines(event, clock))
+        # one terminal has both streams in their order, above the status; elsewhere each stream gets its own
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]
