@@ -63,11 +63,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     from urdfsync.watch.report import JsonReport, TextReport
     from urdfsync.watch.robot import Times
 
-    with contextlib.ExitStack() as stack:
-        if console.json:
-            listener: Listener = JsonReport()
-        else:
-            listener = stack.enter_context(TextReport(console))
+    report: contextlib.AbstractContextManager[Listener]
+    report = contextlib.nullcontext(JsonReport()) if console.json else TextReport(console)
+    with report as listener:
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=(*args.robots, *(args.robot or ())),

@@ -20,13 +20,12 @@ _PATIENCE = 10.0
 """Seconds that a check gets to end when the daemon does; a compiler that is left ends with the process."""
 
 
-class CheckJob(msgspec.Struct, eq=False):
-    """One check of a package."""
+class CheckJob(msgspec.Struct, frozen=True, eq=False):
+    """One check of a package; cancelled once it is no longer the newest of its robot."""
 
     robot: RobotConfig
     key: str | None
     """Of all that the check rests on; None if some of it can't be read."""
-    is_cancelled: bool = False
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
@@ -60,16 +59,14 @@ class CheckQueue:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for name in [*self._jobs]:
-            self._cancel(name)
+        self._jobs.clear()
         if self._thread is not None:
             self._thread.join(_PATIENCE)
 
     def use(self, config: Config) -> None:
         """Check by this configuration from now on, whatever was found before."""
         self._checker = BuildChecker(config, self._options)
-        for name in [*self._jobs]:
-            self._cancel(name)
+        self._jobs.clear()
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
@@ -79,7 +76,7 @@ class CheckQueue:
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
         if job is not None and key is not None and job.key == key:
             return ()
-        self._cancel(robot.name)  # the files of an older check are not on disk any more
+        self._jobs.pop(robot.name, None)  # the files of an older check are not on disk any more
         found = self._checker.known(key)
         if found is None:
             self._jobs[robot.name] = CheckJob(robot, key)
@@ -92,14 +89,11 @@ class CheckQueue:
     def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
         """Take note of the end of a check, and start the next."""
         self._thread = None
-        if ended.found is None or ended.job.is_cancelled:
+        robot = ended.job.robot
+        if ended.found is None or self._jobs.get(robot.name) is not ended.job:
             return self._start_next()
-        del self._jobs[ended.job.robot.name]
-        return self._note(ended.job.robot, ended.found), *self._start_next()
-
-    def _cancel(self, name: str) -> None:
-        if job := self._jobs.pop(name, None):
-            job.is_cancelled = True
+        del self._jobs[robot.name]
+        return self._note(robot, ended.found), *self._start_next()
 
     def _start_next(self) -> Sequence[events.Event]:
         if self._thread is not None or not self._jobs:
@@ -111,7 +105,7 @@ class CheckQueue:
 
     def _run(self, job: CheckJob, checker: BuildChecker) -> None:
         def cancel_here(what: str, done: int, total: int) -> None:  # noqa: ARG001 - the signature of `Progress`
-            if job.is_cancelled:
+            if self._jobs.get(job.robot.name) is not job:
                 raise CancelledError
 
         found = None
