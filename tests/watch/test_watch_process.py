@@ -144,7 +144,7 @@ def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
 
     yield begin
     for watch in running:
-        watch.__exit__(None, None, None)
+        watch.__exit__()
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ itself: after a build that wrote something, or during which somebody else did, t
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import time
 from collections.abc import Iterable, Sequence
@@ -204,10 +205,10 @@ class Daemon:
 
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
-        due = [watched.debouncer.due for watched in self._robots.values() if watched.debouncer.due is not None]
-        if not due and not self._is_warm:
+        due = [watched.debouncer.due for watched in self._robots.values()]
+        if not self._is_warm and min(due) == math.inf:
             return 0.0  # nobody waits: `_build_settled` gets ready for the first change
-        due.append(self._next_rescan)
+        due += [self._next_rescan]
         due += [self._next_poll] if self._is_polling else []
         due += [now + _PAUSE] if self._is_paused else []
         return max(min(due) - now, 0.0)
@@ -274,7 +275,7 @@ class Daemon:
         now, robots = time.monotonic(), self._robots.values()
         if self._is_paused:
             self._update_pause()
-        due = [watched for watched in robots if watched.debouncer.is_due(now)]
+        due = [watched for watched in robots if watched.debouncer.due <= now]
         samples = [watched.read_files(inputs_only=True) for watched in due]
         settled = [one for one, sample in zip(due, samples, strict=True) if one.debouncer.add_sample(sample, now)]
         if settled and self._reload_config():
