@@ -131,6 +131,13 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder, also the working one: no configuration in it or above."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
 def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
     """A function that runs a command, which has to end with this code unless that is None; what it printed."""
     from urdfsync import cli

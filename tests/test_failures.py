@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import signal
@@ -30,7 +29,6 @@ URDF = """<robot name="arm">
   <joint name="hold" type="fixed"><parent link="base"/><child link="tip"/></joint>
 </robot>
 """
-COMMANDS = [["build"], ["status"], ["diff"], ["check"], ["resolve", "--all", "--keep"], ["watch"]]
 
 
 @pytest.fixture
@@ -42,34 +40,21 @@ def traces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(
-    ("command", "error", "words"),
-    [
-        (["build", "--check"], MemoryError(), "there is not enough memory"),
-        (["status"], RecursionError("too deep"), "RecursionError in test_failures.py, line "),
-        *((command, ValueError("no number"), "ValueError in test_failures.py, line ") for command in COMMANDS),
-    ],
-)
+@pytest.mark.parametrize("command", ["build --check", "status", "diff", "check", "resolve --all --keep", "watch"])
 def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
-    project: Path,
-    traces: Path,
-    execute: Execute,
-    monkeypatch: pytest.MonkeyPatch,
-    command: list[str],
-    error: Exception,
-    words: str,
+    project: Path, traces: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, command: str
 ) -> None:
     def fail(*_: object) -> None:
-        raise error
+        raise ValueError("no number")
 
     monkeypatch.setattr(config, "load", fail)
-    streams = execute(*command, code=2)
+    streams = execute(*command.split(), code=2)
     (line,) = streams.err.splitlines()
     assert streams.out == ""
-    assert line.startswith(f"error: {words}")
+    assert line.startswith("error: ValueError in test_failures.py, line ")
     (file,) = traces.iterdir()
     assert f"please report it with the traceback in {file} [internal]" in line
-    assert type(error).__name__ in file.read_text()
+    assert "ValueError: no number" in file.read_text()
 
 
 @NEEDS_GIT
@@ -104,23 +89,11 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     monkeypatch.setattr(UrdfDomain, "read", mock.Mock(side_effect=error))
     said = execute(*command, code=2).err
     assert len([line for line in said.splitlines() if "error: " in line]) == 1, said
+    assert "there is not enough memory; " in said or "RecursionError in " in said
     assert "[internal]" in said
     assert "Traceback" not in said
     changed = changes(before, contents(repository.folder))
     assert [name for name in changed if not name.startswith((".urdfsync/lock", ".git/index"))] == []
-
-
-def test_verbose_shows_the_traceback(
-    project: Path, traces: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(config, "load", mock.Mock(side_effect=ValueError("no number")))
-    said = execute("build", "--verbose", code=2).err
-    assert said.startswith("Traceback ")
-    assert said.endswith("please report it with the traceback above [internal]\n")
-    streams = execute("build", "--json", "--verbose", code=2)
-    assert streams.err == ""
-    assert json.loads(streams.out)["diagnostics"][0]["code"] == "internal"
-    assert len(list(traces.iterdir())) == 1
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")

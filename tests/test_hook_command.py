@@ -288,17 +288,6 @@ def test_a_conflict_of_what_is_staged_comes_with_the_command_that_settles_it(rep
     assert said(capsys, "check", code=0) == []
 
 
-def test_merge_markers_in_the_state(repo: Repository, capsys: Capture) -> None:
-    state = Path(MANIFEST).read_text()
-    Path(MANIFEST).write_text(f"<<<<<<< ours\n{state}=======\n{state}>>>>>>> theirs\n")
-    repo.git("add", MANIFEST)
-    for mode in ("check", "build"):
-        assert "urdfsync build --repair" in said(capsys, mode, code=2)[0]
-    run("urdfsync build --repair")
-    repo.git("add", ".")
-    assert said(capsys, "check", code=0) == []
-
-
 def test_a_mesh_or_table_is_judged_as_it_is_staged(repo: Repository, capsys: Capture) -> None:
     edit("step.csv", "0.1,5", "0.1,6")
     assert said(capsys, "check", code=0) == []

@@ -54,10 +54,9 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the examples ha
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "arm.urdf").write_text(URDF)
-    return tmp_path
+def folder(folder: Path) -> Path:
+    (folder / "arm.urdf").write_text(URDF)
+    return folder
 
 
 def printed(execute: Execute, folder: Path, *arguments: str) -> Any:

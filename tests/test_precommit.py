@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.precommit import find_stash, store_folder
+from urdfsync.precommit import find_stash
 
 linux = pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="no /proc on this system")
 
@@ -64,15 +64,16 @@ def test_a_process_that_is_younger_than_the_patch_has_only_its_number(
     assert find_stash(repository) is None
 
 
-def test_where_pre_commit_keeps_its_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@linux
+def test_where_pre_commit_keeps_its_files(
+    repository: Path, process: subprocess.Popen[bytes], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     for name in ("PRE_COMMIT_HOME", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("HOME", str(tmp_path))
-    assert find_stash(tmp_path) is None, "there is no such folder"
-    for name, value, folder in (
-        ("HOME", tmp_path, tmp_path / ".cache/pre-commit"),
-        ("XDG_CACHE_HOME", "/x", Path("/x/pre-commit")),
-        ("PRE_COMMIT_HOME", "/y", Path("/y")),
-    ):
-        monkeypatch.setenv(name, str(value))
-        assert store_folder() == folder
+    for name, store in (("HOME", ".cache/pre-commit"), ("XDG_CACHE_HOME", "pre-commit"), ("PRE_COMMIT_HOME", ".")):
+        monkeypatch.setenv(name, str(tmp_path / name))
+        assert find_stash(repository) is None, "there is no such folder"
+        patch = tmp_path / name / store / f"patch{int(time.time())}-{process.pid}"
+        patch.parent.mkdir(parents=True)
+        patch.touch()
+        assert find_stash(repository) == (patch, process.pid)

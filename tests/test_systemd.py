@@ -14,29 +14,21 @@ PAGE = (Path(__file__).parents[1] / "docs" / "watch.md").read_text(encoding="utf
 (UNIT,) = re.findall(r"```ini\n(.*?)```", PAGE, re.DOTALL)
 PROGRAM = "robots/.venv/bin/urdfsync"
 
-needs_systemd = pytest.mark.skipif(not shutil.which("systemd-analyze"), reason="systemd-analyze is not installed")
 
-
-def complaints(unit: str, home: Path) -> str:
-    """What systemd has to say of a user unit, where the program is in this home folder; empty if nothing."""
-    program = home / PROGRAM
+@pytest.mark.skipif(not shutil.which("systemd-analyze"), reason="systemd-analyze is not installed")
+def test_the_unit_is_right(tmp_path: Path) -> None:
+    program, file = tmp_path / PROGRAM, tmp_path / "urdfsync.service"
     program.parent.mkdir(parents=True)
     program.touch(mode=0o755)
-    file = home / "urdfsync.service"
-    file.write_text(unit, encoding="utf-8")
+    file.write_text(UNIT, encoding="utf-8")
     found = subprocess.run(
         ["systemd-analyze", "verify", "--user", "--man=no", str(file)],
-        env={**os.environ, "HOME": str(home), "XDG_RUNTIME_DIR": str(home)},
+        env={**os.environ, "HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)},
         capture_output=True,
         text=True,
         check=False,
     )
-    return found.stdout + found.stderr + (f"exit code {found.returncode}" if found.returncode else "")
-
-
-@needs_systemd
-def test_the_unit_is_right(tmp_path: Path) -> None:
-    assert complaints(UNIT, tmp_path) == ""
+    assert (found.returncode, found.stdout + found.stderr) == (0, "")
 
 
 def test_the_unit_starts_what_can_be_started_again() -> None:

@@ -10,13 +10,13 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator, Sequence
-from pathlib import Path
-from types import FrameType
+
+import msgspec
 
 from urdfsync import __version__, profiling, streams, uptodate
 from urdfsync.commands import arguments
 from urdfsync.dependencies import mark_incomplete, record_dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
@@ -44,7 +44,7 @@ def main(given: Sequence[str] | None = None) -> int:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, key, answer, dependencies, started)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
-        Console().end("", Exit.ERROR, [unforeseen(error)])
+        Console().end("", Exit.ERROR, [_unforeseen(error)])
         return Exit.ERROR
     return code
 
@@ -87,51 +87,33 @@ def _main(given: list[str]) -> int:
         message = "interrupted; run the command again to finish the work"
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
-        found, code = (unforeseen(error, show=console.verbose and not console.json),), Exit.ERROR
+        found, code = (_unforeseen(error),), Exit.ERROR
     console.end(command, code, found)
     return code
 
 
-def unforeseen(error: Exception, *, show: bool = False) -> Diagnostic:
-    """A finding for an exception that nothing was prepared for.
-
-    Its traceback goes to a file in the folder for temporary files, or to the error stream if `show` asks for it.
-    """
+def _unforeseen(error: Exception) -> Diagnostic:
+    """Return the finding for an exception that nothing was prepared for; its traceback goes to a temporary file."""
     import tempfile
     import traceback
 
-    if isinstance(error, MemoryError):
-        message = "there is not enough memory"
-    else:
-        frame = traceback.extract_tb(error.__traceback__)[-1]
-        message = f"{type(error).__name__} in {Path(frame.filename).name}, line {frame.lineno}: {error}".rstrip(": ")
-    trace = "".join(traceback.format_exception(error))
-    hint = "this is a mistake in urdfsync: please report it with the traceback"
-    if show:
-        sys.stderr.write(trace)
-        hint += " above"
-    else:
-        try:
-            number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
-            with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
-                file.write(trace)
-            hint += f" in {path}"
-        except OSError:
-            hint += ", which --verbose shows"
-    return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
+    found = internal_error(error)
+    try:
+        number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
+        with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
+            file.writelines(traceback.format_exception(error))
+    except OSError:
+        return found
+    return msgspec.structs.replace(found, hint=f"{found.hint} with the traceback in {path}")
 
 
 @contextlib.contextmanager
 def _terminated_as_interrupted() -> Iterator[None]:
     """Let SIGTERM end a command as Ctrl-C does, with its state in order; `watch` has handlers of its own."""
-
-    def interrupt(_number: int, _frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
         yield
         return
-    signal.signal(signal.SIGTERM, interrupt)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield
     finally:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import os
 
 import msgspec
 
@@ -37,6 +38,19 @@ class Diagnostic(msgspec.Struct, frozen=True):
         place = ":".join([self.file, *numbers]) + ": " if self.file else ""
         hint = f"; {self.hint}" if self.hint else ""
         return " ".join(f"{place}{self.severity}: {self.message}{hint} [{self.code}]".split())
+
+
+def internal_error(error: Exception, what: str = "") -> Diagnostic:
+    """Return the finding for a mistake in urdfsync, with the place where the exception was raised."""
+    import traceback  # 4 ms, and hardly ever needed
+
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(frame.filename)}, line {frame.lineno}"  # noqa: PTH119 - no pathlib for this alone
+    message = f"{what}{type(error).__name__} in {place}: {error}".rstrip(": ")
+    if isinstance(error, MemoryError):
+        message = f"{what}there is not enough memory"
+    hint = "this is a mistake in urdfsync: please report it"
+    return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
 
 
 class UrdfsyncError(Exception):

@@ -15,19 +15,15 @@ _SLACK = 2.0
 """Seconds by which the system's word for the start of a process and the time in a file name may differ."""
 
 
-def store_folder() -> Path:
-    """Return the folder in which pre-commit keeps its files."""
-    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises where there is none
-    cache = os.environ.get("XDG_CACHE_HOME") or home / ".cache"
-    return Path(os.environ.get("PRE_COMMIT_HOME") or Path(cache) / "pre-commit")
-
-
 def find_stash(root: Path) -> tuple[Path, int] | None:
     """Return the patch that has the stashed changes of the repository around `root`, and the process that made it.
 
     None if nothing is stashed. A process whose folder the system does not tell counts for every repository.
     """
-    patches = [path for path in store_folder().glob("patch*") if _PATCH.fullmatch(path.name)]
+    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises where there is none
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
+    store = Path(os.environ.get("PRE_COMMIT_HOME") or cache / "pre-commit")
+    patches = [path for path in store.glob("patch*") if _PATCH.fullmatch(path.name)]
     if not patches:
         return None
     import psutil  # 15 ms, and hardly ever needed: git's hooks ask, too

@@ -24,44 +24,36 @@ def bare(project: Path) -> Path:
 
 
 def test_init_then_build(bare: Path, execute: Execute) -> None:
+    """The file explains itself, and what is commented out in it is right."""
+    (bare / "templates").mkdir()
     assert execute(*INIT, "ladder.json").lines == [
         "urdfsync.toml written",
         "  ladder: ladder.json becomes package Ladder",
         "    ground = true  guessed: a node is named ground",
         "Look it over, then run `urdfsync build`.",
     ]
-    execute("build")
-    assert (bare / "modelica/Ladder/Ladder.mo").exists()
-
-
-def test_the_file_explains_itself(execute: Execute, bare: Path) -> None:
-    execute(*INIT, "ladder.json")
-    text = (bare / "urdfsync.toml").read_text()
+    file = bare / "urdfsync.toml"
+    text = file.read_text()
     assert 'package = "Ladder"  # full name, for example Plant.Robots.Arm' in text
     assert "ground = true  # true or false; guessed: a node is named ground" in text
     assert '# prefix = "node"' in text
-
-
-def test_what_is_commented_out_is_right(execute: Execute, bare: Path) -> None:
-    (bare / "templates").mkdir()
-    execute(*INIT, "ladder.json")
-    file = bare / "urdfsync.toml"
-    lines = [line.removeprefix("# ") if " = " in line else line for line in file.read_text().splitlines()]
-    file.write_text("\n".join(lines))
+    execute("build")
+    assert (bare / "modelica/Ladder/Ladder.mo").exists()
+    file.write_text("\n".join(line.removeprefix("# ") if " = " in line else line for line in text.splitlines()))
     execute("build", "--dry-run")
 
 
-def test_choices_are_named(execute: Execute, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="world"/></robot>')
+def test_choices_are_named(execute: Execute, folder: Path) -> None:
+    assert "no *.urdf below" in execute("init", code=2).err
+    (folder / "arm.urdf").write_text('<robot name="arm"><link name="world"/></robot>')
     execute("init")
-    text = (tmp_path / "urdfsync.toml").read_text()
+    text = (folder / "urdfsync.toml").read_text()
     assert 'base = "fixed"  # "fixed" or "floating"; guessed: ' in text
     assert '# visualizer = "standard"  # "standard" or "visualization2"' in text
     assert '# approach = ["package"]  # a list of "package" or "record"' in text
     assert '# frames = "leaves"  # "leaves" or "all" or a list of strings' in text
     assert "driven" not in text, "it has no value that leaves the choice to urdfsync"
-    config.load(tmp_path / "urdfsync.toml")
+    config.load(folder / "urdfsync.toml")
 
 
 def test_an_existing_file_is_never_overwritten(project: Path, execute: Execute) -> None:
@@ -157,19 +149,11 @@ def test_no_link_in_a_repository_leads_init_outside(execute: Execute, bare: Path
     assert victim.read_text() == "precious"
 
 
-def test_without_sources_and_none_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert "no *.urdf below" in execute("init", code=2).err
-
-
-def test_names_from_the_source_stay_inside_their_comment(
-    execute: Execute, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
+def test_names_from_the_source_stay_inside_their_comment(execute: Execute, folder: Path) -> None:
     link = '<link name="base_footprint&#10;output = 1 &quot;"/>'
-    (tmp_path / "arm.urdf").write_text(f'<robot name="arm">{link}</robot>')
+    (folder / "arm.urdf").write_text(f'<robot name="arm">{link}</robot>')
     execute("init")
-    table = tomllib.loads((tmp_path / "urdfsync.toml").read_text())["robots"]["arm"]
+    table = tomllib.loads((folder / "urdfsync.toml").read_text())["robots"]["arm"]
     assert set(table) == {"source", "package", "base"}
 
 

@@ -11,18 +11,13 @@ import pytest
 from support.commands import Execute
 from support.screen import Screen
 
+pytestmark = pytest.mark.usefixtures("folder")
+
 REPOSITORY = Path(__file__).parents[2]
 TWIG = REPOSITORY / "tests/golden/twig.urdf"
 GOLDEN = REPOSITORY / "tests/golden/record/TwigParameters.mo"
 BUOY = REPOSITORY / "modelica/UrdfSync/Resources/robots/floating_buoy/floating_buoy.urdf"
 FAULTY = '<robot name="own">\n  <link name="base"/>\n  <link name="base"/>\n</robot>\n'
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The working folder: no configuration in it or above."""
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def test_the_record_is_that_of_a_package(execute: Execute) -> None:
@@ -88,6 +83,8 @@ def test_a_file_is_written_once(folder: Path, execute: Execute) -> None:
     (folder / "Twig.mo").write_bytes((folder / "Twig.mo").read_bytes().replace(b"\n", b"\r\n"))
     execute("record", TWIG, "-o", "Twig.mo", "--quiet")
     assert b"\r\n" in (folder / "Twig.mo").read_bytes()
+    out = execute("record", TWIG, "-o", "-").out
+    assert execute("record", TWIG).out == out, "a dash is the standard output"
 
 
 def test_what_is_in_a_file_is_not_lost_unless_one_says_so(execute: Execute, folder: Path) -> None:
@@ -111,12 +108,6 @@ def test_the_source_is_never_replaced(execute: Execute, name: str, folder: Path)
         f"{name}: error: the record would replace its source; name another file [output-is-source]"
     )
     assert source.read_bytes() == TWIG.read_bytes()
-
-
-def test_a_dash_is_standard_output(folder: Path, execute: Execute) -> None:
-    dashed = execute("record", TWIG, "-o", "-").out
-    assert execute("record", TWIG).out == dashed
-    assert not list(folder.iterdir())
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")

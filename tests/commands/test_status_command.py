@@ -1,4 +1,4 @@
-"""`urdfsync status` as people and programs use it."""
+"""`urdfsync status` as people and programs use it; and how files stand for actions that a small project has not."""
 
 from __future__ import annotations
 
@@ -10,6 +10,11 @@ from support.commands import Execute
 from support.files import unchanged
 from support.networks import LADDER, configure, edit
 
+from urdfsync.changes import Change, Changes
+from urdfsync.commands.status import FileStatus, file_status, is_in_step, lines, summary
+from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 
 
@@ -20,14 +25,6 @@ def built(project: Path, execute: Execute) -> Path:
     return project
 
 
-# Files
-
-
-def test_in_step(built: Path, execute: Execute) -> None:
-    assert execute("status").lines == ["ladder: in step, 14 files"]
-    assert execute("status", "--quiet").lines == []
-
-
 def test_never_built(project: Path, execute: Execute) -> None:
     with unchanged(project):
         assert execute("status").lines == ["ladder: not built yet", "  a build: 14 files to write"]
@@ -35,6 +32,8 @@ def test_never_built(project: Path, execute: Execute) -> None:
 
 
 def test_files_of_every_kind(built: Path, execute: Execute) -> None:
+    assert execute("status").lines == ["ladder: in step, 14 files"]
+    assert execute("status", "--quiet").lines == []
     edit(built / "ladder.json", "220.5", "330")
     edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
     (built / LADDER / "Elements/C1.mo").unlink()
@@ -56,30 +55,28 @@ def test_a_conflict(built: Path, execute: Execute) -> None:
     edit(built / "ladder.json", "220.5", "330")
     edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
     conflict = "  conflict   modelica/Ladder/Elements/R2Parameters.mo  you edited it"
-    lines = execute("status", code=3).lines
-    assert any(line.startswith(conflict) for line in lines)
-    assert "`urdfsync resolve FILE --keep`" in lines[-1]
-    assert any(line.startswith(conflict) for line in execute("status", "--quiet", code=3).lines)
+    for option in ([], ["--quiet"]):
+        found = execute("status", *option, code=3).lines
+        assert any(line.startswith(conflict) for line in found)
+        assert "`urdfsync resolve FILE --keep`" in found[-1]
 
 
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:
     elements = [{"name": f"R{n}", "between": ["in", "ground"], "ohm": 1.0} for n in range(10, 30)]
     (built / "ladder.json").write_text(json.dumps({"name": "many", "elements": elements}))
-    lines = execute("status").lines
-    stale = int(lines[0].partition(": ")[2].split("files: ")[1].split()[0])
-    assert sum(line.startswith("  stale ") for line in lines) == 19
-    assert lines[-1] == f"  … and {stale - 19} more stale files; --verbose shows them"
+    found = execute("status").lines
+    stale = int(found[0].partition(": ")[2].split("files: ")[1].split()[0])
+    assert sum(line.startswith("  stale ") for line in found) == 19
+    assert found[-1] == f"  … and {stale - 19} more stale files; --verbose shows them"
     assert sum(line.startswith("  stale ") for line in execute("status", "--verbose").lines) == stale
-
-
-# Robots
 
 
 def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute) -> None:
     configure('[robots.other]\nsource = "no.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
-    assert execute("status", code=2).lines == ["ladder: in step, 14 files"]
-    assert "the source no.json does not exist" in execute("status", code=None).errors[0]
-    assert execute("status", code=None).errors[1] == "other: 1 error, so nothing can be said of its files"
+    found = execute("status", code=2)
+    assert found.lines == ["ladder: in step, 14 files"]
+    assert "the source no.json does not exist" in found.errors[0]
+    assert found.errors[1] == "other: 1 error, so nothing can be said of its files"
     assert [robot["failed"] for robot in execute("status", "--json", code=2).json["robots"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
@@ -87,9 +84,9 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
 def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, execute: Execute) -> None:
     edit(built / "urdfsync.toml", "[robots.ladder]", "[robots.other]")
     edit(built / "urdfsync.toml", '"Ladder"', '"Other"')
-    assert execute("status").lines[0] == "other: not built yet"
-    (note,) = execute("status", code=None).errors
-    assert "the state of `ladder` is still there" in note
+    found = execute("status", code=None)
+    assert found.lines[0] == "other: not built yet"
+    assert "the state of `ladder` is still there" in found.err
 
 
 def test_without_its_state_a_package_is_not_known_as_built(built: Path, execute: Execute) -> None:
@@ -104,3 +101,94 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
     with build_lock(built, built / ".urdfsync", 0) as lock:
         lock.acquire()
         assert execute("status").lines == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
+
+
+# Each action
+
+
+def action(kind: Kind, held: bool = False, path: str = "") -> Action:
+    return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
+
+
+def result_of(*actions: Action, changes: Changes | None = None) -> Result:
+    return Result("arm", "Arm", Path("/project/Arm"), Path("/project"), Actions(actions), changes=changes, dry=True)
+
+
+def said(result: Result, *, verbose: bool = False) -> list[str]:
+    return list(map(str, lines(result, verbose)))
+
+
+def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
+    new = 1 + 1e-9 if noise else 2.0
+    return Changes(tuple(Change(("link tip", "mass"), ChangeKind.CHANGED, one, 1.0, new) for one in classes))
+
+
+@pytest.mark.parametrize("kind", [kind for kind in Kind if kind is not Kind.FORGET])
+def test_every_action_says_how_its_file_stands(kind: Kind) -> None:
+    status = file_status(action(kind))
+    assert (status is FileStatus.CONFLICT) == (kind in CONFLICTS)
+    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
+    (shown,) = (line for line in said(result_of(action(kind)), verbose=True) if f"Arm/{kind}.mo" in line)
+    assert shown.startswith(f"  {status}")
+    assert not shown.endswith(".mo") or kind in (Kind.UNCHANGED, Kind.KEEP)
+    assert file_status(action(Kind.FORGET)) is None
+
+
+def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
+    conflict = Action("Arm/New.mo", Kind.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
+    move = Action("Arm/Other.mo", Kind.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
+    shown = "\n".join(said(result_of(conflict, move)))
+    assert "conflict   /project/Arm/Old.mo" in shown
+    assert "stale      /project/Arm/Other.mo" in shown
+
+
+@pytest.mark.parametrize(
+    ("kinds", "words"),
+    [
+        ([Kind.UNCHANGED], "in step, 1 file"),
+        ([Kind.UNCHANGED, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN, Kind.FORGET], "in step, 4 files: 1 edited, 1 orphan"),
+        ([Kind.UPDATE, Kind.RESTORE, Kind.KEEP, Kind.CREATE], "out of step, 4 files: 1 missing, 2 stale, 1 edited"),
+        ([Kind.CONFLICT, Kind.UNOWNED, Kind.UNCHANGED], "out of step, 3 files: 2 conflicts"),
+    ],
+)
+def test_a_robot_in_one_line(kinds: list[Kind], words: str) -> None:
+    found = result_of(*map(action, kinds))
+    assert summary(found) == words
+    assert is_in_step(found) == words.startswith("in step")
+
+
+def test_a_conflict_in_a_package_that_was_never_built() -> None:
+    new = [Action(f"Arm/{name}.mo", Kind.CREATE, Role.MODEL) for name in "ab"]
+    assert summary(result_of(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
+
+
+@pytest.mark.parametrize(
+    ("kinds", "changes", "words"),
+    [
+        ([Kind.UNCHANGED, Kind.KEEP], None, []),
+        ([Kind.DELETE, Kind.DELETE], None, ["a build: 2 to delete"]),
+        (
+            [Kind.UPDATE, Kind.CREATE, Kind.DELETE],
+            changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
+            ["1 structural and 2 parameter changes in the source", "a build: 2 files to write, 1 to delete"],
+        ),
+        ([Kind.UNCHANGED], changed(ChangeClass.UNMODELLED), ["1 unmodelled change in the source"]),
+        ([Kind.UNCHANGED], changed(ChangeClass.PARAMETER, noise=True), ["1 parameter change in the source (rounding)"]),
+        (
+            [Kind.UPDATE],
+            Changes(generator=True),
+            ["a template, an option or urdfsync itself changed", "a build: 1 file to write"],
+        ),
+    ],
+)
+def test_what_the_next_build_does(kinds: list[Kind], changes: Changes | None, words: list[str]) -> None:
+    shown = said(result_of(*map(action, kinds), changes=changes))
+    assert [line.strip() for line in shown[1:] if ".mo" not in line] == words
+
+
+def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
+    held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
+    found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
+    shown = said(found)
+    assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 changes waiting for that"
+    assert sum("waits until the conflict is settled" in line for line in shown) == 2

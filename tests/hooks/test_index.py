@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from pathlib import Path
 
@@ -32,17 +31,8 @@ def repo(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
     return repository
 
 
-def changed(folder: Path = Path()) -> set[str]:
-    return set(Index(folder.absolute()).changed)
-
-
-def test_contents_count_not_times(repo: Repository) -> None:
-    os.utime("top.txt", (1, 1))
-    assert changed() == set()
-    Path("top.txt").write_text("other")
-    Path("cad/tip \xfc.stl").unlink()
-    assert changed() == {"top.txt", "cad/tip \xfc.stl"}
-    assert changed(Path("out/Arm")) == {"top.txt", "cad/tip \xfc.stl"}, "from wherever git is called"
+def changed() -> set[str]:
+    return set(Index(Path.cwd()).changed)
 
 
 def test_line_endings_that_git_converts_are_no_change(repo: Repository) -> None:
@@ -104,17 +94,6 @@ def test_a_submodule_is_a_repository_of_its_own(repo: Repository, tmp_path: Path
     with index_checkout(index) as checkout:
         checkout.add(["top.txt"])
         assert (checkout.place(repo.folder) / "sub/cad/arm.urdf").is_file()
-
-
-def test_untracked_and_ignored_files(repo: Repository) -> None:
-    Path(".gitignore").write_text("*.bak\n")
-    for name in ("out/Arm/new.mo", "out/Arm/old.bak"):
-        Path(name).write_text("")
-    Path("out/Arm/package.mo").write_text("changed")
-    index = Index(repo.folder)
-    assert index.pending("out/Arm") == {"out/Arm/new.mo", "out/Arm/old.bak", "out/Arm/package.mo"}
-    assert index.ignored(["out/Arm/new.mo", "out/Arm/old.bak"]) == {"out/Arm/old.bak"}
-    assert index.ignored([]) == set()
 
 
 def test_the_files_of_a_patch(repo: Repository, tmp_path: Path) -> None:

@@ -18,6 +18,8 @@ from urdfsync.output.conflicts import FULL, conflict_lines
 from urdfsync.output.console import Console as CommandConsole
 from urdfsync.output.differences import LINES
 
+pytestmark = pytest.mark.usefixtures("folder")
+
 ELBOW = "modelica/Arm/Elbow.mo"
 SAVED = ".urdfsync/conflicts/arm/Elbow"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
@@ -26,12 +28,6 @@ EXPORTED = BASE.replace("b = 2;", "b = 3;")
 FOLDER = "you made a folder of the class"
 CHANGED = "You edited it, and what it is made from changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def texts_of(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: str) -> Conflict:
@@ -92,28 +88,6 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
         "    --merge takes both sides' changes; --keep leaves your file as it is; --take replaces it by the",
         "    generated one",
     ]
-
-
-@pytest.mark.parametrize("width", [None, 80, 120])
-def test_a_pipe_and_all_terminals_show_the_versions_one_below_the_other(width: int | None) -> None:
-    lines = seen(texts_of(*OPPOSED), width=width)
-    begin = lines.index("    -- lines 1 to 5: the sides contradict each other")
-    assert lines[begin + 1 : begin + 8] == [
-        "               1  within Arm;",
-        "               2  model Elbow",
-        "    base       3    Real a = 1;",
-        "    mine       3    Real a = 7;",
-        "    generated  3    Real a = 9;",
-        "               4",
-        "               5    Real b = 2;",
-    ]
-    assert f"{CHANGED} The changes contradict each other." in " ".join(" ".join(lines).split())
-    assert " ".join(" ".join(lines).split()).endswith(
-        f"saved: {SAVED}.base.mo, {SAVED}.generated.mo, {SAVED}.merge.txt "
-        f"urdfsync resolve {ELBOW} --keep "
-        "--keep leaves your file as it is: first put into it what you want of both; "
-        "--take replaces it by the generated one"
-    )
 
 
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")
@@ -181,11 +155,6 @@ def test_commands_can_be_copied(path: str, typed: str) -> None:
     assert f"    urdfsync resolve {typed} --merge" in seen(texts_of(EDITED, EXPORTED, path=path))
 
 
-def test_commands_name_the_configuration_if_the_user_did() -> None:
-    lines = seen(texts_of(EDITED, EXPORTED), config="other dir/urdfsync.toml")
-    assert f"    urdfsync resolve {ELBOW} --merge --config 'other dir/urdfsync.toml'" in lines
-
-
 # How much of it
 
 
@@ -240,14 +209,6 @@ def test_of_many_conflicts_the_first_are_shown_in_full() -> None:
         "  urdfsync resolve --all --robot arm --merge  merges what can be merged: 5 of 6",
     ]
     assert len([line for line in seen(*found, verbose=True) if "resolve modelica" in line]) == len(paths)
-
-
-def test_quiet_means_a_line_for_each() -> None:
-    assert seen(texts_of(EDITED, EXPORTED), quiet=True) == [
-        f"  conflict   {Path(ELBOW)}  the changes fit together: --merge takes both",
-        "",
-        "  urdfsync resolve --all --robot arm --merge  merges it",
-    ]
 
 
 # Text of others

@@ -36,13 +36,6 @@ def shown(hunk: Hunk) -> list[str]:
         pytest.param(
             "a\nb\nc\n",
             "a\nx\nc\n",
-            "a\ny\nc\n",
-            [" 1 a", "base 2 b", "mine 2 x", "generated 2 y", " 3 c"],
-            id="contradictions are marked",
-        ),
-        pytest.param(
-            "a\nb\nc\n",
-            "a\nx\nc\n",
             "a\nx\nc\n",
             [" 1 a", "base 2 b", "both 2 x", " 3 c"],
             id="what both did alike is shown once",
@@ -73,11 +66,6 @@ def test_distant_changes_are_hunks_of_their_own() -> None:
 def test_numbers_are_those_of_each_version() -> None:
     (_, second) = three(LETTERS, LETTERS.replace("b", "1\n2\n3"), LETTERS.replace("m", "M"))
     assert shown(second) == [" 13 k", " 14 l", "base 13 m", "generated 13 M", " 16 n", " 17 o"]
-
-
-def test_without_a_base_only_the_difference_is_known() -> None:
-    (hunk,) = find_hunks(None, "a\nb\nc\n", "a\nx\ny\nc\n", None)
-    assert shown(hunk) == [" 1 a", "mine 2 b", "generated 2 x", "generated 3 y", " 3 c"]
 
 
 def test_kinds_of_line_endings_are_no_difference() -> None:

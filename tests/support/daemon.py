@@ -13,7 +13,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any, Self
 
 from urdfsync.engine.options import BuildOptions
@@ -106,9 +105,7 @@ class Watch(Listener):
         self._reader.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         with contextlib.suppress(ProcessLookupError):
             self.process.send_signal(signal.SIGCONT)
             self.process.kill()
@@ -143,10 +140,6 @@ class Watch(Listener):
             return len(last) >= robots and all(event in (*ENDS, "ran") for event in last.values())
 
         self.until(rests)
-
-    def builds(self, since: int = 0, robot: str = "ladder") -> list[Event]:
-        """The builds of a robot that wrote or deleted files."""
-        return [e for e in self.events[since:] if e["event"] == "built" and e["robot"] == robot and e["files"]]
 
     def stop(self, number: int = signal.SIGTERM) -> int:
         """Send a signal; returns the exit code."""

@@ -181,25 +181,19 @@ def test_many_elements_that_vanish_are_looked_at_longer(start: Start) -> None:
     assert not MODEL.exists()
 
 
-def test_a_folder_is_moved_over_the_watched_one(start: Start) -> None:
+def test_a_folder_is_moved_over_the_watched_one_then_deleted_and_made_again(start: Start) -> None:
     put("cad/export/ladder.json", 220.5)
     put("cad/next/ladder.json", 330)
     Path("urdfsync.toml").write_text(CONFIG.format("ladder", "cad/export/ladder.json", "Ladder"))
-    daemon = start()
+    daemon = start(times=PATIENT)
     with building(daemon, 330) as since:
         Path("cad/export").rename("cad/old")
         Path("cad/next").rename("cad/export")
     probe(daemon, "cad/export/ladder.json")
     assert daemon.kinds(since).count("Built") == 2
-
-
-def test_a_folder_is_deleted_and_made_again(start: Start) -> None:
-    put("a/b/ladder.json", 220.5)
-    Path("urdfsync.toml").write_text(CONFIG.format("ladder", "a/b/ladder.json", "Ladder"))
-    daemon = start(times=PATIENT)
-    daemon.after(lambda: shutil.rmtree("a"), events.Waiting)
+    daemon.after(lambda: shutil.rmtree("cad"), events.Waiting)
     with building(daemon, 330, has_files):
-        put("a/b/ladder.json", 330)
+        put("cad/export/ladder.json", 330)
 
 
 @pytest.mark.parametrize("tail", ["ladder.json", ""], ids=["file", "folder"])
@@ -565,14 +559,6 @@ def test_without_events_it_looks_by_itself(start: Start, monkeypatch: pytest.Mon
     daemon = start(poll=True)
     probe(daemon, ohm=330)
     assert "Noted" not in daemon.kinds()
-
-
-def test_the_rescan_makes_lost_events_good(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(observer.Observer, "dispatch", lambda *_: None)
-    daemon = start(rescan=0.1)
-    put("ladder.json", 330)
-    daemon.wait(events.Built, 3)
-    assert holds(330)
 
 
 # --exec

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,15 +20,27 @@ from urdfsync.output.console import Console
 from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog
 
+pytestmark = pytest.mark.usefixtures("folder")
+
+TIME = "14:03:12  "
+ELBOW = "modelica/Arm/Links/Elbow.mo"
 BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf", 12, 3, "correct it")
 ODD = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 7)
-HEAVIER = Changes((Change(("link elbow", "mass"), Event.CHANGED, ChangeClass.PARAMETER, 1.2, 1.35, "kg"),))
-ELBOW = "modelica/Arm/Links/Elbow.mo"
+MOVED = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 8)
+OTHER = Diagnostic(Severity.WARNING, "odd", "this is odd, too", "arm.urdf", 9)
+SUMMARY = Diagnostic(Severity.NOTE, "left-out", "1 mesh left out", "arm.urdf")
+NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
+LACKING = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
+EVIL = Diagnostic(Severity.ERROR, "odd", "\x1b[2Jgone", "arm.urdf")
 
 
-@pytest.fixture(autouse=True)
-def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
+def change(path: str, old: Any, new: Any, unit: str = "", kind: Event = Event.CHANGED) -> Change:
+    return Change(tuple(path.split(" / ")), kind, ChangeClass.PARAMETER, old, new, unit)
+
+
+def action(kind: Kind, name: str = "Elbow", generated: str = "generated", held: bool = False) -> Action:
+    path = f"modelica/Arm/Links/{name}.mo"
+    return Action(path, kind, Role.RECORD, "link elbow", "base", generated, mine="mine", held=held)
 
 
 def built(*actions: Action, recovered: bool = False, **more: Any) -> events.Built:
@@ -39,239 +52,192 @@ def failed(*diagnostics: Diagnostic, again: bool = False) -> events.Failed:
     return events.Failed(Result("arm", "Arm", Path("Arm"), Path(), diagnostics=diagnostics, failed=True), again)
 
 
-def action(kind: Kind, mine: str = "mine", generated: str = "generated") -> Action:
-    return Action(ELBOW, kind, Role.RECORD, "link elbow", "base", generated, mine=mine)
-
-
-STARTED = events.Started(Path("urdfsync.toml"), ("arm", "gripper"))
-UPDATED = built(action(Kind.UPDATE), changes=HEAVIER)
-IN_STEP = built(action(Kind.UNCHANGED))
-CONFLICT = built(action(Kind.CONFLICT))
-
-
 def told(*found: events.Event, **options: Any) -> list[str]:
     """The lines of these events; those for the error stream begin with `!`."""
     log = EventLog(Console(**options), Screen(file=io.StringIO(), width=100))
-    lines = [line for event in found for line in log.lines(event, "14:03:12")]
+    lines = [line for event in found for line in log.lines(event, TIME.strip())]
     return [f"{'! ' if line.error else ''}{str(line.text).rstrip()}" for line in lines]
 
 
-def test_a_build_is_one_line_with_robots_in_a_column() -> None:
-    assert told(STARTED, UPDATED) == [
-        "14:03:12  watching 2 robots of urdfsync.toml",
-        "14:03:12  arm      link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 file written",
-    ]
-
-
-def test_what_goes_on_between_builds_is_for_those_who_ask() -> None:
-    busy = (
-        events.Settling("arm"),
-        events.Waiting("arm", "waiting for the exporter", (BROKEN,)),
-        events.Unchanged("arm"),
-        events.Building("arm"),
-        IN_STEP,
-        events.Ran("arm", 0),
-        events.Paused("pre-commit runs"),
-        events.Resumed(),
-    )
-    assert told(*busy) == []
-    assert told(*busy, verbose=True) == [
-        "14:03:12  arm  changed, settling",
-        "14:03:12  arm  waiting for the exporter",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  arm  as before",
-        "14:03:12  arm  building",
-        "14:03:12  arm  in step, 1 file",
-        "14:03:12  arm  command ended with 0",
-        "14:03:12  paused: pre-commit runs",
-        "14:03:12  building again",
-    ]
-
-
-def test_a_verbose_build_lists_changes_and_files() -> None:
-    assert told(UPDATED, verbose=True) == [
-        "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 file written",
-        "  link elbow: mass 1.2 → 1.35 kg (+12.5 %)",
-        f"  update     {ELBOW}  link elbow: mass 1.2 → 1.35 kg (+12.5 %)",
-    ]
-
-
-def test_an_error_is_told_once_and_so_is_its_end() -> None:
-    lines = told(failed(BROKEN), failed(BROKEN, again=True), built(action(Kind.UNCHANGED), recovered=True), IN_STEP)
-    assert lines == [
-        "! 14:03:12  arm  1 error, nothing was changed",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  arm  in step again",
-    ]
-    recovered = built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)
-    assert told(failed(BROKEN), recovered)[-1].endswith("1 file written, in step again")
-
-
-NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
-CHECKED = events.CheckDone("arm", Checked.RIGHT, 2.54)
+HEAVIER = Changes((change("link elbow / mass", 1.2, 1.35, "kg"),))
+MASS = "link elbow: mass 1.2 → 1.35 kg (+12.5 %)"
+STARTED = events.Started(Path("urdfsync.toml"), ("arm", "gripper"))
+UPDATED = built(action(Kind.UPDATE), changes=HEAVIER)
+IN_STEP = built(action(Kind.UNCHANGED))
+RECOVERED = built(action(Kind.UNCHANGED), recovered=True)
+CONFLICT = built(action(Kind.CONFLICT))
+ORPHAN = built(action(Kind.ORPHAN))
+RIGHT, KNOWN = events.CheckDone("arm", Checked.RIGHT, 2.54), events.CheckDone("arm", Checked.RIGHT)
 WRONG = events.CheckDone("arm", Checked.WRONG, 2.54, (NO_CLASS,))
+BUSY = (
+    events.Settling("arm"),
+    events.Waiting("arm", "waiting for the exporter", (BROKEN,)),
+    events.Unchanged("arm"),
+    events.Building("arm"),
+    IN_STEP,
+    events.Checking("arm"),
+    events.Ran("arm", 0),
+    events.Paused("pre-commit runs"),
+    events.Resumed(),
+)
+NO_XML = "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]"
+IS_ODD, IS_ODD_TOO = "! arm.urdf:7: warning: this is odd [odd]", "! arm.urdf:9: warning: this is odd, too [odd]"
+IS_WRONG = [f"! {TIME}arm  checked: 1 error (2.5 s)", f"! {ELBOW}:4: error: there is no class `Foo` [compile]"]
+IS_RIGHT = f"{TIME}arm  checked: compiles (2.5 s)"
+IS_BROKEN = [f"! {TIME}arm  1 error, nothing was changed", NO_XML]
+
+Case = tuple[Sequence[events.Event], list[str]]
+
+SAID: dict[str, Case] = {
+    "a build is one line, with robots in a column": (
+        (STARTED, UPDATED),
+        [f"{TIME}watching 2 robots of urdfsync.toml", f"{TIME}arm      {MASS}, 1 file written"],
+    ),
+    "what goes on between builds is for those who ask": (BUSY, []),
+    "an error is told once, and so is its end": (
+        (failed(BROKEN), failed(BROKEN, again=True), RECOVERED, IN_STEP),
+        [*IS_BROKEN, f"{TIME}arm  in step again"],
+    ),
+    "an end of an error that comes with a build": (
+        (failed(BROKEN), built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)),
+        [*IS_BROKEN, f"{TIME}arm  {MASS}, 1 file written, in step again"],
+    ),
+    "a check is one line": ((events.Checking("arm"), RIGHT), [IS_RIGHT]),
+    "what a check finds is not said again": (
+        (WRONG, WRONG, RIGHT),
+        [*IS_WRONG, IS_WRONG[0], IS_RIGHT],
+    ),
+    "what was known of a package took no time": ((KNOWN,), [f"{TIME}arm  checked: compiles"]),
+    "what could not be checked is a warning": (
+        (events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (LACKING,)),),
+        [f"{TIME}arm  not checked completely", "! warning: there is no compiler; install it [no-compiler]"],
+    ),
+    "warnings are told when they are new, wherever they are now": (
+        (built(diagnostics=(ODD,)), built(diagnostics=(MOVED,)), built(diagnostics=(MOVED, OTHER))),
+        [IS_ODD, IS_ODD_TOO],
+    ),
+    "warnings that come again are told again": (
+        (built(), built(diagnostics=(ODD,)), built(), built(diagnostics=(ODD,))),
+        [IS_ODD, IS_ODD],
+    ),
+    "builds with nothing to do have warnings of their own": (
+        2 * (built(diagnostics=(SUMMARY,)), built(action(Kind.UPDATE), diagnostics=(ODD,))),
+        [
+            "! arm.urdf: note: 1 mesh left out [left-out]",
+            IS_ODD,
+            f"{TIME}arm  1 file written",
+            f"{TIME}arm  1 file written",
+        ],
+    ),
+    "what concerns the daemon": (
+        (events.Noted((ODD, BROKEN)), events.Recovered("all folders are watched again"), events.Stopping("SIGINT")),
+        [
+            IS_ODD.replace("! ", f"! {TIME}"),
+            NO_XML.replace("! ", f"! {TIME}"),
+            f"{TIME}all folders are watched again",
+            f"{TIME}stopped by SIGINT",
+        ],
+    ),
+    "a configuration that is read again": (
+        (events.Started(Path("urdfsync.toml"), ("arm",), again=True),),
+        [f"{TIME}configuration read again, watching 1 robot of urdfsync.toml"],
+    ),
+    "nothing in a message can move the cursor": (
+        (events.Noted((EVIL,)),),
+        [f"! {TIME}arm.urdf: error: \\x1b[2Jgone [odd]"],
+    ),
+    # builds in one line: two changes find room, more are counted
+    "two changes": (
+        (built(action(Kind.UPDATE), changes=Changes((*HEAVIER.changes, change("joint a / effort", 54, 60, "N·m")))),),
+        [f"{TIME}arm  {MASS}; joint a: effort 54 → 60 N·m (+11.1 %), 1 file written"],
+    ),
+    "many changes": (
+        (
+            built(
+                *4 * [action(Kind.UPDATE)],
+                changes=Changes((
+                    *(change(f"link {name} / inertial / mass", 1, 2 + ord(name), "kg") for name in "abc"),
+                    *(change(f"link a / inertial / inertia / {name}", 1, 2, "kg·m²") for name in ("ixx", "iyy")),
+                )),
+            ),
+        ),
+        [f"{TIME}arm  5 changes in 3 elements, 4 files written"],
+    ),
+    "a long change": (
+        (built(action(Kind.UPDATE), changes=Changes((change(f"link {'a' * 120}", None, None, kind=Event.ADDED),))),),
+        [f"{TIME}arm  1 change in 1 element, 1 file written"],
+    ),
+    "another name": (
+        (
+            built(
+                *(action(Kind.CREATE, "Gripper"), action(Kind.DELETE, "Tool"), action(Kind.MOVE, "Wrist")),
+                changes=Changes((change("link tool", "tool", "gripper", kind=Event.RENAMED),)),
+            ),
+        ),
+        [f"{TIME}arm  link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits"],
+    ),
+    "nothing is said of files that stay": (
+        (built(action(Kind.KEEP), action(Kind.UNCHANGED), changes=HEAVIER),),
+        [f"{TIME}arm  {MASS}"],
+    ),
+    "another template": (
+        (built(action(Kind.UPDATE), changes=Changes(HEAVIER.changes, generator=True)),),
+        [f"{TIME}arm  a template, an option or urdfsync itself changed, 1 file written"],
+    ),
+}  # fmt: skip
 
 
-def test_a_check_is_one_line_and_what_holds_is_not_said_again() -> None:
-    wrong = [f"! {ELBOW}:4: error: there is no class `Foo` [compile]"]
-    assert told(events.Checking("arm"), CHECKED) == ["14:03:12  arm  checked: compiles (2.5 s)"]
-    assert told(WRONG, WRONG, CHECKED) == [
-        "! 14:03:12  arm  checked: 1 error (2.5 s)",
-        *wrong,
-        "! 14:03:12  arm  checked: 1 error (2.5 s)",
-        "14:03:12  arm  checked: compiles (2.5 s)",
+@pytest.mark.parametrize("name", SAID)
+def test_what_is_said(name: str) -> None:
+    found, lines = SAID[name]
+    assert told(*found) == lines
+
+
+def test_verbose_says_what_goes_on_and_lists_changes_and_files() -> None:
+    assert told(*BUSY, verbose=True) == [
+        f"{TIME}arm  changed, settling",
+        f"{TIME}arm  waiting for the exporter",
+        NO_XML,
+        f"{TIME}arm  as before",
+        f"{TIME}arm  building",
+        f"{TIME}arm  in step, 1 file",
+        f"{TIME}arm  checking",
+        f"{TIME}arm  command ended with 0",
+        f"{TIME}paused: pre-commit runs",
+        f"{TIME}building again",
     ]
-    assert told(CHECKED, WRONG, CHECKED, WRONG, quiet=True) == ["! 14:03:12  arm  checked: 1 error (2.5 s)", *wrong] * 2
-    assert told(events.Checking("arm"), verbose=True) == ["14:03:12  arm  checking"]
-
-
-def test_what_was_known_of_a_package_took_no_time() -> None:
-    assert told(events.CheckDone("arm", Checked.RIGHT)) == ["14:03:12  arm  checked: compiles"]
-
-
-def test_what_could_not_be_checked_is_a_warning() -> None:
-    lacking = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
-    assert told(events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (lacking,))) == [
-        "14:03:12  arm  not checked completely",
-        "! warning: there is no compiler; install it [no-compiler]",
-    ]
-
-
-def test_conflicts_are_shown_as_in_build_and_only_once() -> None:
-    first = told(CONFLICT)
-    assert first[0] == "14:03:12  arm  1 conflict"
-    assert f"  conflict   {ELBOW}  link elbow" in first
-    assert f"    urdfsync resolve {ELBOW} --keep" in first
-    assert told(CONFLICT, CONFLICT) == first
-    other = built(action(Kind.CONFLICT, generated="other"))
-    assert told(CONFLICT, other) == first + first
-    again = built(action(Kind.CONFLICT), changes=HEAVIER)
-    assert told(CONFLICT, again)[len(first) :] == [
-        "14:03:12  arm  link elbow: mass 1.2 → 1.35 kg (+12.5 %), 1 conflict"
-    ]
-    after_error = built(action(Kind.CONFLICT), recovered=True)
-    assert told(CONFLICT, after_error)[len(first) :] == ["14:03:12  arm  1 conflict"]
-
-
-def test_conflicts_that_are_settled_are_told() -> None:
-    assert told(CONFLICT, IN_STEP, IN_STEP)[-1:] == ["14:03:12  arm  in step again"]
-    assert told(CONFLICT, IN_STEP, IN_STEP).count("14:03:12  arm  in step again") == 1
-
-
-def test_files_that_are_kept_are_listed_once() -> None:
-    left = built(action(Kind.ORPHAN))
-    first = told(left)
-    assert first[:2] == [
-        "14:03:12  arm  1 no longer generated but kept because you edited it",
-        f"  orphan     {ELBOW}  no longer generated, but you edited it; kept",
-    ]
-    assert told(left, left) == first
-
-
-def test_warnings_are_told_when_they_are_new() -> None:
-    moved = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 8)
-    other = Diagnostic(Severity.WARNING, "odd", "this is odd, too", "arm.urdf", 9)
-    assert told(built(diagnostics=(ODD,)), built(diagnostics=(moved,)), built(diagnostics=(moved, other))) == [
-        "! arm.urdf:7: warning: this is odd [odd]",
-        "! arm.urdf:9: warning: this is odd, too [odd]",
-    ]
-    assert told(built(), built(diagnostics=(ODD,)), built(), built(diagnostics=(ODD,))) == 2 * [
-        "! arm.urdf:7: warning: this is odd [odd]"
-    ]
-
-
-def test_builds_with_nothing_to_do_have_warnings_of_their_own() -> None:
-    summary = Diagnostic(Severity.NOTE, "left-out", "1 mesh left out", "arm.urdf")
-    idle, busy = built(diagnostics=(summary,)), built(action(Kind.UPDATE), diagnostics=(ODD,))
-    lines = told(idle, busy, idle, busy)
-    assert [line for line in lines if line.startswith("!")] == [
-        "! arm.urdf: note: 1 mesh left out [left-out]",
-        "! arm.urdf:7: warning: this is odd [odd]",
-    ]
-
-
-def test_what_concerns_the_daemon() -> None:
-    noted = events.Noted((ODD, BROKEN))
-    assert told(noted, events.Recovered("all folders are watched again"), events.Stopping("SIGINT")) == [
-        "! 14:03:12  arm.urdf:7: warning: this is odd [odd]",
-        "! 14:03:12  arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-        "14:03:12  all folders are watched again",
-        "14:03:12  stopped by SIGINT",
-    ]
-    again = events.Started(Path("urdfsync.toml"), ("arm",), again=True)
-    assert told(again) == ["14:03:12  configuration read again, watching 1 robot of urdfsync.toml"]
+    lines = [f"{TIME}arm  {MASS}, 1 file written", f"  {MASS}", f"  update     {ELBOW}  {MASS}"]
+    assert told(UPDATED, verbose=True) == lines
 
 
 def test_quiet_leaves_errors_and_conflicts() -> None:
     noise = (STARTED, UPDATED, events.Noted((ODD,)), built(diagnostics=(ODD,)), events.Recovered("all is well"))
-    assert told(*noise, built(recovered=True), events.Stopping("SIGTERM"), quiet=True) == []
-    assert told(failed(ODD, BROKEN), quiet=True) == [
-        "! 14:03:12  arm  1 error, nothing was changed",
-        "! arm.urdf:12:3: error: this is no XML; correct it [xml-syntax]",
-    ]
+    assert told(*noise, built(recovered=True), RIGHT, events.Stopping("SIGTERM"), quiet=True) == []
+    assert told(failed(ODD, BROKEN), WRONG, RIGHT, WRONG, quiet=True) == [*IS_BROKEN, *IS_WRONG, *IS_WRONG]
     lines = told(CONFLICT, CONFLICT, quiet=True)
-    assert lines[:2] == [
-        "14:03:12  arm  1 conflict",
-        f"  conflict   {ELBOW}  it is no text that could be merged",
-    ]
+    assert lines[:2] == [f"{TIME}arm  1 conflict", f"  conflict   {ELBOW}  it is no text that could be merged"]
     assert lines.count(lines[0]) == 1
 
 
-def test_nothing_in_a_message_can_move_the_cursor() -> None:
-    evil = Diagnostic(Severity.ERROR, "odd", "\x1b[2Jgone", "arm.urdf")
-    assert not any("\x1b" in line for line in told(events.Noted((evil,)), failed(evil)))
+def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> None:
+    first = told(CONFLICT)
+    assert first[0] == f"{TIME}arm  1 conflict"
+    assert f"  conflict   {ELBOW}  link elbow" in first
+    assert f"    urdfsync resolve {ELBOW} --keep" in first
+    assert told(CONFLICT, CONFLICT) == first
+    assert told(CONFLICT, built(action(Kind.CONFLICT, generated="other"))) == first + first
+    again = built(action(Kind.CONFLICT), changes=HEAVIER)
+    assert told(CONFLICT, again) == [*first, f"{TIME}arm  {MASS}, 1 conflict"]
+    assert told(CONFLICT, built(action(Kind.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
+    assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
+    waiting = built(action(Kind.UPDATE), action(Kind.CONFLICT), action(Kind.UPDATE, "Base", held=True))
+    assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 change waiting for that"
 
 
-# A build in one line
-
-
-def change(path: str, old: Any, new: Any, unit: str = "", kind: Event = Event.CHANGED) -> Change:
-    return Change(tuple(path.split(" / ")), kind, ChangeClass.PARAMETER, old, new, unit)
-
-
-def file(kind: Kind, name: str = "Elbow", **more: Any) -> Action:
-    return Action(f"modelica/Arm/Links/{name}.mo", kind, Role.RECORD, **more)
-
-
-MASS = change("link elbow / inertial / mass", 1.0, 2.0, "kg")
-EFFORT = change("joint elbow / limit / effort", 54, 60, "N·m")
-MASSES = [change(f"link {name} / inertial / mass", 1, 2 + ord(name), "kg") for name in "abc"]
-INERTIA = [change(f"link a / inertial / inertia / {name}", 1, 2, "kg·m²") for name in ("ixx", "iyy")]
-RENAMED = change("link tool", "tool", "gripper", kind=Event.RENAMED)
-LONG_NAME = change(f"link {'a' * 120}", None, None, kind=Event.ADDED)
-WRITTEN = file(Kind.UPDATE)
-KEPT = [file(Kind.KEEP), file(Kind.UNCHANGED)]
-
-
-@pytest.mark.parametrize(
-    ("changes", "files", "words"),
-    [
-        # two changes find room, more are counted
-        (
-            Changes((MASS, EFFORT)),
-            [WRITTEN],
-            "link elbow: inertial / mass 1 → 2 kg (+100 %); joint elbow: limit / effort 54 → 60 N·m (+11.1 %), "
-            "1 file written",
-        ),
-        (Changes((*MASSES, *INERTIA)), 4 * [WRITTEN], "5 changes in 3 elements, 4 files written"),
-        (Changes((LONG_NAME,)), [WRITTEN], "1 change in 1 element, 1 file written"),
-        (
-            Changes((RENAMED,)),
-            [file(Kind.CREATE, "Gripper"), file(Kind.DELETE, "Tool"), file(Kind.MOVE, "Wrist")],
-            "link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits",
-        ),
-        (Changes((MASS,)), KEPT, "link elbow: inertial / mass 1 → 2 kg (+100 %)"),  # nothing is said of files that stay
-        (
-            Changes((MASS,), generator=True),
-            [WRITTEN],
-            "a template, an option or urdfsync itself changed, 1 file written",
-        ),
-        (
-            None,
-            [WRITTEN, file(Kind.CONFLICT), file(Kind.UPDATE, "Base", held=True)],
-            "1 file written, 1 conflict, 1 change waiting for that",
-        ),
-    ],
-)
-def test_a_build_in_one_line(changes: Changes | None, files: list[Action], words: str) -> None:
-    assert told(built(*files, changes=changes))[0] == f"14:03:12  arm  {words}"
+def test_files_that_are_kept_are_listed_once() -> None:
+    first = told(ORPHAN)
+    assert first[:2] == [
+        f"{TIME}arm  1 no longer generated but kept because you edited it",
+        f"  orphan     {ELBOW}  no longer generated, but you edited it; kept",
+    ]
+    assert told(ORPHAN, ORPHAN) == first

@@ -57,16 +57,6 @@ def test_parents_and_templates_matter(project: Path) -> None:
     assert watched.robots_for(str(project / "own/sub/x.jinja")) == {"ladder"}
 
 
-def test_folders_up_to_that_of_the_configuration_are_watched(tmp_path: Path) -> None:
-    project = tmp_path / "project"
-    (project / "cad/export").mkdir(parents=True)
-    found = seen(project, "cad/export/arm.urdf")
-    assert names(project, found.folders) == {".", "cad", "cad/export"}
-    for name in ("cad", "cad/export", "cad/export/arm.urdf", "modelica", "modelica/Arm", "urdfsync.toml"):
-        assert found.robots_for(str(project / name)) == {"arm"}
-    assert found.robots_for(str(project / "cad/other.urdf")) == set()
-
-
 def test_elsewhere_folders_are_watched_up_to_the_nearest_common_one(tmp_path: Path) -> None:
     project, cad = tmp_path / "a/project", tmp_path / "cad/export"
     project.mkdir(parents=True)

@@ -127,12 +127,6 @@ def test_a_job_that_never_ends_does_not_hold_a_signal_up(
     assert multiprocessing.active_children() == []
 
 
-def test_a_configuration_that_can_not_be_used_at_the_start(project: Path, capsys: Capture) -> None:
-    Path("urdfsync.toml").write_text("[")
-    assert cli.main(["watch"]) == 2
-    assert "toml-syntax" in capsys.readouterr().err
-
-
 # Processes of their own
 
 
@@ -150,7 +144,7 @@ def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
 
     yield begin
     for watch in running:
-        watch.__exit__(None, None, None)
+        watch.__exit__()
 
 
 @pytest.mark.slow

@@ -109,16 +109,10 @@ os.system("echo after >&2")
 """
 
 
-def seen(program: str) -> list[str]:
-    """What a program leaves on a terminal of 60 columns and 18 rows."""
-    variables = {"PYTHONPATH": str(REPOSITORY), "TERM": "xterm", "NO_COLOR": "1"}
-    screen = Screen(60, 18)
-    screen.write(print_on_terminal([sys.executable, "-c", program], variables, (60, 18))[1])
-    return screen.shown()
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
 def test_what_commands_and_libraries_print_stays() -> None:
-    rows = seen(PROGRAM)
+    screen, variables = Screen(60, 18), {"PYTHONPATH": str(REPOSITORY), "TERM": "xterm", "NO_COLOR": "1"}
+    screen.write(print_on_terminal([sys.executable, "-c", PROGRAM], variables, (60, 18))[1])
+    rows = screen.shown()
     assert rows[0].endswith("  watching 2 robots of urdfsync.toml")
     assert rows[1:] == ["a library warns", "one", "two", "", "100 %", "three", "four", "after"]

@@ -23,7 +23,6 @@ from urdfsync.check.results import (
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.output.console import StyledLine, line
-from urdfsync.output.json_values import finding_values
 from urdfsync.output.phrases import counted
 
 _STYLES = {
@@ -102,7 +101,7 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
             {**msgspec.structs.asdict(one), "deviations": list(map(_deviation_values, one.deviations))}
             for one in result.effects
         ],
-        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }
 
 

@@ -65,7 +65,16 @@ def _amount(text: str) -> float:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Check the packages of the robots, and show each as soon as it is checked."""
     if args.clear_cache:
-        return _clear_cache(args, console)
+        asked = (getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS))
+        if args.robots or any(asked):  # a check fills it again
+            message = "--clear-cache goes without robots and without options of a check"
+            raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
+        freed = UserCache.default().clear()
+        if console.json:
+            console.write_json("check", Exit.IN_STEP, {"freed": freed})
+        elif not console.quiet:
+            console.print([line((f"cache emptied, {decimal(freed)} freed" if freed else "the cache was empty", ""))])
+        return Exit.IN_STEP
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
@@ -93,16 +102,3 @@ def show_results(console: Console, found: Iterable[CheckResult], strict: bool) -
         if not console.json and not console.quiet:
             console.print(closing_lines(results, strict=strict))
     return results
-
-
-def _clear_cache(args: argparse.Namespace, console: Console) -> Exit:
-    """Empty the cache. Nothing else may be asked for: a check fills it again."""
-    if args.robots or any(getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS)):
-        message = "--clear-cache goes without robots and without options of a check"
-        raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
-    freed = UserCache.default().clear()
-    if console.json:
-        console.write_json("check", Exit.IN_STEP, {"freed": freed})
-    elif not console.quiet:
-        console.print([line((f"cache emptied, {decimal(freed)} freed" if freed else "the cache was empty", ""))])
-    return Exit.IN_STEP

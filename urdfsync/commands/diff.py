@@ -62,11 +62,14 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     found = []
     request = arguments.request(args, console)
     for one in comparison.compare_sources(robots, args.against, configuration, request, folder):
+        found.append(one)
         if console.json:
             console.add_robot(_to_json(one))
-        else:
-            _show(one, console)
-        found.append(one)
+            continue
+        console.findings(one.result.diagnostics)
+        if not console.quiet or one.result.conflicts:
+            head = headline(one.result, _summary(one), is_fine=one.in_step)
+            console.print([head, *_lines(one, console.verbose)], error=one.result.failed)
     code = comparison.exit_code(found)
     console.end("diff", code)
     return code
@@ -119,18 +122,8 @@ def _summary(found: Comparison) -> str:
 # --- text ---------------------------------------------------------------------------------------------------------
 
 
-def _show(found: Comparison, console: Console) -> None:
-    """Print what there is to say about one source: changes by element, effects on the model, files."""
-    result = found.result
-    console.findings(result.diagnostics)
-    if console.quiet and not result.conflicts:
-        return
-    head = headline(result, _summary(found), is_fine=found.in_step)
-    console.print([head, *_lines(found, console.verbose)], error=result.failed)
-
-
 def _lines(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the lines below the first one. Of many changes, effects and files the first are shown."""
+    """Yield the lines below the first one: changes by element, effects on the model, files; of many the first."""
     changes, effects = found.result.changes, effect_rows(found.effects)
     elements = outline(changes, everything=verbose) if changes else {}
     widths = _widths([row for rows in elements.values() for row in rows])

@@ -55,7 +55,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             show_result(console, fault.result)
     if faults:
         index = Index(folder)  # a build may have written
-        advice = _Advice(index, _typing_folder(index.top, folder))
+        # the folder in which the user called git or pre-commit, as far as these tell
+        shell = Path(os.path.realpath(os.environ.get("PWD") or folder))
+        if "GIT_PREFIX" in os.environ:
+            folder = index.top / os.environ["GIT_PREFIX"]
+        elif "PRE_COMMIT" in os.environ and shell.is_relative_to(index.top):
+            folder = shell
+        advice = _Advice(index, folder)
         if console.json:
             for fault in faults:
                 hint = "; ".join(f"`{command}`" for command in advice.steps([fault]).values())
@@ -66,14 +72,6 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             console.print(line((text, "")) for text in _lines(faults, advice))
     console.end("hook", code, diagnostics)
     return code
-
-
-def _typing_folder(top: Path, folder: Path) -> Path:
-    """Return the folder in which the user called git or pre-commit, as far as these tell."""
-    if "GIT_PREFIX" in os.environ:
-        return top / os.environ["GIT_PREFIX"]
-    shell = Path(os.path.realpath(os.environ.get("PWD") or folder))
-    return shell if "PRE_COMMIT" in os.environ and shell.is_relative_to(top) else folder
 
 
 def _lines(faults: Sequence[CommitFault], advice: _Advice) -> Iterator[str]:
@@ -120,18 +118,14 @@ class _Advice:
             files = shlex.join(map(self.shown, sorted({path for fault in waiting for path in fault.unstaged})))
             step = f"stage the changes (git add {files}) or put them aside (git stash push --keep-index), then build:"
             step = step if files else "build, then add to the commit:"
-            steps[step] = f"{self._build_commands(waiting)} && {self._add_command(waiting)}"
+            commands = []  # one for each configuration
+            near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
+            for file in dict.fromkeys(fault.files.config.file for fault in waiting):
+                robots = [fault.files.robot.name for fault in waiting if fault.files.config.file == file]
+                option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
+                commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
+            steps[step] = " && ".join([*commands, self._add_command(waiting)])
         return steps
-
-    def _build_commands(self, faults: Sequence[CommitFault]) -> str:
-        """Return a command for each configuration."""
-        commands = []
-        near = next((f for f in (self._folder, *self._folder.parents) if (f / FILE_NAME).is_file()), None)
-        for file in dict.fromkeys(fault.files.config.file for fault in faults):
-            robots = [fault.files.robot.name for fault in faults if fault.files.config.file == file]
-            option = [] if near is not None and near / FILE_NAME == file else ["--config", self.shown(file)]
-            commands.append(shlex.join(["urdfsync", "build", *robots, *option]))
-        return " && ".join(commands)
 
     def _add_command(self, faults: Sequence[CommitFault]) -> str:
         """Return the command that stages files; of many, folders instead of those in which nothing else is to add."""

@@ -53,9 +53,16 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Write the record to its file or to the standard output."""
     file = None if args.output == Path("-") else args.output
     domain = registry.domain(args.domain)
-    target = Target(_package(args.within), _record_class(args.source, args.class_, file))
-    record, diagnostics = _render(args.source, domain.name, target)
-    console.warnings(diagnostics)
+    target = _target(args, file)
+    snapshot, reading = sources.read(domain, domain.options(), config.read_source(args.source), shown(args.source))
+    reading = msgspec.structs.replace(reading, snapshot=snapshot)
+    found = domain.record(reading, shown(args.source), target, domain.options())
+    if found is None:
+        message = f"the domain `{domain.name}` has no record of a whole model"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
+    generated = Package([found.artifact], sources.domain_templates(domain))
+    console.warnings(sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line))
+    record = generated.content(found.artifact.path).decode()
     values = {"class": target.name, "within": target.package}
     if file is None:
         if console.json:
@@ -71,20 +78,6 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     elif not console.quiet:
         console.print([line((f"{file} {'written' if is_written else 'unchanged'}: record {target.name}", ""))])
     return Exit.IN_STEP
-
-
-def _render(source: Path, domain_name: str, target: Target) -> tuple[str, tuple[Diagnostic, ...]]:
-    """The text of the record, and what there is to say about its source. Raises SourceError or ConfigError."""
-    domain, file = registry.domain(domain_name), shown(source)
-    snapshot, reading = sources.read(domain, domain.options(), config.read_source(source), file)
-    reading = msgspec.structs.replace(reading, snapshot=snapshot)
-    found = domain.record(reading, file, target, domain.options())
-    if found is None:
-        message = f"the domain `{domain.name}` has no record of a whole model"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
-    generated = Package([found.artifact], sources.domain_templates(domain))
-    diagnostics = sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line)
-    return generated.content(found.artifact.path).decode(), tuple(diagnostics)
 
 
 def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
@@ -114,23 +107,17 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
     return True
 
 
-def _record_class(source: Path, chosen: str, file: Path | None) -> str:
+def _target(args: argparse.Namespace, file: Path | None) -> Target:
     """The class: the chosen one, else that of the file if its name can be a class, else one after the source."""
-    if chosen and not is_class_name(chosen):
+    name, within = args.class_, args.within
+    if name and not is_class_name(name):
         hint = "choose a name with a capital first that neither Modelica nor urdfsync has a use for"
-        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{chosen!r} can't be a class", hint=hint))
-    stem = file.stem if file is not None else ""
-    if chosen or is_class_name(stem):
-        return chosen or stem
-    return class_name(source.name.partition(".")[0]) + _SUFFIX
-
-
-def _package(within: str) -> str:
-    for part in within.split(".") if within else ():
-        if not is_identifier(part) or not is_package_name(part):
-            message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
-            raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
-    return within
+        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{name!r} can't be a class", hint=hint))
+    if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
+        message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
+        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
+    stem = file.stem if file is not None and is_class_name(file.stem) else ""
+    return Target(within, name or stem or class_name(args.source.name.partition(".")[0]) + _SUFFIX)
 
 
 def _problem(code: str, message: str, file: Path, hint: str) -> OutputError:

@@ -84,8 +84,17 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     sources = {robot.name: shown(robot.source) for robot in robots}
     results = []
     for result in build(configuration, robots, arguments.request(args, console, dry=True)):
-        _show(console, result, sources[result.robot])
         results.append(result)
+        if console.json:
+            console.add_robot(_values(result))
+            continue
+        # warnings about the source are for whoever builds it
+        source, found = sources[result.robot], result.diagnostics
+        told = [one for one in found if console.verbose or one.file != source or one.severity is Severity.ERROR]
+        console.findings(told)
+        console.stop_progress()
+        if not console.quiet or result.conflicts:
+            console.print(lines(result, console.verbose), error=result.failed)
     code = exit_code(results)
     console.end("status", code)
     return code
@@ -114,18 +123,6 @@ def _path(action: Action) -> str:
 
 def _reason(action: Action, result: Result) -> str:
     return "" if action.kind in _QUIET and not action.held else reason_of(action, result.changes)
-
-
-def _show(console: Console, result: Result, source: str) -> None:
-    if console.json:
-        console.add_robot(_values(result))
-        return
-    # Warnings about the source are for whoever builds it.
-    told = [one for one in result.diagnostics if one.file != source or one.severity is Severity.ERROR]
-    console.findings(result.diagnostics if console.verbose else told)
-    console.stop_progress()
-    if not console.quiet or result.conflicts:
-        console.print(lines(result, console.verbose), error=result.failed)
 
 
 def _values(result: Result) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 if TYPE_CHECKING:
-    from urdfsync.watch.daemon import Daemon, WatchOptions
+    from urdfsync.watch.daemon import Daemon
     from urdfsync.watch.events import Listener
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
@@ -59,33 +59,26 @@ def _duration(text: str) -> float:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Run the daemon until a signal ends it."""
-    from urdfsync.watch.daemon import Daemon  # not at the top: watchdog takes 45 ms
+    from urdfsync.watch.daemon import Daemon, WatchOptions  # not at the top: watchdog takes 45 ms
     from urdfsync.watch.report import JsonReport, TextReport
+    from urdfsync.watch.robot import Times
 
-    with contextlib.ExitStack() as stack:
-        if console.json:
-            listener: Listener = JsonReport()
-        else:
-            listener = stack.enter_context(TextReport(console))
-        daemon = Daemon(_options(args, console), listener)
+    report: contextlib.AbstractContextManager[Listener]
+    report = contextlib.nullcontext(JsonReport()) if console.json else TextReport(console)
+    with report as listener:
+        options = WatchOptions(
+            file=args.config or config.find(config.working_folder()),
+            robots=(*args.robots, *(args.robot or ())),
+            times=Times(args.settle / 1000, args.sample / 1000, args.patience),
+            rescan=max(args.rescan, 0.1),
+            poll=args.poll,
+            command=args.exec,
+            build=arguments.request(args, console),
+        )
+        daemon = Daemon(options, listener)
         with _signals(daemon) as received:
             daemon.run()
     return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
-
-
-def _options(args: argparse.Namespace, console: Console) -> WatchOptions:
-    from urdfsync.watch.daemon import WatchOptions
-    from urdfsync.watch.robot import Times
-
-    return WatchOptions(
-        file=args.config or config.find(config.working_folder()),
-        robots=(*args.robots, *(args.robot or ())),
-        times=Times(args.settle / 1000, args.sample / 1000, args.patience),
-        rescan=max(args.rescan, 0.1),
-        poll=args.poll,
-        command=args.exec,
-        build=arguments.request(args, console),
-    )
 
 
 @contextlib.contextmanager

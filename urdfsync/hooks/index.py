@@ -33,7 +33,7 @@ class Index:
             self._modes[path] = mode
             if tag != "H":  # modified, deleted, or git was told not to look at it
                 changed[path] = name
-            if tag in "Ss":
+            if tag in "Ss":  # skip-worktree: `checkout-index` leaves it out unless told otherwise
                 self._sparse.add(path)
         if changed:
             # after `git add --intent-to-add` the index has an empty file that no commit will have

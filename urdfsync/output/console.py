@@ -73,12 +73,6 @@ def visible(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def finding(found: Diagnostic) -> StyledLine:
-    """A diagnostic as one line: `file:line: severity: message; hint [code]`."""
-    place, severity, rest = str(found).partition(f"{found.severity}: ")
-    return line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, ""))
-
-
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
     """Diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
     if quiet:
@@ -89,7 +83,8 @@ def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -
         seen[found.code] += 1
         is_early = total[found.code] <= FEW or seen[found.code] < FEW
         if verbose or is_early or found.severity is Severity.ERROR:
-            lines.append(finding(found))
+            place, severity, rest = str(found).partition(f"{found.severity}: ")
+            lines.append(line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, "")))
         else:
             hidden[found.code] += 1
     more = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in hidden.items())

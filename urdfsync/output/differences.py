@@ -63,20 +63,16 @@ def find_hunks(base: str | None, mine: str, generated: str, merge: Merge | None)
         groups[-1].append(change)
     hunks = []
     for changes in groups:
+        lines: list[Line] = []  # those of the changes, those between them, and some around them
+        same, end = texts["mine"], max(0, changes[0].mine.start - CONTEXT)
+        for change in changes:
+            lines += (Line("", index + 1, same[index]) for index in range(end, change.mine.start))
+            lines += _changed_lines(texts, change, base is not None)
+            end = change.mine.stop
+        lines += (Line("", index + 1, same[index]) for index in range(end, min(end + CONTEXT, len(same))))
         start, stop = changes[0].base.start, changes[-1].base.stop
-        clash = any(start < lines.start <= lines.stop <= stop + 1 for lines in clashes)
-        hunks.append(Hunk(list(_hunk_lines(texts, changes, base is not None)), clash))
+        hunks.append(Hunk(lines, any(start < one.start <= one.stop <= stop + 1 for one in clashes)))
     return hunks
-
-
-def _hunk_lines(texts: Texts, changes: Sequence[ChangedLines], has_base: bool) -> Iterator[Line]:
-    """Yield the lines of some changes, those between them, and some around them."""
-    mine, end = texts["mine"], max(0, changes[0].mine.start - CONTEXT)
-    for change in changes:
-        yield from (Line("", index + 1, mine[index]) for index in range(end, change.mine.start))
-        yield from _changed_lines(texts, change, has_base)
-        end = change.mine.stop
-    yield from (Line("", index + 1, mine[index]) for index in range(end, min(end + CONTEXT, len(mine))))
 
 
 def _changed_lines(texts: Texts, change: ChangedLines, has_base: bool) -> Iterator[Line]:

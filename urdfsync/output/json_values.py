@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Action
 from urdfsync.engine.result import Result
@@ -14,26 +13,7 @@ from urdfsync.output import conflicts
 from urdfsync.output.phrases import reason, summary
 
 if TYPE_CHECKING:
-    from urdfsync.changes import Change, Changes
-    from urdfsync.output.conflicts import DisputedFile
-
-
-def finding_values(diagnostic: Diagnostic) -> dict[str, Any]:
-    """A diagnostic as plain data."""
-    return msgspec.structs.asdict(diagnostic)
-
-
-def change_values(change: Change) -> dict[str, Any]:
-    """A change of the model as plain data."""
-    return {
-        "change": str(change),
-        "kind": change.kind,
-        "class": change.change_class,
-        "old": change.old,
-        "new": change.new,
-        "unit": change.unit,
-        "noise": change.noise,
-    }
+    from urdfsync.changes import Changes
 
 
 def action_values(action: Action, changes: Changes | None = None) -> dict[str, Any]:
@@ -63,22 +43,30 @@ def result_values(result: Result) -> dict[str, Any]:
         "drawing": str(result.drawing) if result.drawing else None,
         "checked": result.checked,
         "class": changes.change_class if changes else ChangeClass.NONE,
-        "changes": [change_values(change) for change in changes.changes] if changes else [],
+        "changes": [
+            {
+                "change": str(change),
+                "kind": change.kind,
+                "class": change.change_class,
+                "old": change.old,
+                "new": change.new,
+                "unit": change.unit,
+                "noise": change.noise,
+            }
+            for change in (changes.changes if changes else ())
+        ],
         "actions": [action_values(action, changes) for action in result.actions],
-        "conflicts": [_conflict_values(target) for target in conflicts.find_conflicts([result])],
-        "diagnostics": [finding_values(diagnostic) for diagnostic in result.diagnostics],
-    }
-
-
-def _conflict_values(target: DisputedFile) -> dict[str, Any]:
-    return {
-        "path": target.action.path,
-        "origin": target.action.origin,
-        "owner": target.action.owner,
-        "merges": target.merges,
-        "reason": conflicts.describe(target),
-        "base": None,
-        "generated": None,
-        "merge": None,
-        **conflicts.saved_texts(target),
+        "conflicts": [
+            {
+                "path": target.action.path,
+                "origin": target.action.origin,
+                "owner": target.action.owner,
+                "merges": target.merges,
+                "reason": conflicts.describe(target),
+                **dict.fromkeys(("base", "generated", "merge")),
+                **conflicts.saved_texts(target),
+            }
+            for target in conflicts.find_conflicts([result])
+        ],
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }

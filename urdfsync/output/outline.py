@@ -151,16 +151,13 @@ def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
         elif not exact and max(len(old), len(new)) > _WIDTH:
             same = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
             begin = max(0, same - _CONTEXT)
-            shown = _cut(_excerpt(old, begin)), _cut(_excerpt(new, begin))
+            dots = "…" if begin else ""
+            shown = _cut(dots + " ".join(old[begin:].split())), _cut(dots + " ".join(new[begin:].split()))
     else:
         shown = _value(old, mark=mark, exact=exact), _value(new, mark=mark, exact=exact)
         if shown[0] == shown[1]:
             shown = _value(old, mark=mark, exact=True), _value(new, mark=mark, exact=True)
     return " → ".join(shown)
-
-
-def _excerpt(text: str, begin: int) -> str:
-    return ("…" if begin else "") + " ".join(text[begin:].split())
 
 
 def _value(value: Any, *, mark: str = "", exact: bool = False) -> str:

@@ -98,22 +98,20 @@ def reason(action: Action, changes: Changes | None) -> str:
     """
     if action.kind not in _NAMED or changes is None:
         return action.reason
-    waits = action.reason.removeprefix(msgspec.structs.replace(action, held=False).reason)
-    cause = _cause(action, changes)
-    return _NAMED[action.kind].format(cause) + waits if cause else action.reason
-
-
-def _cause(action: Action, changes: Changes) -> str:
-    """The changes that a file follows from: records those of their element, models and packages structural ones."""
+    # records follow from the changes of their element, models and packages from structural ones
     found = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
         structural = [one for one in changes.changes if one.change_class is ChangeClass.STRUCTURAL]
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
-    if not found:
-        return generator_change(changes) if changes.generator else ""
-    more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
-    return f"{found[0].element}: {change_row(found[:1])}{more}"
+    if not (found or changes.generator):
+        return action.reason
+    cause = generator_change(changes)
+    if found:
+        more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
+        cause = f"{found[0].element}: {change_row(found[:1])}{more}"
+    waits = action.reason.removeprefix(msgspec.structs.replace(action, held=False).reason)
+    return _NAMED[action.kind].format(cause) + waits
 
 
 def generator_change(changes: Changes) -> str:

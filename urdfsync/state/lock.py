@@ -39,6 +39,8 @@ else:
 class LockedError(UrdfsyncError):
     """Another process holds the lock for too long."""
 
+    is_locked = True
+
 
 class Lock:
     """A lock on a file, which then holds the number of the process that had the lock last."""

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import importlib
-import traceback
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, shown
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
 from urdfsync.engine import source
 from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
@@ -36,7 +34,7 @@ def judge_source(config: Config, watched: WatchedRobot, cache: Cache) -> tuple[t
     except UrdfsyncError as error:
         return error.diagnostics, 0
     except Exception as error:  # noqa: BLE001 - a bug in a domain must not end the daemon; nothing is written yet
-        return (internal_error(error, f"{shown(robot.source)} can't be read"),), 0
+        return (internal_error(error, f"{shown(robot.source)} can't be read: "),), 0
     lost = len(built_names - {(kind, name) for kind, names in by_kind.items() for name in names})
     return (), lost if lost >= _MANY and 2 * lost > len(built_names) else 0
 
@@ -53,21 +51,13 @@ def build_robots(config: Config, robots: Sequence[RobotConfig], options: BuildOp
                 waiting.pop(0)
                 yield result
         except Exception as error:  # noqa: BLE001
-            yield failed_result(config, waiting.pop(0), (internal_error(error, "it can't be built"),))
+            yield failed_result(config, waiting.pop(0), (internal_error(error, "it can't be built: "),))
 
 
 def failed_result(config: Config, robot: RobotConfig, diagnostics: tuple[Diagnostic, ...]) -> Result:
     """Return the result of a robot that can't be built."""
     package = robot.target.package
     return Result(robot.name, package, robot.folder, config.root, diagnostics=diagnostics, failed=True)
-
-
-def internal_error(error: Exception, what: str) -> Diagnostic:
-    """Return the finding for a bug, with the place where the exception was raised."""
-    frame = traceback.extract_tb(error.__traceback__)[-1]
-    message = f"{what}: {type(error).__name__} in {Path(frame.filename).name}, line {frame.lineno}: {error}"
-    hint = "this is a mistake in urdfsync: please report it"
-    return Diagnostic(Severity.ERROR, "internal", message.rstrip(": "), hint=hint)
 
 
 def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:

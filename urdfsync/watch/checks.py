@@ -5,30 +5,27 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from queue import SimpleQueue
-from types import TracebackType
 from typing import Self
 
 import msgspec
 
 from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, internal_error
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Checked
 from urdfsync.watch import events
-from urdfsync.watch.build import internal_error
 
 _PATIENCE = 10.0
 """Seconds that a check gets to end when the daemon does; a compiler that is left ends with the process."""
 
 
-class CheckJob(msgspec.Struct, eq=False):
-    """One check of a package."""
+class CheckJob(msgspec.Struct, frozen=True, eq=False):
+    """One check of a package; cancelled once it is no longer the newest of its robot."""
 
     robot: RobotConfig
     key: str | None
     """Of all that the check rests on; None if some of it can't be read."""
-    is_cancelled: bool = False
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
@@ -61,19 +58,15 @@ class CheckQueue:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        for name in [*self._jobs]:
-            self._cancel(name)
+    def __exit__(self, *_: object) -> None:
+        self._jobs.clear()
         if self._thread is not None:
             self._thread.join(_PATIENCE)
 
     def use(self, config: Config) -> None:
         """Check by this configuration from now on, whatever was found before."""
         self._checker = BuildChecker(config, self._options)
-        for name in [*self._jobs]:
-            self._cancel(name)
+        self._jobs.clear()
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
@@ -83,11 +76,12 @@ class CheckQueue:
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
         if job is not None and key is not None and job.key == key:
             return ()
-        self._cancel(robot.name)  # the files of an older check are not on disk any more
+        self._jobs.pop(robot.name, None)  # the files of an older check are not on disk any more
         found = self._checker.known(key)
         if found is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
+        # right as before, perhaps for an earlier daemon: there is nothing new to say
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
         event = self._note(robot, found)
         return () if was_right and found.checked is Checked.RIGHT else (event,)
@@ -95,14 +89,11 @@ class CheckQueue:
     def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
         """Take note of the end of a check, and start the next."""
         self._thread = None
-        if ended.found is None or ended.job.is_cancelled:
+        robot = ended.job.robot
+        if ended.found is None or self._jobs.get(robot.name) is not ended.job:
             return self._start_next()
-        del self._jobs[ended.job.robot.name]
-        return self._note(ended.job.robot, ended.found), *self._start_next()
-
-    def _cancel(self, name: str) -> None:
-        if job := self._jobs.pop(name, None):
-            job.is_cancelled = True
+        del self._jobs[robot.name]
+        return self._note(robot, ended.found), *self._start_next()
 
     def _start_next(self) -> Sequence[events.Event]:
         if self._thread is not None or not self._jobs:
@@ -114,7 +105,7 @@ class CheckQueue:
 
     def _run(self, job: CheckJob, checker: BuildChecker) -> None:
         def cancel_here(what: str, done: int, total: int) -> None:  # noqa: ARG001 - the signature of `Progress`
-            if job.is_cancelled:
+            if self._jobs.get(job.robot.name) is not job:
                 raise CancelledError
 
         found = None
@@ -123,7 +114,7 @@ class CheckQueue:
         except CancelledError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked"),))
+            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked: "),))
         finally:
             self._queue.put(CheckEnded(job, found))
 

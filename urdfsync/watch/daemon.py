@@ -10,6 +10,7 @@ itself: after a build that wrote something, or during which somebody else did, t
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import time
 from collections.abc import Iterable, Sequence
@@ -19,18 +20,18 @@ from queue import Empty, SimpleQueue
 import msgspec
 
 from urdfsync import config, precommit
-from urdfsync.config import Config, warnings
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError
+from urdfsync.config import STATE_FOLDER, Config, shown, warnings
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
+from urdfsync.state.lock import Lock, LockedError
 from urdfsync.watch import build, events
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
 from urdfsync.watch.robot import Debouncer, Times, WatchedRobot, read_state
-from urdfsync.watch.single_instance import InstanceLock
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
@@ -53,6 +54,29 @@ class WatchOptions(msgspec.Struct, frozen=True):
     command: str = ""
     """What to run after a build that changed something; empty for nothing."""
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)
+
+
+class InstanceLock(Lock):
+    """The lock that a daemon holds for its life: one daemon per configuration."""
+
+    def __init__(self, config_file: Path) -> None:
+        super().__init__(config_file.parent / STATE_FOLDER / "watch.lock", 0)
+        self._config_file = config_file
+
+    def hold(self) -> None:
+        """Take the lock; also when it was taken, but its file was deleted: another daemon could not see it."""
+        with contextlib.suppress(OSError):
+            if self._descriptor is not None and os.path.samestat(os.fstat(self._descriptor), self._path.stat()):
+                return
+        self.release()
+        try:
+            self.acquire()
+        except LockedError:
+            holder = self._path.read_text(errors="replace").strip()
+            who = f"process {holder}" if holder.isdecimal() else "another process"
+            message, hint = f"{who} watches this configuration already", "leave the work to it, or end it first"
+            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._config_file), hint=hint)
+            raise LockedError(found) from None
 
 
 class Daemon:
@@ -84,11 +108,11 @@ class Daemon:
     def run(self) -> None:
         """Watch until `stop` is called. Raises ConfigError for a configuration that can't be used at the start.
 
-        Raises AlreadyWatchedError if another daemon watches it, OutputError if the lock can't be written.
+        Raises LockedError if another daemon watches it, OutputError if the lock can't be written.
         """
         loaded = config.load(self._options.file)
         try:
-            with InstanceLock(loaded) as lock, contextlib.closing(self._observer), self._checks:
+            with InstanceLock(loaded.file) as lock, contextlib.closing(self._observer), self._checks:
                 lock.hold()
                 self._use(loaded)
                 self._next_rescan = time.monotonic() + self._options.rescan
@@ -152,9 +176,9 @@ class Daemon:
     # Events
 
     def _receive(self) -> None:
-        """Wait until something happens or is due, and take note of all that has happened."""
+        """Wait until something happens or is due; let settle what has changed, and take note of all else."""
         paths: set[str] = set()
-        with contextlib.suppress(Empty):
+        with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
                 match message:
@@ -165,25 +189,6 @@ class Daemon:
                     case CheckEnded():
                         self._show_all(self._checks.finish(message))
                 message = self._queue.get_nowait()
-        if paths:
-            self._receive_paths(paths)
-
-    def _show_all(self, found: Iterable[events.Event]) -> None:
-        for event in found:
-            self._listener.show(event)
-
-    def _seconds_until_due(self) -> float:
-        now = time.monotonic()
-        due = [watched.debouncer.due for watched in self._robots.values() if watched.debouncer.due is not None]
-        if not due and not self._is_warm:
-            return 0.0
-        due.append(self._next_rescan)
-        due += [self._next_poll] if self._is_polling else []
-        due += [now + _PAUSE] if self._is_paused else []
-        return max(min(due) - now, 0.0)
-
-    def _receive_paths(self, paths: set[str]) -> None:
-        """Let settle what has changed at some of these paths."""
         by_robot: dict[str, set[str]] = {}
         for path in paths:
             for name in self._watched.robots_for(path):
@@ -193,6 +198,20 @@ class Daemon:
         if not all(known):
             self._watch_folders()  # a folder or a link may have been replaced
         self._touch([one for one in affected if one.is_announced or one.has_changed(by_robot[one.name])])
+
+    def _show_all(self, found: Iterable[events.Event]) -> None:
+        for event in found:
+            self._listener.show(event)
+
+    def _seconds_until_due(self) -> float:
+        now = time.monotonic()
+        due = [watched.debouncer.due for watched in self._robots.values()]
+        if not self._is_warm and min(due) == math.inf:
+            return 0.0  # nobody waits: `_build_settled` gets ready for the first change
+        due += [self._next_rescan]
+        due += [self._next_poll] if self._is_polling else []
+        due += [now + _PAUSE] if self._is_paused else []
+        return max(min(due) - now, 0.0)
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let robots settle, since something changed; all from the same moment, so that they are built together."""
@@ -256,7 +275,7 @@ class Daemon:
         now, robots = time.monotonic(), self._robots.values()
         if self._is_paused:
             self._update_pause()
-        due = [watched for watched in robots if watched.debouncer.is_due(now)]
+        due = [watched for watched in robots if watched.debouncer.due <= now]
         samples = [watched.read_files(inputs_only=True) for watched in due]
         settled = [one for one, sample in zip(due, samples, strict=True) if one.debouncer.add_sample(sample, now)]
         if settled and self._reload_config():
@@ -273,6 +292,7 @@ class Daemon:
 
     def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
         """Return whether a robot is to be built, of which the files have settled."""
+        # the sample has the inputs only, so outputs are read now; not after a failure, which may have had another cause
         if watched.failure is None and watched.hashes() == watched.built == watched.read_files():
             if watched.is_announced:
                 self._listener.show(events.Unchanged(watched.name))
@@ -324,9 +344,9 @@ class Daemon:
             if now == old:
                 self._rest(watched)
             elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
-                self._touch([watched])
+                self._touch([watched])  # somebody saved meanwhile: the user is told
             else:
-                watched.debouncer.touch(time.monotonic())
+                watched.debouncer.touch(time.monotonic())  # most likely its own writes: confirmed without a word
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""

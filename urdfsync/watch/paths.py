@@ -119,7 +119,7 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
             trees.setdefault(add(str(robot.templates), name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
     in_trees = tuple(f"{tree}{os.sep}" for tree in trees)
-    above.remove(root)
+    above.remove(root)  # a file that is missing there may come, as any below it
     watched: set[str] = set()
     for path in by_path:
         folder = os.path.dirname(path)  # noqa: PTH120

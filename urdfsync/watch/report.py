@@ -5,7 +5,6 @@ from __future__ import annotations
 import datetime
 import json
 import sys
-from types import TracebackType
 from typing import Any, Self
 
 import msgspec
@@ -66,9 +65,7 @@ class TextReport:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Take the status away; what scrolled stays."""
         if self._area:
             self._area.write((), ())
@@ -83,6 +80,7 @@ class TextReport:
             case events.Ran(robot):
                 self._commands.discard(robot)
         lines = list(self._log.lines(event, clock))
+        # one terminal has both streams in their order, above the status; elsewhere each stream gets its own
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import stat
 import time
@@ -60,17 +61,13 @@ class Debouncer:
     def __init__(self, times: Times) -> None:
         self._times = times
         self._sample: object = None
-        self.due: float | None = None
-        """When the next sample is to be taken, in seconds of a monotonic clock; None if there is nothing to do."""
+        self.due = math.inf
+        """When the next sample is to be taken, in seconds of a monotonic clock; infinite if there is nothing to do."""
 
     @property
     def is_idle(self) -> bool:
         """Whether nothing happened since the last build."""
-        return self.due is None
-
-    def is_due(self, now: float) -> bool:
-        """Return whether a sample is to be taken."""
-        return self.due is not None and self.due <= now
+        return self.due == math.inf
 
     def touch(self, now: float) -> None:
         """Begin again: something may have changed."""
@@ -84,7 +81,7 @@ class Debouncer:
 
     def rest(self) -> None:
         """Do nothing until the next event."""
-        self._sample = self.due = None
+        self._sample, self.due = None, math.inf
 
 
 class WatchedRobot(msgspec.Struct):
