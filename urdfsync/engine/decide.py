@@ -19,7 +19,6 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord, RecordState
 
 if TYPE_CHECKING:
@@ -44,11 +43,6 @@ class Decision(msgspec.Struct, frozen=True):
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
 
-    @property
-    def has_work(self) -> bool:
-        """Whether a file is to be written, or is in conflict."""
-        return any(action.writes or action.kind in CONFLICTS for action in self.actions)
-
 
 @profiling.stage("deciding")
 def decide_package(inputs: Inputs, generation: Generation | None, names: DanglingNames | None = None) -> Decision:
@@ -61,7 +55,12 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     desired_orders: Mapping[str, tuple[str, ...]]
     if generation is None:
         recorded = inputs.recorded or inputs.heading("")
-        desired, desired_orders = _recorded_files(recorded), recorded.orders
+        desired_orders = recorded.orders
+        desired = {
+            key: DesiredFile(record.role, record.owner, record.base)
+            for key, record in recorded.files.items()
+            if record.base is not None and record.state is not RecordState.ORPHAN
+        }
     else:
         desired, desired_orders = generation.desired_files(), generation.desired_orders()
         recorded, moves = inputs.rebuilt_manifest(desired), generation.renamed_files()
@@ -95,15 +94,6 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
-
-
-def _recorded_files(recorded: Manifest) -> dict[str, DesiredFile]:
-    """Return the files that the last build generated."""
-    return {
-        key: DesiredFile(record.role, record.owner, record.base)
-        for key, record in recorded.files.items()
-        if record.base is not None and record.state is not RecordState.ORPHAN
-    }
 
 
 def _renumbered(generation: Generation | None, actions: Sequence[Action], merged: Mapping[str, str]) -> set[str]:

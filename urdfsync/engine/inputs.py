@@ -79,11 +79,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             former &= self.store.written_folders(self.former_name or self.robot.name)
         return self.folder, *sorted(former)
 
-    @property
-    def is_noted(self) -> bool:
-        """Whether a build in this checkout noted the package's folder."""
-        return self.folder in self.store.written_folders(self.robot.name)
-
     def own(self, recorded: Manifest) -> tuple[dict[str, FileRecord], dict[str, tuple[str, ...]]]:
         """Return the recorded files that a build may delete and move, and the lines that it may take out of orders."""
         inside, is_inside = tuple(f"{folder}/" for folder in self.own_folders), self.files.is_inside
@@ -125,9 +120,9 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.store.bases(self.former_name or self.robot.name)
 
     @cached_property
-    def source(self) -> manifest.Source:
-        """The source as it is recorded, but for the hash of the recorded model."""
-        return manifest.Source(self.robot.source_text, text_digest(self.content), "")
+    def source_hash(self) -> str:
+        """Text hash of the source."""
+        return text_digest(self.content)
 
     @cached_property
     def last(self) -> Version | None:
@@ -181,7 +176,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             package=target.package,
             class_=target.name,
             folder=self.folder,
-            source=msgspec.structs.replace(self.source, snapshot=model_hash),
+            source=manifest.Source(self.robot.source_text, self.source_hash, model_hash),
             generator=self.generator,
             options=manifest.option_values(self.robot.options),
         )

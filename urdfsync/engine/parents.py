@@ -105,10 +105,6 @@ def _check_output(config: Config, robot: RobotConfig) -> None:
             hint = "name the folder above it as output, and the package with its full name"
             raise _refusal(config, robot, "output-is-package", message, hint, "output")
         return
-    existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
-    if not existing.is_dir():
-        message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
-        raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
     if config.root not in output.parents:
         message = f"the output folder {shown(output)} does not exist"
         hint = "create it: urdfsync makes folders only beside or below its configuration"
