@@ -146,38 +146,6 @@ def test_differences(old: dict[str, Any], new: dict[str, Any], expected: list[tu
     assert lines(changes(shelf(**old), shelf(**new))) == expected
 
 
-@given(st.dictionaries(st.text("ab", max_size=2), PLAIN, max_size=3), st.data())
-def test_the_changes_lead_from_the_old_to_the_new(books: dict[str, Any], data: st.DataObject) -> None:
-    other = {name: data.draw(PLAIN | st.just(book)) for name, book in books.items()}
-    differences: list[Difference] = []
-
-    class Recorder(Shelf):
-        def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-            return {}
-
-        def describe(
-            self, found: Sequence[Difference], old: Version, new: Version, options: Any
-        ) -> Sequence[Meaning | None]:
-            differences.extend(found)
-            return super().describe(found, old, new, options)
-
-    compare(shelf(**books), shelf(**other), cast(Domain, Recorder()), None)
-    for difference in differences:
-        for version, value, absent in (
-            (books, difference.old, ChangeKind.ADDED),
-            (other, difference.new, ChangeKind.REMOVED),
-        ):
-            if difference.kind is not absent:
-                assert _at(version, difference.path[1:]) == value
-    assert {d.path[1] for d in differences} == {name for name in books if books[name] != other[name]}
-
-
-def _at(value: Any, path: Sequence[str | int]) -> Any:
-    for key in path:
-        value = value[key]
-    return value
-
-
 def test_a_rename_is_one_change_and_the_rest_is_compared_under_the_new_name() -> None:
     found = changes(shelf(a={"size": 1}, c={"size": 1.0}), shelf(b={"size": 1}, c={"size": 2.0}))
     assert found.renames == {("book", "a"): "b"}
