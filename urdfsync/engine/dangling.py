@@ -42,8 +42,7 @@ class DanglingNames:
     def lost(self) -> dict[str, str]:
         """The names that the package loses, with their new names; empty if there is none.
 
-        A name is lost if an old text declares it, and no new one, also not in the class around it. What a class
-        inherits now is not lost.
+        A name is lost if an old text declares it, and no new one, also not in the class around it.
         """
         generation, inputs = self._generation, self._inputs
         before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
@@ -54,7 +53,11 @@ class DanglingNames:
             if path in generation.changed or states.get(path) in (None, RecordState.WAITING, RecordState.CONFLICT)
         }
         new = _declared(now)
-        gone = {path for path in _declared(before) - new if not self._is_inherited(path)}
+        gone = set()
+        for path in _declared(before) - new:  # a name that the class inherits now is not gone
+            node = self._generated.node((*self._package.split("."), *path[:-1]))
+            if node is None or not isinstance(self._generated.part((Type(node),), path[-1]), Element):
+                gone.add(path)
         names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
         known, renamed = {path[-1] for path in new}, self._renamed_identifiers()
         found = {name: _new_name(name, renamed, known) for name in sorted(names)}
@@ -85,11 +88,6 @@ class DanglingNames:
     def _generated(self) -> Scopes:
         """The package as it is generated, without edits."""
         return Scopes(self._planned({}, {}))
-
-    def _is_inherited(self, path: ClassName) -> bool:
-        """Whether a class has an element because it extends another one; `path` counts from the package."""
-        node = self._generated.node((*self._package.split("."), *path[:-1]))
-        return node is not None and isinstance(self._generated.part((Type(node),), path[-1]), Element)
 
     def first_use(self, key: str, text: str) -> Unresolved | None:
         """Return the first use of a lost name in a text for a file of the package; None if there is none."""

@@ -19,6 +19,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.modelica.literals import numbers_only
+from urdfsync.state import repair
 from urdfsync.state.record import FileRecord, RecordState
 
 if TYPE_CHECKING:
@@ -52,10 +53,9 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     merge markers.
     """
     files, moves = inputs.files, dict[str, str]()
-    desired_orders: Mapping[str, tuple[str, ...]]
+    recorded = inputs.recorded or inputs.heading("")
+    desired_orders = recorded.orders
     if generation is None:
-        recorded = inputs.recorded or inputs.heading("")
-        desired_orders = recorded.orders
         desired = {
             key: DesiredFile(record.role, record.owner, record.base)
             for key, record in recorded.files.items()
@@ -63,7 +63,12 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         }
     else:
         desired, desired_orders = generation.desired_files(), generation.desired_orders()
-        recorded, moves = inputs.rebuilt_manifest(desired), generation.renamed_files()
+        moves = generation.renamed_files()
+        if inputs.recovered:  # with `--repair`: what is on disk decides between the sides
+            generated = {key: file.hash for key, file in desired.items()}
+            places = {**dict.fromkeys(generated, Role.MODEL), **inputs.recovered.roles}
+            mine = {key: files.hash(key, role) for key, role in places.items()}
+            recorded = repair.rebuilt(inputs.recovered, mine, generated) or inputs.heading("")
     records, owned = inputs.own(recorded)
     roles = {key: record.role for key, record in records.items()} | {key: one.role for key, one in desired.items()}
     with profiling.stage("looking at files"):

@@ -18,7 +18,6 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
-from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import digest, text_digest
 from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
@@ -208,15 +207,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             return ()
         names = robot.options.__struct_fields__
         return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
-
-    def rebuilt_manifest(self, desired: Mapping[str, DesiredFile]) -> Manifest:
-        """Return the manifest of the last build, rebuilt with `--repair`; an empty one if there was none."""
-        if self.recovered is None:
-            return self.recorded or self.heading("")
-        generated = {key: file.hash for key, file in desired.items()}
-        roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
-        mine = {key: self.files.hash(key, role) for key, role in roles.items()}
-        return repair.rebuilt(self.recovered, mine, generated) or self.heading("")
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:

@@ -81,7 +81,7 @@ def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
     on_disk: Mapping[str, OnDisk],
-    moves: Mapping[str, str] | None = None,
+    moves: Mapping[str, str],
 ) -> tuple[Action, ...]:
     """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
 
@@ -89,7 +89,6 @@ def decide(
     goes to its new path (MOVE, and LEAVE at the old one), unless something else of the user's is there. A file that the
     user moved there by hand is compared with what was written at the old path.
     """
-    moves = moves or {}
     bases = _bases_of_moves(recorded, moves)
     # what is at the old and the new places of the files that move: ours is what urdfsync wrote at that very place
     ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
