@@ -113,7 +113,7 @@ def find_sources(
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source that is in no configuration, with all settings as they are by default."""
+    """Return a robot for a source that is in no configuration, with default settings."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).options()
     return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)

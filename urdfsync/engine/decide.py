@@ -88,7 +88,14 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     _refuse_markers(inputs, actions, old_orders)
     removable = _removable_lines(owned, actions)
     order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
-    held = hold((*actions, *order_actions), _renumbered(generation, actions, merged))
+    renumbered: set[str] = set()
+    if generation is not None and any(action.kind in CONFLICTS for action in actions):  # else nothing waits
+        for action in actions:
+            if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+                text = merged.get(action.path) or generation.content(action.path).decode()
+                if numbers_only(files.text(action.path) or "", text):
+                    renumbered.add(action.path)
+    held = hold((*actions, *order_actions), renumbered)
     waiting = {action.path for action in held if action.held}
     orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
     return Decision(
@@ -99,15 +106,6 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
-
-
-def _renumbered(generation: Generation | None, actions: Sequence[Action], merged: Mapping[str, str]) -> set[str]:
-    """Return the records of which only numbers change; none if there is no conflict, since nothing waits then."""
-    if generation is None or not any(action.kind in CONFLICTS for action in actions):
-        return set()
-    updated = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
-    texts = {path: merged.get(path) or generation.content(path).decode() for path in updated}
-    return {path for path, text in texts.items() if numbers_only(generation.inputs.files.text(path) or "", text)}
 
 
 def _conflict(generation: Generation, names: DanglingNames | None, action: Action) -> Conflict:
