@@ -24,10 +24,7 @@ from urdfsync.state.record import RecordState
 
 _EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
-_STAYING = frozenset({Kind.NEEDED, Kind.ORPHAN})
-"""What happens to files that stay although they are no longer generated."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
-_LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 
 
 class DanglingNames:
@@ -109,7 +106,8 @@ class DanglingNames:
         found = self._left_out(actions, {**{files.path(key): text for key, text in mine.items()}, **others})
         if not self.lost or not (mine or around):
             return found
-        staying = {action.path: files.any_text(action.path) for action in actions if action.kind in _STAYING}
+        left = (action.path for action in actions if action.kind in (Kind.NEEDED, Kind.ORPHAN))
+        staying = {path: files.any_text(path) for path in left}
         doubtful = self.lost.keys() - set(map(class_of, staying))
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
@@ -161,7 +159,8 @@ class DanglingNames:
         if node is None:
             tokens = (token for token in lex(text)[0] if token.text in self.lost)
             return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
-        found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in _LEGAL]
+        legal = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
+        found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in legal]
         generated = {self._class_name(self._inputs.key(path)) for path in self._generation.package.artifacts}
         same = self._generated.node(name) if found and name in generated else None
         fine = {one.name for one in unresolved(same, self._generated, doubtful)} if same else ()
