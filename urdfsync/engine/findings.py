@@ -39,14 +39,14 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if inputs.old_folder == inputs.folder or any(action.held for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.kind in DELETES}
-    # a manifest may be a stranger's: nobody looks into a folder elsewhere because it says so
+    # a manifest may be a stranger's: no look into a folder elsewhere, and no command that deletes it
     is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]
     if not rest:
         return
     message = f"the package moved from {shown(old)} to {shown(new)}"
-    if inputs.old_folder not in inputs.own_folders:
+    if is_inside and inputs.old_folder not in inputs.own_folders:
         message += "; the old folder was not built in this checkout, so it stays as it is"
         hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
     else:

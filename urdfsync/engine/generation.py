@@ -67,6 +67,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         It may be kept, on disk, recorded, or rendered again. A file that the user moved has its base under the key that
         it had.
         """
+        # from the cheapest to the dearest; what does not have the hash is never taken, so the order changes no result
         inputs, recorded = self.inputs, self.inputs.recorded
         if (known := inputs.bases.get(sha256)) is not None:
             return known

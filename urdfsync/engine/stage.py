@@ -103,7 +103,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     emptied = [one for one in folders if above in one.parents or conflicts in (one, *one.parents)]
     return msgspec.structs.replace(
         plan,
-        witness=store.witness(),
+        witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         bases=bases,
