@@ -101,6 +101,7 @@ class _Builder:
                 if self._is_current(plan):
                     return plan
                 continue
+            told = _joined(first, plan) if first else plan
             noted = Store(self._config.root).written_folders(robot.name)
             is_noted = key_of(robot.folder, self._config.root) in noted
             if plan.writes or plan.bases or not is_noted or any(action.writes for action in plan.actions):
@@ -110,9 +111,9 @@ class _Builder:
                 if not self._is_current(plan):
                     continue
                 if not_done := self._write(robot, plan):
-                    saved, first = not_done[0], _joined(first, plan) if first else plan
+                    saved, first = not_done[0], told
                     continue
-            return _joined(first, plan) if first else plan
+            return told
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))

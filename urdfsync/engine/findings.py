@@ -53,8 +53,8 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
         message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
         hint = "take over what you need, then delete the old folder"
-    place = shown(inputs.config.file), inputs.robot.lines[""]
-    yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+    file, line = shown(inputs.config.file), inputs.robot.lines[""]
+    yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
 
 
 def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:

@@ -191,8 +191,10 @@ def _import(
 
 def _needed(dependency: Dependency, recorded: ConversionFacts | None) -> Mapping[str, Any] | None:
     """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
-    if recorded is None or not dependency.facts:
-        return None if recorded is None else recorded.facts
+    if recorded is None:
+        return None
+    if not dependency.facts:
+        return recorded.facts
     found = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
     return found if len(found) == len(dependency.facts) else None
 
