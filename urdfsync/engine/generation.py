@@ -39,6 +39,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     package: Package
     last_package: Package | None
     """The package of the recorded model, from today's templates; None if there is none."""
+    recovered_packages: tuple[Package, ...]
+    """The packages of the models that `--repair` could read."""
     changed: frozenset[str]
     """Paths below the package whose text may differ from the last build's."""
 
@@ -71,7 +73,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         inputs, recorded = self.inputs, self.inputs.recorded
         if (known := inputs.bases.get(sha256)) is not None:
             return known
-        packages = [self.package]
+        packages = [self.package, *self.recovered_packages]
         if self.last_package and recorded and recorded.generator == inputs.generator:
             packages.insert(0, self.last_package)
         same = [other for other, record in recorded.files.items() if record.base == sha256] if recorded else []
@@ -197,17 +199,20 @@ def generate_robot(inputs: Inputs) -> Generation:
             lambda done, total: options.progress(f"{robot.name}: imports", done, total),
         )
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
-    last_package = None
+    last_package, recovered = None, []
     if inputs.last and recorded:  # first: the cache keeps one package, and that of now takes its place
         with contextlib.suppress(*NO_MODEL):
             last_package = _package(inputs, inputs.last, Target(recorded.package, recorded.class_))
     package = _package(inputs, now, robot.target)
+    for model in inputs.recovered.models.values() if inputs.recovered and recorded else ():
+        with contextlib.suppress(*NO_MODEL):
+            recovered.append(_package(inputs, inputs.version(model), robot.target))
     changed = frozenset(package.artifacts)
     if last_package and recorded and recorded.generator == inputs.generator and not options.full:
         with profiling.stage("comparing"):
             changed = package.changed_since(last_package)
     found = (*found, *imported.diagnostics)
-    return Generation(inputs, now, reading.lines, found, imported, package, last_package, changed)
+    return Generation(inputs, now, reading.lines, found, imported, package, last_package, tuple(recovered), changed)
 
 
 def _package(inputs: Inputs, version: Version, target: Target) -> Package:

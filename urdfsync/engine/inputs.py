@@ -23,6 +23,7 @@ from urdfsync.files import digest, text_digest
 from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Generator, Manifest
+from urdfsync.state.modelfile import Model
 from urdfsync.state.record import FileRecord
 from urdfsync.state.store import State, Store
 
@@ -126,15 +127,9 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def last(self) -> Version | None:
         """The model of the last build; None if there was none, or it is lost."""
-        if self.recorded is None or self.state is None or self.state.model is None or not self.state.intact:
+        if self.state is None or self.state.model is None or not self.state.intact:
             return None
-        imported = {
-            key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
-            for key, facts in self.state.model.imports.items()
-            if (record := self.recorded.dependencies.get(key)) is not None
-        }
-        fingerprint = self.recorded.generator.fingerprint
-        return Version(self.state.model.snapshot, imported, fingerprint, self._recorded_options)
+        return self.version(self.state.model)
 
     @cached_property
     def last_complete(self) -> Version | None:
@@ -151,6 +146,17 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         if since is not msgspec.UNSET:
             return since
         return self.recorded.generator.revision if self.recorded else None
+
+    def version(self, model: Model) -> Version:
+        """Return a recorded model with the imports that the manifest has of it."""
+        dependencies = self.recorded.dependencies if self.recorded else {}
+        imported = {
+            key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
+            for key, facts in model.imports.items()
+            if (record := dependencies.get(key)) is not None
+        }
+        generator = self.recorded.generator.fingerprint if self.recorded else ""
+        return Version(model.snapshot, imported, generator, self._recorded_options)
 
     @property
     def _recorded_options(self) -> Any:
