@@ -217,18 +217,27 @@ def _find_edits(old: Sequence[str], new: Sequence[str]) -> list[_Edit]:
         if not (deleted and inserted):
             edits.append(_at_whole_lines(start, deleted, inserted, old, floor, ceiling))
             continue
-        # whole lines that are added after a replacement are an edit of their own
+        # whole lines after a replacement that only one of the texts has are an edit of their own
         rest = tuple(old[stop:ceiling])
-        ending = rest[: rest.index(NEWLINE) + 1] if NEWLINE in rest and NEWLINE not in deleted else ()
-        places = range(len(inserted)) if ending else ()
-        added = next((place for place in places if inserted[place : place + len(ending)] == ending), 0)
+        ending = rest[: rest.index(NEWLINE) + 1] if NEWLINE in rest else ()
+        added = _find_run(ending, inserted) if NEWLINE not in deleted else None
+        removed = _find_run(ending, deleted) if NEWLINE not in inserted else None
         if added:
             edits += _without_comments(start, deleted, inserted[:added])
             lines, after = inserted[added + len(ending) :] + ending, stop + len(ending)
             edits.append(_at_whole_lines(after, (), lines, old, after, ceiling))
+        elif removed is not None:
+            edits += _without_comments(start, deleted[:removed], inserted)
+            lines, after = deleted[removed + len(ending) :] + ending, start + removed + len(ending)
+            edits.append(_at_whole_lines(after, lines, (), old, after, ceiling))
         else:
             edits += _without_comments(start, deleted, inserted)
     return edits
+
+
+def _find_run(run: tuple[str, ...], items: tuple[str, ...]) -> int | None:
+    """Return where a run first occurs in items; None if it is empty or does not."""
+    return next((place for place in range(len(items)) if run and items[place : place + len(run)] == run), None)
 
 
 def _without_comments(start: int, deleted: tuple[str, ...], inserted: tuple[str, ...]) -> Iterator[_Edit]:
@@ -325,11 +334,13 @@ def _are_apart(first: _Unit, second: _Unit, old: Sequence[str]) -> bool:
         return False
     if any(map(is_word, gap)):
         return True
+    if before.is_trivia and after.is_trivia:
+        return True
     if before.is_trivia or after.is_trivia:
         if any(token == NEWLINE or not is_trivia(token) for token in gap):
             return True
-        code = after if before.is_trivia else before
-        return not (code.only_adds or code.only_removes)
+        note, code = (before, after) if before.is_trivia else (after, before)
+        return bool(note.deleted and note.inserted) if code.only_adds else not code.only_removes
     if ";" in gap and NEWLINE in gap:
         return True
     if (before.only_adds and after.only_removes) or (before.only_removes and after.only_adds):
