@@ -75,7 +75,7 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
     absent = {path for path in known - contents if not os.path.lexists(path)}  # there is nothing to read
     seen = contents | absent
     assert {(name, path) for name, path in calls if path not in (seen if name in READS else known)} == set()
-    wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", "own/notes")
+    wanted = ("modelica/Lab/package.order", "ros", "robots/leg_meshes/base.stl", ".urdfsync/robots", "own/notes")
     assert {str(folder / path) for path in (*wanted, "closed")} <= contents
     assert str(folder / "later") in absent
 

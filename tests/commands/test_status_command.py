@@ -84,6 +84,14 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
 
+def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, execute: Execute) -> None:
+    edit(built / "urdfsync.toml", "[robots.ladder]", "[robots.other]")
+    edit(built / "urdfsync.toml", '"Ladder"', '"Other"')
+    assert execute("status").lines[0] == "other: not built yet"
+    (note,) = execute("status", code=None).errors
+    assert "the state of `ladder` is still there" in note
+
+
 def test_without_its_state_a_package_is_not_known_as_built(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
