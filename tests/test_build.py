@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from support.files import unchanged
-from support.networks import LADDER, MANIFEST, Snapshot, edit, failure, resistor, run, source
+from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
 from urdfsync.engine import imports
@@ -137,6 +137,21 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
     states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
     assert states == {"filter.toml", "filter.json"}
     assert run().diagnostics == ()
+
+
+def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
+    run()
+    Path("urdfsync.toml").write_text(ROBOT.format("filter", "Filter") + ROBOT.format("third", "Third"))
+    for _ in range(3):
+        first, second = run_all()
+        assert said(first) == [
+            "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
+            "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
+        ]
+        assert second.diagnostics == ()
+        assert (project / LADDER / "package.mo").exists()
+        assert Path(MANIFEST).exists()
+        Path(MANIFEST).write_text("it need not be readable")
 
 
 # Hand edits

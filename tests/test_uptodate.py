@@ -64,6 +64,7 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     said = capsys.readouterr()
     assert uptodate.print_answer(command) == ""
     assert capsys.readouterr() == said
+    assert "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
@@ -159,7 +160,7 @@ EDITS: dict[str, Edit] = {
         f"rewrite {path}": _edit("rewrite", path)
         for path in (
             *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
-            "modelica/Leg/package.order",
+            *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
     },
     "a mesh that is better placed": _edit("write", "robots/arm_meshes/base.stl", stl()),
@@ -172,6 +173,7 @@ EDITS: dict[str, Edit] = {
     "a package above all": _edit("write", "modelica/package.mo"),
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
     "a folder that is a class": _edit("delete", "modelica/Lab/Arm/Links/Base/package.mo"),
+    "another stray state": _edit("write", ".urdfsync/robots/other.toml"),
     "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
     "an interrupted build": _edit("write", ".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),

@@ -18,6 +18,7 @@ from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.engine.actions import DELETES, Actions, Kind
+from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles, key_of
 from urdfsync.engine.plan import plan_robot
@@ -48,7 +49,8 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             result = builder.build(robot)
-            notes, builder.notes = builder.notes, []
+            notes = builder.notes if count else [*orphaned_state(config), *builder.notes]
+            builder.notes = []
             yield msgspec.structs.replace(result, diagnostics=(*notes, *result.diagnostics)) if notes else result
 
 

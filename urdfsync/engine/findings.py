@@ -5,15 +5,17 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator
 
-from urdfsync.config import shown
+from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.inputs import Inputs, orphaned_robots
+from urdfsync.engine.package_files import key_of
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state import repair
 from urdfsync.state.record import Choice
+from urdfsync.state.store import Store
 
 _FEW = 3
 """So many files are named; of more, only their number."""
@@ -93,3 +95,18 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
             hint = f"`urdfsync check {inputs.robot.name}` tells whether it fits the rest of the package"
             file = shown(inputs.files.path(action.path))
             yield Diagnostic(Severity.WARNING, "outdated-file", message, file, hint=hint)
+
+
+def orphaned_state(config: Config) -> list[Diagnostic]:
+    """A note if there is state of robots that are in the configuration no more."""
+    store = Store(config.root)
+    built = set(store.names())
+    heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
+    found = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]
+    if not found:
+        return []
+    listed = ", ".join(f"`{name}`" for name in found)
+    message = f"the state of {listed} is still there, but the configuration has no such robot"
+    folder = shown(store.folder / "robots")
+    hint = f"bring the robot back, or delete {folder}/{found[0]}.* and what is left of its package"
+    return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]

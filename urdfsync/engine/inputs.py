@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -220,14 +219,8 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     state, recovered = _load(store, files, robot.name, options)
     former = None
     if state is None:  # was it built into this folder by another name, which is no longer configured?
-        known = {one.name.casefold() for one in config.robots}
-        for name in store.names():
-            if name.casefold() not in known:
-                with contextlib.suppress(UrdfsyncError):
-                    other = store.load(name)
-                    if other and other.manifest.folder == folder:
-                        former, state = name, other
-                        break
+        former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
+        state = store.load(former) if former else None
     templates = source.templates(config, robot, domain)
     content = source.read_source(config, robot)
     fingerprint = _fingerprint(robot.target, robot.options, domain.revision, templates.digest)
@@ -272,3 +265,15 @@ def _fingerprint(target: Target, options: Any, revision: int, templates: str) ->
         "templates": templates,
     }
     return digest(json.dumps(facts, sort_keys=True).encode())
+
+
+def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
+    """Yield robots that have a state and are not configured, with the key of their folder; None if it can't be read."""
+    known = {robot.name.casefold() for robot in config.robots}
+    for name in store.names():
+        if name.casefold() not in known:
+            try:
+                state = store.load(name)
+            except UrdfsyncError:
+                state = None
+            yield name, state.manifest.folder if state else None
