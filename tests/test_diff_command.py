@@ -260,6 +260,12 @@ def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
     assert "the source can't be read" in refused(execute, "ladder.json", "--against", "step.csv")
 
 
+def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:
+    shutil.copy(project / "ladder.json", project / "copy.json")
+    configure(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
+    assert "one file can't be the older version of 2 sources" in refused(execute, "--against", "step.csv")
+
+
 def test_what_is_not_modelled_gives_the_same_package(arm: Path, execute: Execute) -> None:
     edit("arm.urdf", "</robot>", '<transmission name="t"/></robot>')
     (arm / "new.urdf").write_text(ARM)

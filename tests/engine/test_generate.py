@@ -74,3 +74,9 @@ def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, te
     assert message.startswith(f"{place}: error: ")
     assert words in message
     assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+
+
+def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
+    (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
+    (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
+    assert failure().startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")

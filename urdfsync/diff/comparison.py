@@ -109,6 +109,9 @@ def find_sources(
         if not chosen:
             message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
             raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
+    if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
+        message = f"one file can't be the older version of {len(chosen)} sources"
+        raise _config_error("one-file", message, hint="name the source to compare it with")
     return config, chosen
 
 

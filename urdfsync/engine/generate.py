@@ -130,8 +130,12 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
         return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
     except (jinja2.TemplateError, *_RENDERING) as error:
         problem = error
-    reason = str(problem).rstrip(".") or type(problem).__name__
-    reason = "it needs more memory than it may take" if isinstance(problem, MemoryError) else reason
+    if isinstance(problem, RecursionError):
+        reason = "it includes or calls itself without end"
+    elif isinstance(problem, MemoryError):
+        reason = "it needs more memory than it may take"
+    else:
+        reason = str(problem).rstrip(".") or type(problem).__name__
     message = f"the template can't be rendered for `{artifact.path}`: {reason}"
     file = next((str(one / artifact.template) for one in folders if (one / artifact.template).is_file()), "")
     file, line, frame = file or artifact.template, 0, problem.__traceback__
@@ -145,6 +149,11 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
         file, line = problem.filename or problem.name or artifact.template, problem.lineno
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
+    elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template
+        message, content = "the template is not UTF-8", problem.object
+        files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
+        file = next((str(path) for path in files if path.read_bytes() == content), "")
+        line = content.count(b"\n", 0, problem.start) + 1
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to get that of urdfsync" if is_own else "install urdfsync again"
     file = shown(Path(file)) if Path(file).is_absolute() else file

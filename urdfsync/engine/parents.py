@@ -6,6 +6,7 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
@@ -67,6 +68,9 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             message = f"the output folder {shown(robot.output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
             raise _refusal(config, robot, "output-is-package", message, hint, "output")
+    elif not (existing := next(one for one in (robot.output, *robot.output.parents) if os.path.lexists(one))).is_dir():
+        message = f"the output folder {shown(robot.output)} can't be made: {shown(existing)} is no folder"
+        raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
     elif config.root not in robot.output.parents:
         message = f"the output folder {shown(robot.output)} does not exist"
         hint = "create it: urdfsync makes folders only beside or below its configuration"
