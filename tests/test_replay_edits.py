@@ -138,7 +138,7 @@ class Episode:
         return choice, self.before.get(place), self.fresh.get(path)
 
     def options(self, conflict: Conflict) -> Sequence[Choice]:
-        if self.is_folder(inside(conflict.place)):
+        if self.is_folder(inside(conflict.origin or conflict.path)):
             return [Choice.KEEP]
         mergeable = conflict.merge is not None and conflict.merge.text is not None
         return list(Choice) if mergeable else [Choice.KEEP, Choice.TAKE]
@@ -239,7 +239,7 @@ class Episode:
         found, aside = self.project.files(), replay.contents(self.project.root / CONFLICTS)
         wanted = set()
         for conflict in result.conflict_texts:
-            path, place = inside(conflict.path), inside(conflict.place)
+            path, place = inside(conflict.path), inside(conflict.origin or conflict.path)
             if found.get(place) != raw.get(place):
                 yield f"{place} conflicts, and is changed"
             stem, action = path.removesuffix(".mo"), self.actions[path]

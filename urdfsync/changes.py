@@ -78,11 +78,6 @@ class Changes(msgspec.Struct, frozen=True):
         return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
 
     @property
-    def is_structural(self) -> bool:
-        """Whether any element, type or connection changed."""
-        return any(change.change_class is ChangeClass.STRUCTURAL for change in self.changes)
-
-    @property
     def noise(self) -> bool:
         """Whether there are changes and all of them are numeric noise."""
         return bool(self.changes) and not self.generator and all(change.noise for change in self.changes)

@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import signal
-import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -144,12 +143,3 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.
     results = run_all(jobs=2)
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
-
-
-def test_the_folder_for_temporary_files_may_have_a_long_path(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The path of a socket may have a hundred characters."""
-    folder = robots / ("long" * 30)
-    folder.mkdir()
-    monkeypatch.setenv("TMPDIR", str(folder))
-    monkeypatch.setattr(tempfile, "tempdir", None)
-    assert [one.failed for one in run_all(jobs=2)] == [number == 2 for number in range(COUNT)]

@@ -46,30 +46,6 @@ def test_decision_table(base: str | None, mine: str | None, generated: str | Non
 
 # Files whose element has another name
 
-
-def written(*names: str) -> dict[str, FileRecord]:
-    """What is recorded of models that urdfsync wrote; the base of `a` is `a0`."""
-    return {name: FileRecord(f"part {name}", Role.MODEL, f"{name}0") for name in names}
-
-
-def targets(*names: str) -> dict[str, DesiredFile]:
-    """What is generated now; the hash for `a` is `a1`."""
-    return {name: DesiredFile(Role.MODEL, f"part {name}", f"{name}1") for name in names}
-
-
-@pytest.mark.parametrize(
-    ("moves", "names"), [({"b": "a", "c": "b"}, "ab"), ({"a": "c", "b": "a", "c": "b"}, "abc")], ids=["chain", "cycle"]
-)
-def test_names_that_follow_each_other_take_every_edit_along(moves: dict[str, str], names: str) -> None:
-    found = {name: f"mine {name}" for name in names}
-    actions = decide(written(*names), targets(*moves), found, moves)
-    moved = {one.path: (one.origin, one.base, one.mine) for one in actions if one.kind is Kind.MOVE}
-    assert moved == {new: (old, f"{old}0", f"mine {old}") for new, old in moves.items()}
-    assert {one.path: one.kind for one in actions if one.kind is not Kind.MOVE} == (
-        {} if "a" in moves else {"a": Kind.LEAVE}
-    )
-
-
 bases = st.none() | st.sampled_from("uvw")
 hands = st.sampled_from([None, CLASS_FOLDER, *"uvwxy"])
 paths = st.sampled_from("abcde")

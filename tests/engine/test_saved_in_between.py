@@ -19,6 +19,7 @@ from urdfsync.state import file_operations
 R1 = "modelica/Ladder/Elements/R1Parameters.mo"
 R2 = "modelica/Ladder/Elements/R2Parameters.mo"
 MINE = "// mine\n"
+SaveInBetween = Callable[..., None]
 
 
 def set_ohms(source: Path, ohms: int) -> None:
@@ -27,26 +28,26 @@ def set_ohms(source: Path, ohms: int) -> None:
 
 
 @pytest.fixture
-def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], None]], None]:
+def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> SaveInBetween:
     """A function that lets the next build be overtaken: R1's record is saved, and then something else happens."""
 
-    def arrange(then: Callable[[], None]) -> None:
-        exchange = file_operations.exchange
+    def arrange(then: Callable[[], object], operation: str = "exchange") -> None:
+        real = getattr(file_operations, operation)
 
         def saved(one: Path, two: Path) -> None:
             if two == project / R1:
-                monkeypatch.setattr(file_operations, "exchange", exchange)
-                two.write_text(two.read_text() + MINE)
+                monkeypatch.setattr(file_operations, operation, real)
+                two.write_text((two.read_text() if two.exists() else "") + MINE)
                 then()
-            exchange(one, two)
+            real(one, two)
 
-        monkeypatch.setattr(file_operations, "exchange", saved)
+        monkeypatch.setattr(file_operations, operation, saved)
 
     return arrange
 
 
 def test_a_newer_source_is_written_to_all_other_files(
-    project: Path, save_in_between: Callable[[Callable[[], None]], None], execute: Execute
+    project: Path, save_in_between: SaveInBetween, execute: Execute
 ) -> None:
     source = project / "ladder.json"
     execute("build")
@@ -62,7 +63,7 @@ def test_a_newer_source_is_written_to_all_other_files(
 
 
 def test_a_source_that_is_broken_for_a_while_changes_nothing_about_it(
-    execute: Execute, project: Path, save_in_between: Callable[[Callable[[], None]], None]
+    execute: Execute, project: Path, save_in_between: SaveInBetween
 ) -> None:
     source = project / "ladder.json"
     execute("build")
@@ -81,18 +82,9 @@ def test_a_source_that_is_broken_for_a_while_changes_nothing_about_it(
 
 
 def test_a_first_build_keeps_what_somebody_puts_in_its_way(
-    execute: Execute, project: Path, monkeypatch: pytest.MonkeyPatch
+    execute: Execute, project: Path, save_in_between: SaveInBetween
 ) -> None:
-    place = file_operations.place
-
-    def saved(one: Path, two: Path) -> None:
-        if two == project / R1:
-            monkeypatch.setattr(file_operations, "place", place)
-            two.write_text(MINE)
-            set_ohms(project / "ladder.json", 80)
-        place(one, two)
-
-    monkeypatch.setattr(file_operations, "place", saved)
+    save_in_between(lambda: set_ohms(project / "ladder.json", 80), "place")
     execute("build", code=Exit.CONFLICT)
     assert (project / R1).read_text() == MINE
     assert "80" in (project / R2).read_text()

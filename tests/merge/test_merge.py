@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from urdfsync.merge import Merge, merge, split_lines
 from urdfsync.merge.lines import find_flaw, merge_lines
-from urdfsync.merge.tokens import is_word, tokens
+from urdfsync.merge.tokens import inner_lines, is_word, tokens
 
 EXAMPLES = Path(__file__).parents[2] / "modelica" / "UrdfSync" / "Examples"
 
@@ -250,12 +250,23 @@ def test_any_text_is_right_if_a_side_is_the_same(parts: list[str], others: list[
     assert find_flaw(text, [text]) == find_flaw(text, [other, text]) == ""
 
 
+def test_lines_inside_strings_and_comments() -> None:
+    text = 'a = "one\ntwo\nthree"; // no "\nb /* four\nfive */ c\n"unfinished\n\n'
+    assert inner_lines(text) == {1, 2, 4, 6, 7}
+    assert inner_lines('a = "b";\nc = 1;\n') == frozenset()
+
+
 # --- what must hold for all texts ---------------------------------------------------------------------------------
 
 lines = st.lists(
     st.sampled_from(["a\n", "b\n", "  c = 1,\n", "  d = {0, 1},\n", "// e\n", "\n", '"f\n', 'g" h;\n']), max_size=8
 )
 texts = st.builds("".join, lines)
+
+
+@given(st.text(st.sampled_from("ab1.-+eE\"'\\/*[]{}(),; \t\n\r=:<>é\u2028"), max_size=40))
+def test_tokens_are_the_text(text: str) -> None:
+    assert "".join(tokens(text)) == text
 
 
 @given(base=texts, mine=texts, generated=texts)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -116,7 +116,7 @@ def find_sources(
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source that is in no configuration, with all settings as they are by default."""
+    """Return a robot for a source that is in no configuration, with default settings."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).options()
     return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)
@@ -211,15 +211,15 @@ def _with_version(
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
     ]
-    older, newer = (_files_of(*pair) for pair in zip(packages, (old, new), strict=True))
+    changed = packages[1].changed_since(packages[0])
+    older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
     actions = []
     for path, (role, owner, _) in (older | newer).items():
-        are_texts = all(path in package.artifacts for package in packages)
-        is_same = older.get(path) == newer.get(path)
-        if not is_same and not (are_texts and packages[0].content(path) == packages[1].content(path)):
-            kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
-            place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
-            actions.append(Action(place, kind, role, owner))
+        if path in older and path in newer and older[path][2] == newer[path][2]:
+            continue
+        kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
+        place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
+        actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
     if config:  # a dry build knows which files are others than the last one wrote
@@ -229,16 +229,17 @@ def _with_version(
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
 
-def _files_of(package: Package, version: Version) -> dict[str, tuple[Role, str, object]]:
-    """Return role and owner of each file of a package, and what its content follows from."""
-    files: dict[str, tuple[Role, str, object]] = {}
-    for path, artifact in package.artifacts.items():
-        files[path] = artifact.role, artifact.owner, package.data_key(path)
-    for path, order in package.orders.items():
-        files[path] = Role.ORDER, "package", order
-    for key, imported in (version.imports or {}).items():
-        files[imported.target] = Role.IMPORT, key, imported.target_hash
-    return files
+def _files_of(
+    package: Package, version: Version, changed: Collection[str]
+) -> dict[str, tuple[Role, str, bytes | tuple[str, ...] | str | None]]:
+    """Return role, owner and content of each file of a package; texts are rendered only if they are `changed`."""
+    texts = {
+        path: (artifact.role, artifact.owner, package.content(path) if path in changed else None)
+        for path, artifact in package.artifacts.items()
+    }
+    orders = {path: (Role.ORDER, "package", names) for path, names in package.orders.items()}
+    imported = {one.target: (Role.IMPORT, key, one.target_hash) for key, one in (version.imports or {}).items()}
+    return {**texts, **orders, **imported}
 
 
 def _effects(domain: Domain, old: Version, new: Version, found: Changes, robot: RobotConfig) -> tuple[Effect, ...]:
@@ -268,9 +269,12 @@ def _read(
         known.contents.get,
         bases={},
     )
-
-    def progress(done: int, total: int) -> None:
-        options.progress(f"{robot.name}: imports", done, total)
-
-    imported = imports.bring_in(domain, dependencies, recorded, version.name, again=False, progress=progress)
+    imported = imports.bring_in(
+        domain,
+        dependencies,
+        recorded,
+        version.name,
+        again=False,
+        progress=lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+    )
     return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)

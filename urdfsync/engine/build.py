@@ -20,7 +20,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity,
 from urdfsync.engine.actions import DELETES, Actions, Kind
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.package_files import PackageFiles, key_of
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan, partly_done
@@ -103,16 +103,19 @@ class _Builder:
                 if self._is_current(plan):
                     return plan
                 continue
-            if plan.writes or plan.bases or not plan.is_noted or any(action.writes for action in plan.actions):
+            told = _joined(first, plan) if first else plan
+            noted = Store(self._config.root).written_folders(robot.name)
+            is_noted = key_of(robot.folder, self._config.root) in noted
+            if plan.writes or plan.bases or not is_noted or any(action.writes for action in plan.actions):
                 dependencies.mark_incomplete()  # what was read is about to change
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)
                 if not self._is_current(plan):
                     continue
                 if not_done := self._write(robot, plan):
-                    saved, first = not_done[0], _joined(first, plan) if first else plan
+                    saved, first = not_done[0], told
                     continue
-            return _joined(first, plan) if first else plan
+            return told
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))

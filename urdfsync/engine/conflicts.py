@@ -35,11 +35,6 @@ class Conflict(msgspec.Struct, frozen=True):
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
 
-    @property
-    def place(self) -> str:
-        """Path of the user's file."""
-        return self.origin or self.path
-
 
 def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]]:
     """Return the versions that are put aside of a file in conflict: `base`, `generated` and `merge`, if there are such.

@@ -24,10 +24,7 @@ from urdfsync.state.record import RecordState
 
 _EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
-_STAYING = frozenset({Kind.NEEDED, Kind.ORPHAN})
-"""What happens to files that stay although they are no longer generated."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
-_LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 
 
 class DanglingNames:
@@ -42,8 +39,7 @@ class DanglingNames:
     def lost(self) -> dict[str, str]:
         """The names that the package loses, with their new names; empty if there is none.
 
-        A name is lost if an old text declares it, and no new one, also not in the class around it. What a class
-        inherits now is not lost.
+        A name is lost if an old text declares it, and no new one, also not in the class around it.
         """
         generation, inputs = self._generation, self._inputs
         before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
@@ -54,7 +50,11 @@ class DanglingNames:
             if path in generation.changed or states.get(path) in (None, RecordState.WAITING, RecordState.CONFLICT)
         }
         new = _declared(now)
-        gone = {path for path in _declared(before) - new if not self._is_inherited(path)}
+        gone = set()
+        for path in _declared(before) - new:  # a name that the class inherits now is not gone
+            node = self._generated.node((*self._package.split("."), *path[:-1]))
+            if node is None or not isinstance(self._generated.part((Type(node),), path[-1]), Element):
+                gone.add(path)
         names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
         known, renamed = {path[-1] for path in new}, self._renamed_identifiers()
         found = {name: _new_name(name, renamed, known) for name in sorted(names)}
@@ -86,11 +86,6 @@ class DanglingNames:
         """The package as it is generated, without edits."""
         return Scopes(self._planned({}, {}))
 
-    def _is_inherited(self, path: ClassName) -> bool:
-        """Whether a class has an element because it extends another one; `path` counts from the package."""
-        node = self._generated.node((*self._package.split("."), *path[:-1]))
-        return node is not None and isinstance(self._generated.part((Type(node),), path[-1]), Element)
-
     def first_use(self, key: str, text: str) -> Unresolved | None:
         """Return the first use of a lost name in a text for a file of the package; None if there is none."""
         if self.lost.keys().isdisjoint(code_words(text)):
@@ -111,7 +106,8 @@ class DanglingNames:
         found = self._left_out(actions, {**{files.path(key): text for key, text in mine.items()}, **others})
         if not self.lost or not (mine or around):
             return found
-        staying = {action.path: files.any_text(action.path) for action in actions if action.kind in _STAYING}
+        left = (action.path for action in actions if action.kind in (Kind.NEEDED, Kind.ORPHAN))
+        staying = {path: files.any_text(path) for path in left}
         doubtful = self.lost.keys() - set(map(class_of, staying))
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
@@ -163,7 +159,8 @@ class DanglingNames:
         if node is None:
             tokens = (token for token in lex(text)[0] if token.text in self.lost)
             return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
-        found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in _LEGAL]
+        legal = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
+        found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in legal]
         generated = {self._class_name(self._inputs.key(path)) for path in self._generation.package.artifacts}
         same = self._generated.node(name) if found and name in generated else None
         fine = {one.name for one in unresolved(same, self._generated, doubtful)} if same else ()

@@ -19,7 +19,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state.manifest import Manifest
+from urdfsync.state import repair
 from urdfsync.state.record import FileRecord, RecordState
 
 if TYPE_CHECKING:
@@ -44,11 +44,6 @@ class Decision(msgspec.Struct, frozen=True):
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
 
-    @property
-    def has_work(self) -> bool:
-        """Whether a file is to be written, or is in conflict."""
-        return any(action.writes or action.kind in CONFLICTS for action in self.actions)
-
 
 @profiling.stage("deciding")
 def decide_package(inputs: Inputs, generation: Generation | None, names: DanglingNames | None = None) -> Decision:
@@ -58,13 +53,22 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     merge markers.
     """
     files, moves = inputs.files, dict[str, str]()
-    desired_orders: Mapping[str, tuple[str, ...]]
+    recorded = inputs.recorded or inputs.heading("")
+    desired_orders = recorded.orders
     if generation is None:
-        recorded = inputs.recorded or inputs.heading("")
-        desired, desired_orders = _recorded_files(recorded), recorded.orders
+        desired = {
+            key: DesiredFile(record.role, record.owner, record.base)
+            for key, record in recorded.files.items()
+            if record.base is not None and record.state is not RecordState.ORPHAN
+        }
     else:
         desired, desired_orders = generation.desired_files(), generation.desired_orders()
-        recorded, moves = inputs.rebuilt_manifest(desired), generation.renamed_files()
+        moves = generation.renamed_files()
+        if inputs.recovered:  # with `--repair`: what is on disk decides between the sides
+            generated = {key: file.hash for key, file in desired.items()}
+            places = {**dict.fromkeys(generated, Role.MODEL), **inputs.recovered.roles}
+            mine = {key: files.hash(key, role) for key, role in places.items()}
+            recorded = repair.rebuilt(inputs.recovered, mine, generated) or inputs.heading("")
     records, owned = inputs.own(recorded)
     roles = {key: record.role for key, record in records.items()} | {key: one.role for key, one in desired.items()}
     with profiling.stage("looking at files"):
@@ -84,7 +88,14 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     _refuse_markers(inputs, actions, old_orders)
     removable = _removable_lines(owned, actions)
     order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
-    held = hold((*actions, *order_actions), _renumbered(generation, actions, merged))
+    renumbered: set[str] = set()
+    if generation is not None and any(action.kind in CONFLICTS for action in actions):  # else nothing waits
+        for action in actions:
+            if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+                text = merged.get(action.path) or generation.content(action.path).decode()
+                if numbers_only(files.text(action.path) or "", text):
+                    renumbered.add(action.path)
+    held = hold((*actions, *order_actions), renumbered)
     waiting = {action.path for action in held if action.held}
     orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
     return Decision(
@@ -95,24 +106,6 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
-
-
-def _recorded_files(recorded: Manifest) -> dict[str, DesiredFile]:
-    """Return the files that the last build generated."""
-    return {
-        key: DesiredFile(record.role, record.owner, record.base)
-        for key, record in recorded.files.items()
-        if record.base is not None and record.state is not RecordState.ORPHAN
-    }
-
-
-def _renumbered(generation: Generation | None, actions: Sequence[Action], merged: Mapping[str, str]) -> set[str]:
-    """Return the records of which only numbers change; none if there is no conflict, since nothing waits then."""
-    if generation is None or not any(action.kind in CONFLICTS for action in actions):
-        return set()
-    updated = [a.path for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
-    texts = {path: merged.get(path) or generation.content(path).decode() for path in updated}
-    return {path for path, text in texts.items() if numbers_only(generation.inputs.files.text(path) or "", text)}
 
 
 def _conflict(generation: Generation, names: DanglingNames | None, action: Action) -> Conflict:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from urdfsync.config import Config, shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
@@ -39,31 +40,30 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
     if inputs.old_folder == inputs.folder or any(action.held for action in actions):
         return
+    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
+    # a manifest may be a stranger's: no look into a folder elsewhere, and no command that deletes it
+    is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
+    below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
+    rest = [shown(path) for path in below if path not in gone and new not in path.parents]
+    if not rest:
+        return
     message = f"the package moved from {shown(old)} to {shown(new)}"
-    if not files.is_inside(f"{inputs.old_folder}/package.mo"):
-        message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
+    if is_inside and inputs.old_folder not in inputs.own_folders:
+        message += "; the old folder was not built in this checkout, so it stays as it is"
+        hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
     else:
-        gone = {files.path(action.path) for action in actions if action.kind in DELETES}
-        below = sorted(path for path in old.rglob("*") if not path.is_dir())
-        rest = [shown(path) for path in below if path not in gone and new not in path.parents]
-        if not rest:
-            return
-        if inputs.old_folder not in inputs.own_folders:
-            message += "; the old folder was not built in this checkout, so it stays as it is"
-            hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
-        else:
-            named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
-            message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
-            hint = "take over what you need, then delete the old folder"
-    place = shown(inputs.config.file), inputs.robot.lines[""]
-    yield Diagnostic(Severity.WARNING, "left-behind", message, *place, hint=hint)
+        named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
+        message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
+        hint = "take over what you need, then delete the old folder"
+    file, line = shown(inputs.config.file), inputs.robot.lines[""]
+    yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
 
 
 def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:
     """Notes on what users may have connected to, and what has another name now, or none."""
     inputs, changes = generation.inputs, generation.changes_since_complete
     complete, robot = inputs.last_complete, inputs.robot
-    if complete is None or changes is None or not (changes.is_structural or changes.generator):
+    if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
         element, connector = one.path

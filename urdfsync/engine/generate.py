@@ -45,19 +45,16 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
-    def data_key(self, path: str) -> bytes:
-        """Return what the text of a file follows from, as bytes: in JSON 0.0 and -0.0 differ, as in the text."""
-        artifact = self.artifacts[path]
-        return artifact.template.encode() + b"\n" + msgspec.json.encode(artifact.data)
-
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text can differ from that of another package of the same templates."""
-        return frozenset(
-            path
-            for path, artifact in self.artifacts.items()
-            if path not in last.artifacts
-            or (artifact is not last.artifacts[path] and self.data_key(path) != last.data_key(path))
-        )
+        encode, found = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
+        for path, new in self.artifacts.items():
+            old = last.artifacts.get(path)
+            if old is None or (
+                new is not old and (new.template != old.template or encode(new.data) != encode(old.data))
+            ):
+                found.add(path)
+        return frozenset(found)
 
 
 def generate(
@@ -89,42 +86,37 @@ def check_paths(paths: Sequence[str]) -> None:
 
     Raises OutputError with everything that is wrong.
     """
-    problems: list[Diagnostic] = []
+    outside: list[str] = []
+    clashes: list[tuple[str, str]] = []
     files: dict[str, str] = {}
     folders: dict[str, str] = {}
     known: set[str] = set()
     for path in paths:
         folder, slash, name = path.rpartition("/")
         if not _is_inside(name) or (slash and folder not in known and not _is_inside(folder)):
-            problems.append(_problem("outside", f"{path!r} is no path inside the package"))
+            outside.append(path)
             continue
         folded = path.casefold()
         if folded in files:
-            problems.append(_clash(files[folded], path))
+            clashes.append((files[folded], path))
         files[folded] = path
         while folder and folder not in known:
             known.add(folder)
             other = folders.setdefault(folder.casefold(), folder)
-            problems += [_clash(other, folder)] if other != folder else []
+            clashes += [(other, folder)] if other != folder else []
             folder = folder.rpartition("/")[0]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
-    problems += [_clash(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
-    if problems:
-        raise OutputError(*problems)
+    clashes += [(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
+    found = [("outside", f"{path!r} is no path inside the package") for path in outside]
+    found += [("path-clash", f"`{one}` and `{two}` can't both be in the package") for one, two in clashes]
+    if found:
+        hint = "rename the element, the package or the class"
+        raise OutputError(*(Diagnostic(Severity.ERROR, code, message, hint=hint) for code, message in found))
 
 
 def _is_inside(path: str) -> bool:
-    parts = path.split("/")
-    whole = all(part not in ("", ".", "..") and part == part.rstrip(". ") for part in parts)
+    whole = all(part and part == part.rstrip(". ") for part in path.split("/"))
     return whole and path.isprintable() and _FORBIDDEN.isdisjoint(path)
-
-
-def _clash(one: str, two: str) -> Diagnostic:
-    return _problem("path-clash", f"`{one}` and `{two}` can't both be in the package")
-
-
-def _problem(code: str, message: str) -> Diagnostic:
-    return Diagnostic(Severity.ERROR, code, message, hint="rename the element, the package or the class")
 
 
 @profiling.stage("rendering")
@@ -138,7 +130,13 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
         return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
     except (jinja2.TemplateError, *_RENDERING) as error:
         problem = error
-    message = f"the template can't be rendered for `{artifact.path}`: {_reason(problem)}"
+    if isinstance(problem, RecursionError):
+        reason = "it includes or calls itself without end"
+    elif isinstance(problem, MemoryError):
+        reason = "it needs more memory than it may take"
+    else:
+        reason = str(problem).rstrip(".") or type(problem).__name__
+    message = f"the template can't be rendered for `{artifact.path}`: {reason}"
     file = next((str(one / artifact.template) for one in folders if (one / artifact.template).is_file()), "")
     file, line, frame = file or artifact.template, 0, problem.__traceback__
     while frame is not None:  # Jinja names templates in the traceback; the innermost one counts
@@ -150,8 +148,7 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
         message = str(problem.message).rstrip(".")
         file, line = problem.filename or problem.name or artifact.template, problem.lineno
     elif isinstance(problem, jinja2.TemplateNotFound):
-        names = problem.templates if isinstance(problem, jinja2.TemplatesNotFound) else [problem.name]
-        message = f"there is no template {' or '.join(f'`{name}`' for name in names)}"
+        message = f"there is no template `{problem.name}`"
     elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template
         message, content = "the template is not UTF-8", problem.object
         files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
@@ -168,13 +165,3 @@ _RENDERING = (
     *(SyntaxError, TypeError, ValueError),
 )
 """What expressions in a template can raise."""
-
-
-def _reason(error: Exception) -> str:
-    if isinstance(error, RecursionError):
-        return "it includes or calls itself without end"
-    if isinstance(error, MemoryError):
-        return "it needs more memory than it may take"
-    if isinstance(error, UnicodeEncodeError):
-        return f"it gives {error.object[error.start]!r}, which is no character"
-    return str(error).rstrip(".") or type(error).__name__

@@ -24,9 +24,6 @@ from urdfsync.engine.rules import DesiredFile, renamed_files
 from urdfsync.files import digest, normalised, text_digest
 from urdfsync.state.record import RecordState
 
-_AS_GENERATED = (RecordState.GENERATED, RecordState.EDITED)
-"""States of files whose base is what the last build generated."""
-
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
     """What one build generates; files are named by their keys."""
@@ -52,7 +49,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if path in self.changed or self.inputs.recorded is None:
             return None
         record = self.inputs.recorded.files.get(self.inputs.old_key(path))
-        return record.base if record is not None and record.state in _AS_GENERATED else None
+        is_last = record is not None and record.state in (RecordState.GENERATED, RecordState.EDITED)
+        return record.base if record and is_last else None  # in other states the base may be older
 
     def hash(self, path: str) -> str:
         """Return the hash of what would be written, by the path below the package."""
@@ -71,6 +69,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         It may be kept, on disk, recorded, or rendered again. A file that the user moved has its base under the key that
         it had.
         """
+        # from the cheapest to the dearest; what does not have the hash is never taken, so the order changes no result
         inputs, recorded = self.inputs, self.inputs.recorded
         if (known := inputs.bases.get(sha256)) is not None:
             return known

@@ -24,7 +24,7 @@ _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
-    r"(?:https?|ftp):": "download it, and let the source refer to the file",
+    r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
     # a place on this machine, to which search paths make no difference
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
@@ -191,8 +191,10 @@ def _import(
 
 def _needed(dependency: Dependency, recorded: ConversionFacts | None) -> Mapping[str, Any] | None:
     """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
-    if recorded is None or not dependency.facts:
-        return None if recorded is None else recorded.facts
+    if recorded is None:
+        return None
+    if not dependency.facts:
+        return recorded.facts
     found = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
     return found if len(found) == len(dependency.facts) else None
 
@@ -205,17 +207,14 @@ def _named(dependencies: Sequence[Dependency]) -> str:
 
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
     """What to say of files that have the same noun and are missing for the same reason."""
-    first, count, what = dependencies[0], len(dependencies), _named(dependencies)
+    first, what = dependencies[0], _named(dependencies)
     beginning, match = next(
         (beginning, match)
         for beginning in _HINTS
         if (match := re.match(beginning, first.uri.strip(), re.IGNORECASE)) is not None
     )
-    is_remote = match[0].lower().startswith(("http", "ftp"))
-    message = f"{what} {'is' if count == 1 else 'are'} on the network, where urdfsync does not look"
-    message = message if is_remote else f"{what} not found"
     hint = _HINTS[beginning].format(*match.groups())
-    return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", message, source, line, hint=hint)
+    return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", f"{what} not found", source, line, hint=hint)
 
 
 def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
@@ -228,15 +227,11 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
     if record is None or copy is None:
         result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    if facts is None or facts.source_hash != record.source_hash or record.source_hash is None:
-        message = f"{trouble.message}, and what is recorded of its imported copy is lost"
-        hint = "restore `.urdfsync/robots` from version control, or the file itself"
+    needed = _needed(dependency, facts)
+    if facts is None or needed is None or facts.source_hash != record.source_hash or record.source_hash is None:
+        message = f"{trouble.message}, and not all is recorded of its imported copy that is needed"
+        hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
-    if (needed := _needed(dependency, facts)) is None:
-        message = f"{trouble.message}, and of its imported copy not all is recorded that is needed now"
-        raise StateError(
-            Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=trouble.hint)
-        )
     copied = digest(copy)
     written = copied if copied == recorded.bases.get(record.target) else record.target_hash or copied
     converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back

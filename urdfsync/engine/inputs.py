@@ -18,7 +18,6 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
-from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import digest, text_digest
 from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
@@ -79,11 +78,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             former &= self.store.written_folders(self.former_name or self.robot.name)
         return self.folder, *sorted(former)
 
-    @property
-    def is_noted(self) -> bool:
-        """Whether a build in this checkout noted the package's folder."""
-        return self.folder in self.store.written_folders(self.robot.name)
-
     def own(self, recorded: Manifest) -> tuple[dict[str, FileRecord], dict[str, tuple[str, ...]]]:
         """Return the recorded files that a build may delete and move, and the lines that it may take out of orders."""
         inside, is_inside = tuple(f"{folder}/" for folder in self.own_folders), self.files.is_inside
@@ -125,9 +119,9 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.store.bases(self.former_name or self.robot.name)
 
     @cached_property
-    def source(self) -> manifest.Source:
-        """The source as it is recorded, but for the hash of the recorded model."""
-        return manifest.Source(self.robot.source_text, text_digest(self.content), "")
+    def source_hash(self) -> str:
+        """Text hash of the source."""
+        return text_digest(self.content)
 
     @cached_property
     def last(self) -> Version | None:
@@ -181,7 +175,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             package=target.package,
             class_=target.name,
             folder=self.folder,
-            source=msgspec.structs.replace(self.source, snapshot=model_hash),
+            source=manifest.Source(self.robot.source_text, self.source_hash, model_hash),
             generator=self.generator,
             options=manifest.option_values(self.robot.options),
         )
@@ -213,15 +207,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             return ()
         names = robot.options.__struct_fields__
         return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
-
-    def rebuilt_manifest(self, desired: Mapping[str, DesiredFile]) -> Manifest:
-        """Return the manifest of the last build, rebuilt with `--repair`; an empty one if there was none."""
-        if self.recovered is None:
-            return self.recorded or self.heading("")
-        generated = {key: file.hash for key, file in desired.items()}
-        roles = {**dict.fromkeys(generated, Role.MODEL), **self.recovered.roles}
-        mine = {key: self.files.hash(key, role) for key, role in roles.items()}
-        return repair.rebuilt(self.recovered, mine, generated) or self.heading("")
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:

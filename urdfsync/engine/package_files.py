@@ -99,7 +99,16 @@ class PackageFiles:
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
         """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if it is neither."""
-        return self.hash(key, role) or (CLASS_FOLDER if self._is_class_folder(key) else None)
+        found = self.hash(key, role)
+        if found or not key.endswith(".mo") or key.endswith("/package.mo"):
+            return found
+        path = self._place(key)
+        folder = path.rpartition(os.sep)[0]
+        tree = self._tree(folder)
+        if tree is not None and not tree.check_folder(folder):
+            return None
+        is_class_folder = dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
+        return CLASS_FOLDER if is_class_folder else None
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
@@ -132,17 +141,6 @@ class PackageFiles:
                 with contextlib.suppress(OSError):
                     found[path] = dependencies.read_file(path)
         return files_that_use(found, [package.name for package in packages])
-
-    def _is_class_folder(self, key: str) -> bool:
-        """Return whether the class of a missing file has a folder of its own."""
-        if not key.endswith(".mo") or key.endswith("/package.mo"):
-            return False
-        path = self._place(key)
-        folder = path.rpartition(os.sep)[0]
-        tree = self._tree(folder)
-        if tree is not None and not tree.check_folder(folder):
-            return False
-        return dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)

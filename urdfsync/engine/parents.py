@@ -6,6 +6,7 @@ Modelica parser. So urdfsync enters its names into files that exist, and makes s
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
@@ -62,7 +63,18 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
 
     Raises OutputError, at the line of the configuration that says so, if the package can't be there.
     """
-    _check_output(config, robot)
+    if is_folder(robot.output):
+        if is_file(robot.output / "package.mo"):
+            message = f"the output folder {shown(robot.output)} is a Modelica package itself"
+            hint = "name the folder above it as output, and the package with its full name"
+            raise _refusal(config, robot, "output-is-package", message, hint, "output")
+    elif not (existing := next(one for one in (robot.output, *robot.output.parents) if os.path.lexists(one))).is_dir():
+        message = f"the output folder {shown(robot.output)} can't be made: {shown(existing)} is no folder"
+        raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
+    elif config.root not in robot.output.parents:
+        message = f"the output folder {shown(robot.output)} does not exist"
+        hint = "create it: urdfsync makes folders only beside or below its configuration"
+        raise _refusal(config, robot, "no-output", message, hint, "output")
     output, parts, missing = robot.output, robot.target.package.split("."), list[Path]()
     if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # tools would not find the library itself
         message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
@@ -94,25 +106,6 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             shared.append(SharedFile(folder.parent / "package.order", None, (folder.name,)))
     found = _find_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
     return Parents(tuple(shared), is_ordered(robot.folder.parent), found)
-
-
-def _check_output(config: Config, robot: RobotConfig) -> None:
-    """Refuse an output folder that can't be made, or is a package. Raises OutputError."""
-    output = robot.output
-    if is_folder(output):
-        if is_file(output / "package.mo"):
-            message = f"the output folder {shown(output)} is a Modelica package itself"
-            hint = "name the folder above it as output, and the package with its full name"
-            raise _refusal(config, robot, "output-is-package", message, hint, "output")
-        return
-    existing = next(folder for folder in (output, *output.parents) if folder.exists() or folder.is_symlink())
-    if not existing.is_dir():
-        message = f"the output folder {shown(output)} can't be made: {shown(existing)} is no folder"
-        raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
-    if config.root not in output.parents:
-        message = f"the output folder {shown(output)} does not exist"
-        hint = "create it: urdfsync makes folders only beside or below its configuration"
-        raise _refusal(config, robot, "no-output", message, hint, "output")
 
 
 def _refusal(

@@ -10,6 +10,7 @@ import msgspec
 from urdfsync import dependencies, profiling, uptodate
 from urdfsync.config import Config, RobotConfig, shown
 from urdfsync.engine import imports
+from urdfsync.engine.actions import CONFLICTS
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
@@ -76,15 +77,16 @@ def _plan_if_current(inputs: Inputs) -> Plan | None:
     if not imports.unchanged(found, recorded.dependencies, inputs.domain.converter):
         return None
     decision = decide_package(inputs, None)
-    if decision.has_work or not {inputs.key(path) for path in state.model.bases} <= decision.files.keys():
+    if any(action.writes or action.kind in CONFLICTS for action in decision.actions):
+        return None
+    if not {inputs.key(path) for path in state.model.bases} <= decision.files.keys():
         return None
     renewed = msgspec.structs.replace(recorded, files=decision.files, orders=decision.orders)
     writes = []
     if not options.dry and renewed != recorded:
         writes = list(store.changes(inputs.robot.name, manifest.dumps(renewed), None, None))
     left_out = imports.reminder(found, recorded.dependencies, shown(inputs.robot.source))
-    plan = Plan(decision.actions, store.witness(), (), decision.shared, left_out, writes=tuple(writes))
-    return plan if options.dry else msgspec.structs.replace(plan, is_noted=inputs.is_noted)
+    return Plan(decision.actions, store.witness(), (), decision.shared, left_out, writes=tuple(writes))
 
 
 def _note_states(inputs: Inputs, plan: Plan, begin: tuple[int, int]) -> None:

@@ -81,7 +81,7 @@ def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
     on_disk: Mapping[str, OnDisk],
-    moves: Mapping[str, str] | None = None,
+    moves: Mapping[str, str],
 ) -> tuple[Action, ...]:
     """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
 
@@ -89,8 +89,12 @@ def decide(
     goes to its new path (MOVE, and LEAVE at the old one), unless something else of the user's is there. A file that the
     user moved there by hand is compared with what was written at the old path.
     """
-    moves = moves or {}
-    bases = _bases_of_moves(recorded, moves)
+    # what urdfsync wrote last of each file that moves; it may have waited before, to move here or to another place
+    waiting = {record.origin: record for record in recorded.values() if record.origin}
+    bases: dict[str, str | None] = {}
+    for to, place in moves.items():
+        waited = recorded[to] if to in recorded and recorded[to].origin == place else waiting.get(place)
+        bases[to] = waited.base if waited else recorded[place].written_hash if place in recorded else None
     # what is at the old and the new places of the files that move: ours is what urdfsync wrote at that very place
     ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
     hashes = {path: mine for path, mine in ends.items() if isinstance(mine, str)}
@@ -128,21 +132,6 @@ def decide(
             action = msgspec.structs.replace(action, replaced_hash=ours[path])
         actions.append(action)
     return tuple(actions)
-
-
-def _bases_of_moves(recorded: Mapping[str, FileRecord], moves: Mapping[str, str]) -> dict[str, str | None]:
-    """Return what urdfsync wrote last of each file that moves, by its new path.
-
-    The file may have waited before, to move to the same place or to another one.
-    """
-    waiting = {record.origin: record for record in recorded.values() if record.origin}
-    found = {}
-    for new, old in moves.items():
-        record = recorded.get(new)
-        if record is None or record.origin != old:
-            record = waiting.get(old)
-        found[new] = record.base if record else recorded[old].written_hash if old in recorded else None
-    return found
 
 
 def keep_needed(

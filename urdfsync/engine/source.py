@@ -114,8 +114,5 @@ def read_cached(domain: Domain, options: Any, content: bytes, name: str, cache: 
     """
     if cache is None:
         return domain.read(content, name, options)
-
-    def read() -> Reading:
-        return domain.read(content, name, options, thorough=True)
-
-    return cache.get("source", (domain, options, content, name), read)
+    key = domain, options, content, name
+    return cache.get("source", key, lambda: domain.read(content, name, options, thorough=True))

@@ -19,7 +19,6 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.parents import SharedFile
 from urdfsync.state import manifest, modelfile
-from urdfsync.state.manifest import Manifest
 from urdfsync.state.record import FileRecord, RecordState
 from urdfsync.state.store import State, Store, Witness
 from urdfsync.state.transaction import FileChange
@@ -48,8 +47,6 @@ class Plan(msgspec.Struct, frozen=True):
     """Texts to keep as bases that are not kept yet, by their hashes."""
     mentioned: frozenset[str] | None = None
     """Hashes of all bases that the manifest mentions then; None if others may be needed as well."""
-    is_noted: bool = True
-    """Whether a build in this checkout noted the package's folder."""
     former_folder: str = ""
     """Key of the package's folder in the last build, if it has another one now."""
     former_name: str | None = None
@@ -85,7 +82,14 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     mentioned: frozenset[str] | None = None
     if inputs.old_folder != inputs.folder and any(action.held for action in decision.actions):
         # while something waits, the package can't move: its record stays, with the choices that the user made meanwhile
-        text = manifest.dumps(_with_choices(inputs.recorded or inputs.heading(""), decision.files))
+        recorded = inputs.recorded or inputs.heading("")
+        chosen = {record.origin: record for record in decision.files.values() if record.origin and record.choice}
+        renewed = {
+            key: msgspec.structs.replace(record, choice=chosen[key].choice, chosen_for=chosen[key].chosen_for)
+            for key, record in recorded.files.items()
+            if key in chosen
+        }
+        text = manifest.dumps(msgspec.structs.replace(recorded, files={**recorded.files, **renewed}))
         changes += store.changes(robot.name, text, None, None)
     else:
         changes += store.changes(robot.name, *_recorded_texts(generation, decision), former)
@@ -99,12 +103,11 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     emptied = [one for one in folders if above in one.parents or conflicts in (one, *one.parents)]
     return msgspec.structs.replace(
         plan,
-        witness=store.witness(),
+        witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         bases=bases,
         mentioned=mentioned,
-        is_noted=inputs.is_noted,
         former_folder=inputs.old_folder if inputs.old_folder != inputs.folder else "",
         former_name=former,
         drawing=drawing,
@@ -190,17 +193,6 @@ def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, st
         # What is loaded from these texts; saves the daemon half of a build of 1,000 links.
         inputs.options.cache.put("state", (text, model_text), State(whole.recorded, model, intact=True))
     return text, model_text
-
-
-def _with_choices(recorded: Manifest, files: Mapping[str, FileRecord]) -> Manifest:
-    """Return the last manifest with the choices for files that wait to move."""
-    chosen = {record.origin: record for record in files.values() if record.origin and record.choice}
-    renewed = {
-        key: msgspec.structs.replace(record, choice=chosen[key].choice, chosen_for=chosen[key].chosen_for)
-        for key, record in recorded.files.items()
-        if key in chosen
-    }
-    return msgspec.structs.replace(recorded, files={**recorded.files, **renewed})
 
 
 def _base_texts(generation: Generation, records: Mapping[str, FileRecord]) -> Iterator[tuple[str, str, str]]:
