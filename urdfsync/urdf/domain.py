@@ -25,7 +25,7 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.urdf import artifacts as package
-from urdfsync.urdf import names, option_names
+from urdfsync.urdf import option_names
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects
@@ -35,6 +35,7 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
 from urdfsync.urdf.meshes.single_thread import single_thread
+from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
@@ -67,7 +68,11 @@ class UrdfDomain(Domain):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
-        return names.components(snapshot["links"], snapshot["joints"], target.name)
+        keys = [(kind, name) for kind in ("link", "joint") for name in snapshot[f"{kind}s"]]
+        found: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
+        for (kind, name), identifier in identify(keys, (target.name,)).items():
+            found[f"{kind}s"][name] = identifier.component
+        return found
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options

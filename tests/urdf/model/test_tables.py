@@ -14,10 +14,10 @@ from support.records import record_components, record_tables
 from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import has_tables, tables
+from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Mimic, Robot
 
-TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
+TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: not obstacles(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
 FIELD = re.compile(r"(\w+) = (\{[^{}]*\})")
 """A field of an array of records."""
@@ -87,7 +87,7 @@ def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
 
 
 def test_a_robot_that_does_not_move_is_one_body() -> None:
-    assert has_tables([])
+    assert not obstacles([])
     found = tables(tree(Joint("j", "fixed", "a", "b")))
     assert (found.link_bodies, found.joint_tree, found.first_joints) == ([1, 1], [], [1])
     text = texts_of(tree(Joint("j", "fixed", "a", "b")))

@@ -21,7 +21,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
-from urdfsync.urdf.validate import Finding, diagnostic, nearest, perhaps
+from urdfsync.urdf.validate import Finding, diagnostic, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
 
@@ -93,9 +93,9 @@ class Reader:
 
     def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
-        if child.tag not in _ELEMENTS and ":" not in child.tag and (meant := nearest(child.tag, tags, 0.8)):
+        if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
-            self.add(child, "unknown-element", message, f"perhaps <{meant}> is meant")
+            self.add(child, "unknown-element", message, hint)
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
@@ -103,9 +103,9 @@ class Reader:
         for name in element.attrib:
             if name in attributes or ":" in name:
                 continue
-            if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
+            if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
-                self.add(element, "unknown-attribute", message, perhaps(meant))
+                self.add(element, "unknown-attribute", message, hint)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""
@@ -125,6 +125,8 @@ class Reader:
                 self.expect(child, place, (_ONE_VALUE[name],))
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
+                if name == "origin" and "quat_xyzw" in child.attrib:
+                    self.add(child, "unsupported-attribute", f"{place}: quaternions can't be read")
                 values[name] = self.read(child, place, kind)
         for name in required:
             if name not in found:
