@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
-from urdfsync.urdf.artifacts import link_model
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.model.shapes import link_model, link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     JOINT_KINDS,

@@ -76,7 +76,6 @@ VISUALIZATION2 = """package Visualization2
 end Visualization2;
 """
 
-every_variant = pytest.mark.parametrize("variant", VARIANTS)
 every_golden_folder = pytest.mark.parametrize("variant", [*VARIANTS, "record"])
 
 
@@ -192,16 +191,6 @@ def test_only_a_package_with_such_shapes_uses_visualization2(approach: list[str]
     package = package_of(urdfs.link("a"), visualizer="visualization2", approach=tuple(approach))
     used = "".join(package.texts["package.mo"].split())
     assert ('Visualization2(version="' in used) == named
-
-
-@every_variant
-def test_no_annotation_has_an_empty_line(variant: str) -> None:
-    """At the top level and below it; texts may have paragraphs."""
-    for target in (Target("Menagerie", "Menagerie"), MENAGERIE):
-        for path, text in menagerie(variant, target).texts.items():
-            plain = re.sub(r'"(?:\\.|[^"\\])*"', '""', text)
-            notes = re.findall(r"\bannotation \((?:[^;])*;", plain)
-            assert [note for note in notes if "\n\n" in note] == [], path
 
 
 @pytest.mark.slow

@@ -16,9 +16,6 @@ PLANAR = urdfs.robot(
     urdfs.joint("glide", "planar", "base", "puck", axis="0 0 1"),
     urdfs.joint("swing", "continuous", "puck", "lever", axis="0 0 1"),
 )
-FREE_ROOT = urdfs.robot(
-    urdfs.link("world"), urdfs.link("drone", 1), urdfs.joint("fly", "floating", "world", "drone"), name="drone"
-)
 FREE_INSIDE = urdfs.robot(
     *urdfs.links(base=1, boat=1, mast=1),
     urdfs.joint("drift", "floating", "base", "boat"),
@@ -77,9 +74,8 @@ WARNINGS = [
      "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
     (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
     (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
-     "'drift'; write it as three prismatic joints and three continuous ones"),
-    (FREE_ROOT, RECORD, "5: warning: the generic robot has no floating joints, so there are no tables for it: joint "
-     "'fly'; leave it out with its parent link and let the base float (`base = \"floating\"` in a project)"),
+     "'drift'; write it as three prismatic joints and three continuous ones, leave it out with its parent link and let "
+     "the base float (`base = \"floating\"` in a project), or use the package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (TWINS, RECORD, f"6: warning: joint 'first' {NOTHING} [moves-no-mass]"),
@@ -97,7 +93,7 @@ def test_what_can_not_be_simulated_is_named_with_its_line_and_what_to_do(
     assert found.startswith(f"own.urdf:{words}")
 
 
-@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
+@pytest.mark.parametrize("urdf", [PLANAR, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, *PACKAGE) == []
 

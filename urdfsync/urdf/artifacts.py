@@ -12,7 +12,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.record import NO_LIMITS, generic_data, record_data
 from urdfsync.urdf.model.robot import bench_data, joint_title, robot_data
-from urdfsync.urdf.model.shapes import contacts, link_shapes, standing_height, structure
+from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
@@ -75,20 +75,6 @@ def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[s
 def has_bench(joints: Sequence[Joint], options: Options) -> bool:
     """Return whether there is a bench in which the generic robot reads the record."""
     return "record" in options.approach and not obstacles(joints)
-
-
-def link_model(
-    visuals: Sequence[Mapping[str, Any]], collisions: Sequence[Mapping[str, Any]], options: Options
-) -> dict[str, Any]:
-    """Return the structure of a link, for its model: nothing in it depends on a number of the URDF."""
-    return {
-        "visuals": structure(visuals),
-        "collisions": structure(collisions),
-        "contacts": contacts(collisions),
-        "visualizer": options.visualizer,
-        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
-        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
-    }
 
 
 def _tree(robot: Robot, target: Target) -> KinematicTree:

@@ -5,7 +5,6 @@ A finding is an error where no right model exists, and a warning where one does.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -230,7 +229,8 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
             walked[name] = None
             name = successor.get(name)
         if name is not None and name in walked:
-            yield list(itertools.dropwhile(lambda link, first=name: link != first, walked))  # type: ignore[misc]
+            way = list(walked)
+            yield way[way.index(name) :]
         finished |= walked.keys()
 
 

@@ -72,20 +72,6 @@ def test_the_text_of_a_gripper() -> None:
     assert entries(found["slidingLosses.steepness"]) == ["other.dynamics.steepness", "slide.dynamics.steepness"]
 
 
-def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
-    """Each follower has its own ratio only, not the product of the chain before it."""
-
-    def length(count: int) -> int:
-        followers = (
-            Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=Mimic(f"j{n - 1}", 0.5, 0.1))
-            for n in range(10001, 10000 + count)
-        )
-        return sum(map(len, record_tables(tree(Joint("j10000", "revolute", "l10000", "l10001"), *followers))))
-
-    small, middle, large = (length(count) for count in (200, 400, 800))
-    assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
-
-
 def test_a_robot_that_does_not_move_is_one_body() -> None:
     assert not obstacles([])
     found = tables(tree(Joint("j", "fixed", "a", "b")))

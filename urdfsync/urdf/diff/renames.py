@@ -8,7 +8,7 @@ that both have other names, none is matched.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import Any
@@ -40,12 +40,14 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         gone = [name for name in before[one] if name not in joints]
         came = [name for name in after[other] if name not in joints]
         if gone and came:
-            found = _only_matches(
-                {name: _likeness(old, name, links, joints) for name in gone},
-                {name: _likeness(new, name, links, joints) for name in came},
-            )
-            renames |= {("joint", name): match for name, match in found.items()}
-            matches |= found
+            alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
+            for name in gone:
+                alike[_likeness(old, name, links, joints)][0].append(name)
+            for name in came:
+                alike[_likeness(new, name, links, joints)][1].append(name)
+            for ones, others in alike.values():
+                if len(ones) == len(others) == 1:
+                    renames["joint", ones[0]] = matches[ones[0]] = others[0]
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []
@@ -77,13 +79,6 @@ def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: Ab
         plain["mimic"] = _without_names(mimic, "mimic")
         leader = mimic["joint"] if mimic["joint"] in joints else ""
     return _frozen(plain), leader, child if child in links else _link(snapshot["links"][child])
-
-
-def _only_matches(before: Mapping[str, Hashable], after: Mapping[str, Hashable]) -> dict[str, str]:
-    """Return pairs of names with equal keys, as far as each key occurs once on both sides."""
-    counts = Counter(before.values()), Counter(after.values())
-    names = {key: name for name, key in after.items()}
-    return {name: names[key] for name, key in before.items() if counts[0][key] == counts[1][key] == 1}
 
 
 def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:

@@ -12,8 +12,8 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping
-from typing import Any, NamedTuple, TypeVar, get_args
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any, TypeVar, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -151,36 +151,34 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
+        # for one required number or three, what no check of sizes and axes complains of as well
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
-
-
-class _Schema(NamedTuple):
-    """What an element has for a struct."""
-
-    attributes: dict[str, tuple[int, Any]]
-    """Counts of numbers, 0 for text, and defaults."""
-    children: dict[str, tuple[Any, Any]]
-    """Structs, or counts as above, and defaults."""
-    required: list[str]
-    """Children that must be there."""
 
 
 # 45,000 elements of a robot of 1,000 links have one of 15 kinds.
 @functools.cache
-def _schema(struct: type[msgspec.Struct]) -> _Schema:
-    schema = _Schema({}, {}, [])
+def _schema(
+    struct: type[msgspec.Struct],
+) -> tuple[Mapping[str, tuple[int, Any]], Mapping[str, tuple[Any, Any]], Sequence[str]]:
+    """Return attributes and children that an element has for a struct, and the children that must be there.
+
+    Both have defaults; attributes have counts of numbers, 0 for text; children have these or the struct that they are.
+    """
+    attributes: dict[str, tuple[int, Any]] = {}
+    children: dict[str, tuple[Any, Any]] = {}
+    required: list[str] = []
     for field in msgspec.structs.fields(struct):
         kinds = (field.type, *get_args(field.type))
         structs = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
         if structs:
             name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
-            schema.children[name] = structs[0], field.default
+            children[name] = structs[0], field.default
         elif field.name in _ONE_VALUE:
-            schema.children[field.name] = _COUNTS[field.type], field.default
-            schema.required.extend([field.name] if field.required else [])
+            children[field.name] = _COUNTS[field.type], field.default
+            required.extend([field.name] if field.required else [])
         elif field.type in _COUNTS:
-            schema.attributes[field.name] = _COUNTS[field.type], field.default
-    return schema
+            attributes[field.name] = _COUNTS[field.type], field.default
+    return attributes, children, required
 
 
 # Many attributes of a robot have the same text, such as `xyz="0 0 0"`: this saves a third of reading 1,000 links.
