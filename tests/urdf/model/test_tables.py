@@ -5,11 +5,8 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from types import SimpleNamespace
 
-import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from support.records import record_components, record_tables
 from support.robots import SCALAR, robots, tree
 
@@ -110,34 +107,6 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
             lambda number: number <= len(numbers), iterate(found.first_joints[body - 1], found.next_joints)
         )
         assert list(chain) == [n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body]
-
-
-@few
-@given(TREES, st.lists(st.floats(-2, 2), min_size=7, max_size=7))
-def test_followers_are_where_the_whole_chain_puts_them(robot: Robot, positions: list[float]) -> None:
-    of = KinematicTree.of(robot)
-    found, names = tables(of), [joint.name for joint in moving(of)]
-    driven = {number for axes in found.axes.values() for number in axes}
-    place = {joint.name: at for joint, at in zip(of.joints, positions, strict=False) if joint.type != "fixed"}
-    mimics = {of.joint(j.name).component: SimpleNamespace(mimic=j.mimic) for j in of.joints if j.mimic is not None}
-
-    def position(joint: Joint) -> float:
-        """By the definition of mimic, one joint after the other; a fixed one stays at zero."""
-        if joint.type == "fixed":
-            return 0.0
-        if joint.mimic is None:
-            return place[joint.name]
-        leader = next(other for other in of.joints if other.name == joint.mimic.joint)
-        return joint.mimic.multiplier * position(leader) + joint.mimic.offset
-
-    assert {number for number, _ in found.followers} == set(range(1, len(names) + 1)) - driven
-    text = texts_of(of)
-    places = {number: place[names[number - 1]] for number in driven}
-    columns = [entries(text.get(f"follower{name}", "")) for name in ("Multipliers", "Angles", "Lengths")]
-    for (number, leader), *terms in zip(found.followers, *columns, strict=True):
-        multiplier, angle, length = (eval(term, {}, mimics) for term in terms)
-        places[number] = (multiplier * places[leader] if leader else 0.0) + angle + length
-        assert places[number] == pytest.approx(position(moving(of)[number - 1]), abs=1e-9)
 
 
 @few

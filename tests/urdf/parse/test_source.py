@@ -231,6 +231,8 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
     [
         (b"", "file-empty", 1),
         (b"\0" * 512, "file-empty", 1),
+        (b" \r\n\t\n", "file-empty", 1),
+        (b"\xef\xbb\xbf", "file-empty", 1),
         (b"<robot/>\n<robot/>", "xml-syntax", 2),
         (b"<robot>\n<link>\n</robot>", "xml-syntax", 3),
         (b"<robot>\n<x:y></robot>", "xml-syntax", 2),
@@ -251,6 +253,7 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<!DOCTYPE robot [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><robot/>", "xml-entity", 1),
         (b"<robot>\n<<<<<<< HEAD\n<link name='a'/>\n=======\n>>>>>>> b\n</robot>", "merge-conflict", 2),
         (b"<robot name='r'>\r\n<link name='a'/>\r\n>>>>>>> b\r\n</robot>", "merge-conflict", 3),
+        (b"<<<<<<< HEAD\n<robot name='r'>\n<link name='a'/></robot>", "merge-conflict", 1),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "lfs-pointer", 1),
         (b"<sdf version='1.9'/>", "not-urdf", 1),
         (b"<!-- a -->\n<mujoco model='m'/>", "not-urdf", 2),
