@@ -15,8 +15,8 @@ from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
 
-_NAMES = {"joint": ("parent", "child", "actuated"), "mimic": ("joint",), "material": ("name",), "shape": ("name",)}
-"""Per block of the snapshot, the entries that are names, or follow from names elsewhere (a transmission that names the
+_NAMES = frozenset({"name", "parent", "child", "joint", "actuated"})
+"""Entries of the snapshot, in any block, that are names, or follow from names elsewhere (a transmission that names the
 joint): not part of what makes elements alike."""
 
 
@@ -33,7 +33,7 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
     places.append((_root(old), _root(new)))
     for one, other in places:  # grows while it is walked
         if one != other:
-            if one in links or other in links or _link(old["links"][one]) != _link(new["links"][other]):
+            if one in links or other in links or _frozen(old["links"][one]) != _frozen(new["links"][other]):
                 continue
             renames["link", one] = other
         matches = {name: name for name in joints.intersection(before[one], after[other])}
@@ -73,12 +73,9 @@ def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: Ab
     `links` and `joints` are the names in both versions.
     """
     joint = snapshot["joints"][name]
-    plain, child, mimic = _without_names(joint, "joint"), joint["child"], joint.get("mimic")
-    leader = None
-    if mimic:
-        plain["mimic"] = _without_names(mimic, "mimic")
-        leader = mimic["joint"] if mimic["joint"] in joints else ""
-    return _frozen(plain), leader, child if child in links else _link(snapshot["links"][child])
+    child, leader = joint["child"], joint["mimic"]["joint"] if "mimic" in joint else None
+    known = leader if leader is None or leader in joints else ""
+    return _frozen(joint), known, child if child in links else _frozen(snapshot["links"][child])
 
 
 def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:
@@ -93,21 +90,8 @@ def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapsh
             del renames["joint", name], leaders[name]
 
 
-def _link(link: Mapping[str, Any]) -> Hashable:
-    """Return numbers and shapes of a link."""
-    shapes = {group: [_without_names(shape, "shape") for shape in link[group]] for group in ("visuals", "collisions")}
-    for shape in shapes["visuals"]:
-        if "material" in shape:
-            shape["material"] = _without_names(shape["material"], "material")
-    return _frozen({**link, **shapes})
-
-
-def _without_names(block: Mapping[str, Any], kind: str) -> dict[str, Any]:
-    return {key: value for key, value in block.items() if key not in _NAMES[kind]}
-
-
 def _frozen(value: Any) -> Hashable:
-    """Return plain data as a key, equal where the data is."""
+    """Return plain data as a key, equal where the data is, names aside."""
     if isinstance(value, Mapping):
-        return tuple((key, _frozen(item)) for key, item in sorted(value.items()))
+        return tuple((key, _frozen(item)) for key, item in sorted(value.items()) if key not in _NAMES)
     return tuple(map(_frozen, value)) if isinstance(value, list) else value
