@@ -41,41 +41,6 @@ VARIANTS: Mapping[str, Mapping[str, Any]] = {
 
 TWIG = Target("Zoo.Twig", "Twig")
 
-VISUALIZATION2 = """package Visualization2
-  model VisualizationSetup
-  end VisualizationSetup;
-  package Shapes
-    partial model PartialShape
-      parameter Integer color[3] = {0, 0, 0};
-      parameter Real transparency = 0;
-      Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a;
-    equation
-      frame_a.f = zeros(3);
-      frame_a.t = zeros(3);
-    end PartialShape;
-    package Primitives
-      model Cube
-        extends PartialShape;
-        parameter Real length = 1;
-        parameter Real width = 1;
-        parameter Real height = 1;
-      end Cube;
-      model Cylinder
-        extends PartialShape;
-        parameter Real n[3] = {1, 0, 0};
-        parameter Real angle = 0;
-        parameter Real length = 1;
-        parameter Real radius = 1;
-      end Cylinder;
-      model Sphere
-        extends PartialShape;
-        parameter Real radius = 1;
-      end Sphere;
-    end Primitives;
-  end Shapes;
-end Visualization2;
-"""
-
 every_golden_folder = pytest.mark.parametrize("variant", [*VARIANTS, "record"])
 
 
@@ -188,22 +153,6 @@ def test_a_package_at_the_top_says_what_it_uses(
     text = made.texts["package.mo"]
     assert re.findall(r"(\w+)\(version ?=", text) == uses
     assert text.startswith(f"within {package.rpartition('.')[0]};")
-
-
-@pytest.mark.slow
-def test_capsules_have_round_ends_with_visualization2(tmp_path: Path, modelica_library: Path) -> None:
-    """The library itself is not to be had: in its place is one with the connectors and parameters that links use."""
-    geometries = ('<box size="1 2 3"/>', '<capsule radius="0.1" length="0.5"/>', '<sphere radius="0.2"/>')
-    shapes = "".join(f"<visual><geometry>{geometry}</geometry></visual>" for geometry in geometries)
-    package = package_of(urdfs.link("a", 1).replace("</link>", f"{shapes}</link>"), visualizer="visualization2")
-    ends = re.findall(r"Primitives\.Sphere (\w+)\(", package.texts["Links/A.mo"])
-    assert ends == ["visual2Lower", "visual2Upper", "visual3"]
-    library = tmp_path / "Visualization2"
-    library.mkdir()
-    (library / "package.mo").write_text(VISUALIZATION2)
-    folders = [package.write(tmp_path / "robot"), library]
-    (outcome,) = execute(modelica_library, folders, [compile_task("Own.OwnRun", "Visualization2")])
-    assert outcome.error == ""
 
 
 @pytest.mark.parametrize(
