@@ -68,7 +68,7 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
         for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
-            if abs(mimic.multiplier) > math.ulp(1):
+            if abs(mimic.multiplier) > math.ulp(1):  # with a smaller one the follower hardly moves: no end is reached
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])

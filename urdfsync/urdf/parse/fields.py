@@ -151,7 +151,7 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
-        # for one required number or three, what no check of sizes and axes complains of as well
+        # in the place of a required value stands one that no later check complains of
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 

@@ -80,7 +80,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     for child in root:
         for element in child.iter():
             names = [name for name, text in element.items() if "${" in text or "$(" in text]
-            if child.tag not in _MODELLED:
+            if child.tag not in _MODELLED:  # plugins of simulators have `$(…)` of their own
                 names = []
             is_xacro = element.tag.startswith("xacro:")
             if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
