@@ -28,7 +28,7 @@ from support.packages import Package, generate
 from urdfsync.check.libraries import find_standard_library
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.robot import MOTION_KINDS
@@ -74,7 +74,7 @@ def _all(options: argparse.Namespace) -> list[Path]:
 
 def _in_scope(file: Path) -> bool:
     robot = read_robot(file.read_bytes(), file.name, cross_check=False).robot
-    return robot is not None and has_tables(robot.joints)
+    return robot is not None and not obstacles(robot.joints)
 
 
 def _functions(standard: Path, files: Iterable[Path]) -> bool:

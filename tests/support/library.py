@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
-from urdfsync.urdf.artifacts import LINK_MODEL, LINK_RECORD, joint_template, link_model
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.model.shapes import link_model, link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -68,16 +67,16 @@ def _link(name: str, record: str, link: Link, note: str) -> Iterator[Artifact]:
     named = _names("Links", name, record)
     if visuals:
         data = {"name": link.name, "inertial": None, "visuals": visuals, "collisions": collisions}
-        yield Artifact(f"Links/{record}.mo", Role.RECORD, LINK_RECORD, named | data, name)
+        yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)
     data = link_model(visuals, collisions, Options()) | {"replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
-    yield Artifact(f"Links/{name}.mo", Role.MODEL, LINK_MODEL, named | data, name)
+    yield Artifact(f"Links/{name}.mo", Role.MODEL, "link/model.mo.jinja", named | data, name)
 
 
 def _joint(kind: JointType, note: str) -> Artifact:
     name = kind.capitalize()
     data = _names("Joints", name, f"UrdfSync.Records.{name}Joint")
     data |= {"dynamics": JOINT_KINDS[kind].has_axis, "replaceable": True, "note": f"{note} {_RECORD_NOTE}"}
-    return Artifact(f"Joints/{name}.mo", Role.MODEL, joint_template(kind), data, name)
+    return Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{kind}.mo.jinja", data, name)
 
 
 def _names(package: str, name: str, record: str) -> dict[str, Any]:

@@ -41,42 +41,6 @@ VARIANTS: Mapping[str, Mapping[str, Any]] = {
 
 TWIG = Target("Zoo.Twig", "Twig")
 
-VISUALIZATION2 = """package Visualization2
-  model VisualizationSetup
-  end VisualizationSetup;
-  package Shapes
-    partial model PartialShape
-      parameter Integer color[3] = {0, 0, 0};
-      parameter Real transparency = 0;
-      Modelica.Mechanics.MultiBody.Interfaces.Frame_a frame_a;
-    equation
-      frame_a.f = zeros(3);
-      frame_a.t = zeros(3);
-    end PartialShape;
-    package Primitives
-      model Cube
-        extends PartialShape;
-        parameter Real length = 1;
-        parameter Real width = 1;
-        parameter Real height = 1;
-      end Cube;
-      model Cylinder
-        extends PartialShape;
-        parameter Real n[3] = {1, 0, 0};
-        parameter Real angle = 0;
-        parameter Real length = 1;
-        parameter Real radius = 1;
-      end Cylinder;
-      model Sphere
-        extends PartialShape;
-        parameter Real radius = 1;
-      end Sphere;
-    end Primitives;
-  end Shapes;
-end Visualization2;
-"""
-
-every_variant = pytest.mark.parametrize("variant", VARIANTS)
 every_golden_folder = pytest.mark.parametrize("variant", [*VARIANTS, "record"])
 
 
@@ -175,49 +139,20 @@ def test_roles_and_owners() -> None:
     assert files["package.order"] == Order("package.order", order)
 
 
-def test_only_a_package_at_the_top_says_what_it_uses() -> None:
-    used = "".join(package_of(urdfs.link("a")).texts["package.mo"].split())
-    assert 'uses(Modelica(version="4.0.0"),UrdfSync(version="' in used
-    assert "Visualization2" not in used
-    assert "uses(" not in package_of(urdfs.link("a"), package="Plant.Robots.Own").texts["package.mo"]
-    assert (
-        package_of(urdfs.link("a"), package="Plant.Robots.Own").texts["package.mo"].startswith("within Plant.Robots;")
-    )
-
-
-@pytest.mark.parametrize(
-    ("approach", "named"), [(["package"], True), (["package", "record"], True), (["record"], False)]
-)
-def test_only_a_package_with_such_shapes_uses_visualization2(approach: list[str], named: bool) -> None:
-    package = package_of(urdfs.link("a"), visualizer="visualization2", approach=tuple(approach))
-    used = "".join(package.texts["package.mo"].split())
-    assert ('Visualization2(version="' in used) == named
-
-
-@every_variant
-def test_no_annotation_has_an_empty_line(variant: str) -> None:
-    """At the top level and below it; texts may have paragraphs."""
-    for target in (Target("Menagerie", "Menagerie"), MENAGERIE):
-        for path, text in menagerie(variant, target).texts.items():
-            plain = re.sub(r'"(?:\\.|[^"\\])*"', '""', text)
-            notes = re.findall(r"\bannotation \((?:[^;])*;", plain)
-            assert [note for note in notes if "\n\n" in note] == [], path
-
-
-@pytest.mark.slow
-def test_capsules_have_round_ends_with_visualization2(tmp_path: Path, modelica_library: Path) -> None:
-    """The library itself is not to be had: in its place is one with the connectors and parameters that links use."""
-    geometries = ('<box size="1 2 3"/>', '<capsule radius="0.1" length="0.5"/>', '<sphere radius="0.2"/>')
-    shapes = "".join(f"<visual><geometry>{geometry}</geometry></visual>" for geometry in geometries)
-    package = package_of(urdfs.link("a", 1).replace("</link>", f"{shapes}</link>"), visualizer="visualization2")
-    ends = re.findall(r"Primitives\.Sphere (\w+)\(", package.texts["Links/A.mo"])
-    assert ends == ["visual2Lower", "visual2Upper", "visual3"]
-    library = tmp_path / "Visualization2"
-    library.mkdir()
-    (library / "package.mo").write_text(VISUALIZATION2)
-    folders = [package.write(tmp_path / "robot"), library]
-    (outcome,) = execute(modelica_library, folders, [compile_task("Own.OwnRun", "Visualization2")])
-    assert outcome.error == ""
+@pytest.mark.parametrize(("package", "approach", "visualizer", "uses"), [
+    ("Own", ("package",), "standard", ["Modelica", "UrdfSync"]),
+    ("Own", ("package", "record"), "visualization2", ["Modelica", "UrdfSync", "Visualization2"]),
+    ("Own", ("record",), "visualization2", ["Modelica", "UrdfSync"]),
+    ("Plant.Robots.Own", ("package",), "visualization2", []),
+])  # fmt: skip
+def test_a_package_at_the_top_says_what_it_uses(
+    package: str, approach: tuple[str, ...], visualizer: str, uses: list[str]
+) -> None:
+    """Only links have shapes of the visualizer's library."""
+    made = package_of(urdfs.link("a"), package=package, visualizer=visualizer, approach=approach)
+    text = made.texts["package.mo"]
+    assert re.findall(r"(\w+)\(version ?=", text) == uses
+    assert text.startswith(f"within {package.rpartition('.')[0]};")
 
 
 @pytest.mark.parametrize(

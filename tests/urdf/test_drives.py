@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from support.corpus import label, robots
 
 from urdfsync.urdf.drives import driven_joints, passive_joints
@@ -19,16 +17,6 @@ MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") fo
 TENDONS = {f"finger_{finger}_joint_{number}" for finger in ("1", "2", "middle") for number in (0, 1, 2)}
 PASSIVE = {"random-mir": MIR, "drake-robotiq_tendons": TENDONS}
 """Passive joints of the robots of the corpus that have any."""
-JOINTS = st.builds(
-    Joint,
-    st.sampled_from("abcdefgh"),
-    st.sampled_from(["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]),
-    st.just("p"),
-    st.just("c"),
-    limit=st.none() | st.builds(Limit, st.floats(-9, 0), st.floats(0, 9), st.none() | st.floats(0, 9)),
-    mimic=st.none() | st.builds(Mimic, st.just("a"), st.floats(-9, 9)),
-    actuated=st.booleans(),
-)
 
 
 def joint(name: str, kind: str = "continuous", limit: bool = False, mimic: str = "", actuated: bool = False) -> Joint:
@@ -75,14 +63,6 @@ def test_driven_and_passive_joints(
 ) -> None:
     assert driven_joints(joints, Options(driven=names)) == driven
     assert passive_joints(joints) == passive
-
-
-@given(st.lists(JOINTS, unique_by=lambda joint: joint.name), st.none() | st.lists(st.sampled_from("abcxyz")).map(tuple))
-def test_the_order_makes_no_difference(joints: list[Joint], names: tuple[str, ...] | None) -> None:
-    options = Options(driven=names)
-    driven = driven_joints(joints, options)
-    assert driven_joints(joints[::-1], options) == driven
-    assert driven <= {one.name for one in joints if one.type not in ("fixed", "planar", "floating") and not one.mimic}
 
 
 def test_real_robots(corpus: Path) -> None:

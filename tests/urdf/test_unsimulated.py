@@ -16,9 +16,6 @@ PLANAR = urdfs.robot(
     urdfs.joint("glide", "planar", "base", "puck", axis="0 0 1"),
     urdfs.joint("swing", "continuous", "puck", "lever", axis="0 0 1"),
 )
-FREE_ROOT = urdfs.robot(
-    urdfs.link("world"), urdfs.link("drone", 1), urdfs.joint("fly", "floating", "world", "drone"), name="drone"
-)
 FREE_INSIDE = urdfs.robot(
     *urdfs.links(base=1, boat=1, mast=1),
     urdfs.joint("drift", "floating", "base", "boat"),
@@ -39,11 +36,6 @@ LIGHT = urdfs.robot(
 """Nothing is behind twist and bend; turn leads a joint that moves a mass, and spin follows one."""
 FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
-)
-TWINS = urdfs.robot(
-    *urdfs.links(base=1, ring=None, arm=1),
-    urdfs.joint("first", "continuous", "base", "ring", axis="0.6 0 0.8"),
-    urdfs.joint("second", "continuous", "ring", "arm", axis="-0.6 0 -0.8", xyz="0.3 0 0.4", rpy="0 0 0"),
 )
 CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
 
@@ -77,12 +69,10 @@ WARNINGS = [
      "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
     (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
     (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
-     "'drift'; write it as three prismatic joints and three continuous ones"),
-    (FREE_ROOT, RECORD, "5: warning: the generic robot has no floating joints, so there are no tables for it: joint "
-     "'fly'; leave it out with its parent link and let the base float (`base = \"floating\"` in a project)"),
+     "'drift'; write it as three prismatic joints and three continuous ones, leave it out with its parent link and let "
+     "the base float (`base = \"floating\"` in a project), or use the package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
-    (TWINS, RECORD, f"6: warning: joint 'first' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
      "only; give the links an <inertial> [moves-no-mass]"),
 ]  # fmt: skip
@@ -97,7 +87,7 @@ def test_what_can_not_be_simulated_is_named_with_its_line_and_what_to_do(
     assert found.startswith(f"own.urdf:{words}")
 
 
-@pytest.mark.parametrize("urdf", [PLANAR, FREE_ROOT, FREE_INSIDE, STATUE, LIGHT, FEATHER, TWINS])
+@pytest.mark.parametrize("urdf", [PLANAR, FREE_INSIDE, STATUE, LIGHT, FEATHER])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, *PACKAGE) == []
 
@@ -149,12 +139,3 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
 )
 def test_what_is_driven_counts_and_so_does_the_approach(urdf: str, options: dict[str, Any], names: list[str]) -> None:
     assert [found.message.split("'")[1] for found in passive_warnings(urdf, **options)] == names
-
-
-def test_a_passive_leader_moves_what_its_followers_move() -> None:
-    def led(mass: float | None) -> str:
-        follow = urdfs.joint("follow", "continuous", "base", "thumb", axis="0 0 1", inside=[urdfs.mimic("caster", 2)])
-        return CART.replace("</robot>", f"{urdfs.link('thumb', mass)}{follow}</robot>")
-
-    assert passive_warnings(led(1)) == []
-    assert len(passive_warnings(led(None))) == 1

@@ -153,16 +153,6 @@ def test_joints_follow_in_chains_and_not_in_circles(leaders: str, finding: str) 
     assert found(*elements("a b c d"), *joints) == finding
 
 
-def test_the_side_that_a_mimic_has_lost_is_that_of_its_own_joint() -> None:
-    names = ("left_thumb_base", "left_thumb_tip", "right_thumb_base", "right_thumb_tip")
-    fingers = [
-        joint(mimic("thumb_base") if "tip" in name else "", "continuous", name, child)
-        for name, child in zip(names, "bcde", strict=True)
-    ]
-    hints = [finding.hint for finding in read(*elements("a b c d e"), *fingers).diagnostics]
-    assert hints == ["perhaps 'left_thumb_base' is meant", "perhaps 'right_thumb_base' is meant"]
-
-
 def inertial(mass: float, *tensor: float) -> str:
     names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     numbers = " ".join(f'{name}="{value!r}"' for name, value in zip(names, tensor, strict=True))

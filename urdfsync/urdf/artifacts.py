@@ -7,20 +7,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
+from urdfsync.modelica.literals import html
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.model import notes
 from urdfsync.urdf.model.record import NO_LIMITS, generic_data, record_data
-from urdfsync.urdf.model.robot import bench_data, robot_data
-from urdfsync.urdf.model.shapes import contacts, link_shapes, standing_height, structure
-from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.model.robot import bench_data, joint_title, robot_data
+from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
+from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Collision, Joint, JointType, Link, Mesh, Robot, Visual
+from urdfsync.urdf.robot import JOINT_KINDS, Collision, Joint, Link, Mesh, Robot, Visual
 
-LINK_MODEL = "link/model.mo.jinja"
-LINK_RECORD = "link/record.mo.jinja"
 _PARAMETERS = "Parameters"
+_EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
@@ -31,9 +30,15 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     tree = _tree(robot, target)
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        files += _robot(robot, tree, target, options)
+        name, benches = target.name, bench_data(tree, target, options)
+        files.append(_of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(robot, target, options)))
+        files.append(_of_robot(f"{name}Run.mo", Role.MODEL, "run", benches))
+        files.append(_of_robot(f"{name}Test.mo", Role.MODEL, "test", benches))
         for link in robot.links:
-            files += _link(link, tree.link(link.name), _meshes(link, imports), target.package, options)
+            shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+            keys = [lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh)]
+            meshes = tuple((key, imports[key]) for key in keys if key in imports)
+            files += _link(link, tree.link(link.name), meshes, target.package, options)
         for joint in robot.joints:
             files += _joint(joint, tree.joint(joint.name), target.package)
         if options.base == "floating":
@@ -69,26 +74,7 @@ def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[s
 
 def has_bench(joints: Sequence[Joint], options: Options) -> bool:
     """Return whether there is a bench in which the generic robot reads the record."""
-    return "record" in options.approach and has_tables(joints)
-
-
-def joint_template(kind: JointType) -> str:
-    """Return the template of the model of such a joint."""
-    return f"joint/{kind}.mo.jinja"
-
-
-def link_model(
-    visuals: Sequence[Mapping[str, Any]], collisions: Sequence[Mapping[str, Any]], options: Options
-) -> dict[str, Any]:
-    """Return the structure of a link, for its model: nothing in it depends on a number of the URDF."""
-    return {
-        "visuals": structure(visuals),
-        "collisions": structure(collisions),
-        "contacts": contacts(collisions),
-        "visualizer": options.visualizer,
-        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
-        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
-    }
+    return "record" in options.approach and not obstacles(joints)
 
 
 def _tree(robot: Robot, target: Target) -> KinematicTree:
@@ -132,20 +118,6 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
         yield Order(f"{folder}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
 
-def _robot(robot: Robot, tree: KinematicTree, target: Target, options: Options) -> Iterator[Artifact]:
-    name, benches = target.name, bench_data(tree, target, options)
-    yield _of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(robot, target, options))
-    yield _of_robot(f"{name}Run.mo", Role.MODEL, "run", benches)
-    yield _of_robot(f"{name}Test.mo", Role.MODEL, "test", benches)
-
-
-def _meshes(link: Link, imports: Mapping[str, Import]) -> tuple[tuple[str, Import], ...]:
-    """Return the imports of a link's meshes, by their keys."""
-    shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
-    meshes = [shape.geometry for shape in shapes if isinstance(shape.geometry, Mesh)]
-    return tuple((key, imports[key]) for key in map(lookup.key, meshes) if key in imports)
-
-
 # These two serve the rows "one mass changed in the daemon": nearly all links and joints are as they were. Equal values
 # have the same text, since a zero in Modelica has no sign.
 @functools.lru_cache(maxsize=20_000)
@@ -163,10 +135,11 @@ def _link(
     }
     record = {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
     model = link_model(visuals, collisions, options)
-    model |= {"replaceable": False, "note": notes.link_note(link.name)}
+    note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
+    model |= {"replaceable": False, "note": note}
     return (
-        Artifact(f"Links/{name.record}.mo", Role.RECORD, LINK_RECORD, named | record, owner),
-        Artifact(f"Links/{name.type}.mo", Role.MODEL, LINK_MODEL, named | model, owner),
+        Artifact(f"Links/{name.record}.mo", Role.RECORD, "link/record.mo.jinja", named | record, owner),
+        Artifact(f"Links/{name.type}.mo", Role.MODEL, "link/model.mo.jinja", named | model, owner),
     )
 
 
@@ -178,12 +151,14 @@ def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, Arti
         "within": f"{package}.Joints",
         "type": name.type,
         "record": name.record,
-        "title": notes.joint_title(joint),
+        "title": joint_title(joint),
     }
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
-    model = {"dynamics": joint.dynamics is not None, "replaceable": False, "note": notes.joint_note(joint)}
-    template = f"joint/{joint.type}_parameters.mo.jinja"
+    ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
+    note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
+    model = {"dynamics": joint.dynamics is not None, "replaceable": False, "note": note}
+    template = f"joint/{joint.type}"
     return (
-        Artifact(f"Joints/{name.record}.mo", Role.RECORD, template, named | record, owner),
-        Artifact(f"Joints/{name.type}.mo", Role.MODEL, joint_template(joint.type), named | model, owner),
+        Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),
+        Artifact(f"Joints/{name.type}.mo", Role.MODEL, f"{template}.mo.jinja", named | model, owner),
     )

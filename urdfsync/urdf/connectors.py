@@ -6,8 +6,6 @@ with a number; so a new connector never renames an element, whose name is that o
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-
 import msgspec
 
 from urdfsync.urdf.drives import can_be_driven
@@ -34,35 +32,26 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
 
     Names in the option `frames` that are no link are left out: `check_options` reports them.
     """
-    taken = _taken(tree)
+    taken = taken_names(tree)
     if options.frames == "all":  # with the root, although it has frame_a: a link that becomes the root keeps its frame
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
     driven = [joint.name for joint in tree.joints if can_be_driven(joint)]
     return Connectors(
-        {link.name: _free(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
-        {name: _free(tree.joint(name), "Axis", taken) for name in driven},
-        {name: _free(tree.joint(name), "Support", taken) for name in driven},
-        {joint.name: _free(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
+        {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
+        {name: free_name(tree.joint(name), "Axis", taken) for name in driven},
+        {name: free_name(tree.joint(name), "Support", taken) for name in driven},
+        {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
     )
 
 
-def visual_names(tree: KinematicTree, visuals: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
-    """Return components of the whole-robot record, by link; `visuals` has `visual1`, `visual2`, … of each link."""
-    taken = _taken(tree)
-    return {
-        link: [_free(tree.link(link), word[0].upper() + word[1:], taken) for word in words]
-        for link, words in visuals.items()
-    }
-
-
-def _taken(tree: KinematicTree) -> frozenset[str]:
+def taken_names(tree: KinematicTree) -> frozenset[str]:
     """Return the names that are not to be had, in lower case."""
     return GENERATED | {identifier.component.lower() for identifier in tree.names.values()}
 
 
-def _free(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
+def free_name(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
     """Return the component's name with a suffix, and with the first free number from 2 if that is taken."""
     name, number = identifier.component + suffix, 2
     while name.lower() in taken:

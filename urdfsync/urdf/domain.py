@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -25,16 +24,16 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.urdf import artifacts as package
-from urdfsync.urdf import names, option_names
+from urdfsync.urdf import option_names
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.diff.comparable import comparable
-from urdfsync.urdf.diff.effects import effects
-from urdfsync.urdf.diff.interface import interface
+from urdfsync.urdf.diff.effects import effects, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
 from urdfsync.urdf.meshes.single_thread import single_thread
+from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
@@ -67,7 +66,11 @@ class UrdfDomain(Domain):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
-        return names.components(snapshot["links"], snapshot["joints"], target.name)
+        keys = [(kind, name) for kind in ("link", "joint") for name in snapshot[f"{kind}s"]]
+        found: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
+        for (kind, name), identifier in identify(keys, (target.name,)).items():
+            found[f"{kind}s"][name] = identifier.component
+        return found
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
@@ -82,7 +85,11 @@ class UrdfDomain(Domain):
         if options.meshes != "import":
             return ()
         # Without links that say nothing of meshes: converting all of 1,000 links takes as long as the rest here.
-        links = {name: link for name, link in snapshot["links"].items() if _has_mesh(link)}
+        links = {
+            name: link
+            for name, link in snapshot["links"].items()
+            if any(shape["geometry"]["kind"] == "mesh" for shape in (*link["visuals"], *link["collisions"]))
+        }
         if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
             links = {name: {**link, "collisions": []} for name, link in links.items()}
         robot = from_snapshot({**snapshot, "links": links, "joints": {}, "extensions": {}})
@@ -158,10 +165,6 @@ class UrdfDomain(Domain):
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
         return experiment(content, file, target, options, complete)
-
-
-def _has_mesh(link: Mapping[str, Any]) -> bool:
-    return any(shape["geometry"]["kind"] == "mesh" for shape in (*link["visuals"], *link["collisions"]))
 
 
 DOMAIN = UrdfDomain()

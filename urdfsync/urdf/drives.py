@@ -30,14 +30,10 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
     joints = list(joints)
     if not any(joint.actuated for joint in joints):
         return frozenset()
-    return frozenset(joint.name for joint in joints if can_be_driven(joint) and _turns_freely(joint))
+    free = (joint for joint in joints if joint.type == "continuous" and joint.limit is None and not joint.actuated)
+    return frozenset(joint.name for joint in free if can_be_driven(joint))
 
 
 def can_be_driven(joint: Joint) -> bool:
     """Whether a joint has one axis and follows no other joint."""
     return joint.type in MOTION_KINDS and joint.mimic is None
-
-
-def _turns_freely(joint: Joint) -> bool:
-    """Whether nothing in the source suggests that something moves the joint."""
-    return joint.type == "continuous" and joint.limit is None and not joint.actuated

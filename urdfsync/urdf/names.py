@@ -90,13 +90,6 @@ def _part_key(part: str) -> tuple[int, int, str, str]:
     return 0, len(digits), digits, part
 
 
-def components(links: Iterable[str], joints: Iterable[str], taken: str) -> Mapping[str, Mapping[str, str]]:
-    """Return the component of each link and of each joint by its name; no component is called `taken`."""
-    keys = {"links": [("link", name) for name in links], "joints": [("joint", name) for name in joints]}
-    identifiers = identify([*keys["links"], *keys["joints"]], (taken,))
-    return {kind: {key[1]: identifiers[key].component for key in found} for kind, found in keys.items()}
-
-
 def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Identifier]:
     """Return identifiers of all links and joints; no two are equal when case is folded, none is in `taken`.
 

@@ -17,8 +17,6 @@ from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
 
-_SHOWN = 5  # names of passive joints that are listed; of more, the others are counted
-
 
 def check_options(
     links: Collection[str], joints: Sequence[Joint], options: Options
@@ -45,9 +43,7 @@ def check_options(
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
     passive = sorted(passive_joints(joints), key=natural_key) if options.driven is None else []
     if passive:
-        shown = ", ".join(f"`{name}`" for name in passive[:_SHOWN])
-        more = f" and {len(passive) - _SHOWN} more" if len(passive) > _SHOWN else ""
-        message = f"Run and Test do not drive {shown}{more}: "
+        message = f"Run and Test do not drive {', '.join(f'`{name}`' for name in passive)}: "
         message += "others have a transmission or ros2_control, these not even a limit"
         hint = "if that is wrong, list all joints to drive in `driven`"
         yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)

@@ -212,7 +212,7 @@ class Extension(msgspec.Struct, frozen=True, gc=False):
 
 
 class Robot(msgspec.Struct, frozen=True, gc=False):
-    """A whole robot: links and joints form one tree (see `checks`)."""
+    """A whole robot: links and joints form one tree (see `validate`)."""
 
     name: str
     links: tuple[Link, ...] = ()

@@ -10,14 +10,13 @@ from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
-_BY_PACKAGE = "or use the package approach"
-_PLANAR = f"write it as two prismatic joints and a continuous one, {_BY_PACKAGE}"
-_FLOATING_BASE = (
-    f'leave it out with its parent link and let the base float (`base = "floating"` in a project), {_BY_PACKAGE}'
-)
-_FLOATING = f"write it as three prismatic joints and three continuous ones, {_BY_PACKAGE}"
+_HINTS = {
+    "planar": "write it as two prismatic joints and a continuous one, or use the package approach",
+    "floating": "write it as three prismatic joints and three continuous ones, leave it out with its parent link and "
+    'let the base float (`base = "floating"` in a project), or use the package approach',
+}
 
 
 def massless_passive_joints(
@@ -50,11 +49,13 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
     unfit = obstacles(robot.joints)
     for joint in unfit:
         message = f"the generic robot has no {joint.type} joints, so there are no tables for it: joint '{joint.name}'"
-        yield warning(f"{joint.type}-not-generic", message, _hint(joint, robot), f"joint {joint.name}")
+        yield warning(f"{joint.type}-not-generic", message, _HINTS[joint.type], f"joint {joint.name}")
     if unfit:
         return
     tree = KinematicTree.of(robot)
-    if not any(map(_has_mass, tree.links)) and any(joint.type in MOTION_KINDS for joint in tree.joints):
+    inertials = [link.inertial for link in tree.links if link.inertial is not None]
+    is_massless = not any(any((i.mass, i.inertia.ixx, i.inertia.iyy, i.inertia.izz)) for i in inertials)
+    if is_massless and any(joint.type in MOTION_KINDS for joint in tree.joints):
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield warning("moves-no-mass", message, "give the links an <inertial>", "robot")
         return
@@ -68,17 +69,3 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
             yield warning("moves-no-mass", message, hint, f"joint {joint.name}")
         if joint.name in found or joint.parent in behind:
             behind.add(joint.child)
-
-
-def _has_mass(link: Link) -> bool:
-    inertial = link.inertial
-    return inertial is not None and any(
-        (inertial.mass, inertial.inertia.ixx, inertial.inertia.iyy, inertial.inertia.izz)
-    )
-
-
-def _hint(joint: Joint, robot: Robot) -> str:
-    if joint.type == "planar":
-        return _PLANAR
-    others = [other for other in robot.joints if joint.parent in (other.parent, other.child)]
-    return _FLOATING_BASE if others == [joint] else _FLOATING

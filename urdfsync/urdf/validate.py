@@ -5,7 +5,6 @@ A finding is an error where no right model exists, and a warning where one does.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -143,8 +142,10 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
     `complete` is false if faulty joints or links had to be left out: the number of roots means nothing then.
     """
-    yield from _check_names("link", (link.name for link in robot.links))
-    yield from _check_names("joint", (joint.name for joint in robot.joints))
+    for kind, names in (("link", [link.name for link in robot.links]), ("joint", [j.name for j in robot.joints])):
+        for path, name in zip(element_paths(kind, names), names, strict=True):
+            if path != f"{kind} {name}":  # a link and a joint may share a name
+                yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {name!r} above")
     yield from _check_tree(robot, complete)
     for path, link in _numbered("link", robot.links):
         yield from _check_link(path, link)
@@ -153,24 +154,12 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
     yield from _check_mimics(robot)
 
 
-def check_actuated(actuated: Iterable[tuple[str, str]], joints: Collection[str]) -> Iterator[Finding]:
-    """Warn about each actuated joint that does not exist: the joint that is meant would count as passive.
+def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
+    """Return the advice to write the one of `names` that is most like `name`; nothing if there is none.
 
-    `actuated` has the paths that name joints, and these names.
+    Of more than 500 names none is compared: that would take longer than the rest of the reading.
     """
-    for path, name in actuated:
-        if name not in joints:
-            message = f"{path.partition(' / ')[0]} drives joint {name!r}, which does not exist"
-            yield Finding("unknown-actuated-joint", path, message, perhaps(nearest(name, joints)))
-
-
-def nearest(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """Return the name most like `name`; an empty string if none is like it, or if there are too many to compare."""
-    return spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
-
-
-def perhaps(meant: str) -> str:
-    """Return the advice to write a name that is alike; nothing if there is none."""
+    meant = spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
     return f"perhaps {meant!r} is meant" if meant else ""
 
 
@@ -189,17 +178,8 @@ def _numbered(kind: str, elements: Sequence[_Element]) -> Iterator[tuple[str, _E
     return zip(element_paths(kind, (element.name for element in elements)), elements, strict=True)
 
 
-def normalise_axes(robot: Robot) -> Robot:
-    """Return the robot with unit vectors as axes; where an axis has no meaning, a zero becomes the default.
-
-    An axis whose length is 1 but for 1e-12 stays as it is, bit by bit.
-    """
-    joints = [msgspec.structs.replace(joint, axis=_unit_vector(joint.axis)) for joint in robot.joints]
-    return msgspec.structs.replace(robot, joints=tuple(joints))
-
-
-def _unit_vector(axis: Vector) -> Vector:
-    """Return the unit vector along `axis`; x for a zero vector."""
+def unit_vector(axis: Vector) -> Vector:
+    """Return the unit vector along `axis`, which stays bit by bit if it is one but for 1e-12; x for a zero vector."""
     largest = max(map(abs, axis))
     if largest == 0:
         return (1.0, 0.0, 0.0)
@@ -209,14 +189,6 @@ def _unit_vector(axis: Vector) -> Vector:
     length = math.hypot(*scaled)
     # Adding 0.0 makes a zero of -0.0, which a tiny negative number becomes; equal robots then give the same text.
     return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
-
-
-def _check_names(kind: str, names: Iterable[str]) -> Iterator[Finding]:
-    """Names are unique among the links and among the joints; a link and a joint may share one."""
-    for name, count in Counter(names).items():
-        for number in range(2, count + 1):
-            path = f"{kind} {name} #{number}"
-            yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {name!r} above")
 
 
 def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
@@ -232,7 +204,7 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
             if name not in links:
                 complete = False
                 message = f"the {end} of joint {joint.name!r} is link {name!r}, which does not exist"
-                yield Finding(f"unknown-{end}", f"{path} / {end}", message, perhaps(nearest(name, links)))
+                yield Finding(f"unknown-{end}", f"{path} / {end}", message, perhaps(name, links))
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
@@ -257,7 +229,8 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
             walked[name] = None
             name = successor.get(name)
         if name is not None and name in walked:
-            yield list(itertools.dropwhile(lambda link, first=name: link != first, walked))  # type: ignore[misc]
+            way = list(walked)
+            yield way[way.index(name) :]
         finished |= walked.keys()
 
 
@@ -354,27 +327,23 @@ def _check_mimics(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         joints.setdefault(joint.name, joint)
     for path, joint in _numbered("joint", robot.joints):
-        if joint.mimic is not None and joint.mimic.joint:  # else the reader has told that it has no name
-            leaders.setdefault(joint.name, joint.mimic.joint)
-            yield from _check_mimic(f"{path} / mimic", joint, joint.mimic.joint, joints)
+        if joint.mimic is None or not joint.mimic.joint:  # the reader has told that it has no name
+            continue
+        target, place = joint.mimic.joint, f"{path} / mimic"
+        leaders.setdefault(joint.name, target)
+        leader, mimics = joints.get(target), f"joint {joint.name!r} mimics joint {target!r}"
+        if joint.type == "fixed":
+            message = f"joint {joint.name!r} is fixed, so that its mimic has no effect"
+            yield Finding("mimic-without-effect", place, message)
+        elif not JOINT_KINDS[joint.type].motion:
+            message = f"joint {joint.name!r} is {joint.type}, and can't mimic a single position"
+            yield Finding("mimic-type", place, message)
+        elif leader is None:
+            yield Finding("unknown-mimic", place, f"{mimics}, which does not exist", perhaps(target, joints))
+        elif leader.type == "fixed":
+            yield Finding("mimic-of-fixed", place, f"{mimics}, which is fixed: it is held at its offset")
+        elif not JOINT_KINDS[leader.type].motion:
+            yield Finding("mimic-type", place, f"{mimics}, which is {leader.type} and has no single position")
     for cycle in _cycles(leaders, leaders):
         message = f"joints mimic each other in a cycle: {' → '.join(map(repr, [*cycle, cycle[0]]))}"
         yield Finding("mimic-cycle", f"joint {cycle[0]} / mimic", message)
-
-
-def _check_mimic(path: str, joint: Joint, target: str, joints: Mapping[str, Joint]) -> Iterator[Finding]:
-    """Check one mimic relation; `target` is the name of the joint that `joint` mimics."""
-    leader, mimics = joints.get(target), f"joint {joint.name!r} mimics joint {target!r}"
-    if joint.type == "fixed":
-        yield Finding("mimic-without-effect", path, f"joint {joint.name!r} is fixed, so that its mimic has no effect")
-    elif not JOINT_KINDS[joint.type].motion:
-        yield Finding("mimic-type", path, f"joint {joint.name!r} is {joint.type}, and can't mimic a single position")
-    elif leader is None:
-        # A target without the prefix of its side means the joint of the same side, else the one most alike.
-        same_end = [name for name in joints if name.endswith(target) and name != joint.name]
-        meant = nearest(joint.name, same_end, 0) or nearest(target, joints)
-        yield Finding("unknown-mimic", path, f"{mimics}, which does not exist", perhaps(meant))
-    elif leader.type == "fixed":
-        yield Finding("mimic-of-fixed", path, f"{mimics}, which is fixed: it is held at its offset")
-    elif not JOINT_KINDS[leader.type].motion:
-        yield Finding("mimic-type", path, f"{mimics}, which is {leader.type} and has no single position")

@@ -1,11 +1,93 @@
-"""Effects on the robot as a whole: mass, centre of mass."""
+"""What a change does to a robot as a whole: its mass, and the names that users may have connected to."""
 
 from __future__ import annotations
 
-import pytest
-from support.urdfs import joint, link, version
+from typing import Any
 
-from urdfsync.urdf.diff.effects import effects
+import pytest
+from support.urdfs import joint, link, links, version
+
+from urdfsync.domain import ElementKey, Target, Version
+from urdfsync.urdf.diff.effects import effects, interface
+from urdfsync.urdf.options import Options
+
+TARGET = Target("Robot", "Robot")
+STAR = links(base=1.0, a=1.0, b=1.0, c=1.0)
+
+
+def changed(
+    old: Version, new: Version, renames: dict[ElementKey, str] | None = None, **options: Any
+) -> dict[str, tuple[Any, ...]]:
+    found = interface(old, new, renames or {}, TARGET, Options(**options))
+    return {" / ".join(one.path): (one.old, one.new) for one in found}
+
+
+def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
+    old = version(*STAR[:1], *STAR[2:], joint("jb", "continuous", "base", "b"), joint("jc", "revolute", "base", "c"))
+    new = version(
+        *STAR,
+        joint("ja", "continuous", "base", "a"),
+        joint("jb", "continuous", "base", "b"),
+        joint("jc", "prismatic", "base", "c"),
+    )
+    assert changed(old, new) == {
+        "joint jc / axis and support": ("jcAxis (rotational)", "jcAxis (translational)"),
+        "joint jc / position in Run": ("jc_phi", "jc_s"),
+        "joint jc / effort in Run": ("jc_tau", "jc_f"),
+    }
+    assert "joint jc / position in Run" not in changed(old, new, inputs="vector")  # one input for all joints
+
+
+def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
+    joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
+    drive = '<transmission name="t"><joint name="wheel"/></transmission>'
+    old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
+    gone = {"joint caster / position in Run": "caster_phi", "joint caster / effort in Run": "caster_tau"}
+    assert changed(old, new) == {path: (name, None) for path, name in gone.items()}
+    assert changed(new, old) == {path: (None, name) for path, name in gone.items()}
+
+
+def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
+    turning = *STAR[:2], joint("turn", "continuous", "base", "a")
+    old, new = version(*turning), version(*turning, link("turnAxis"), joint("f", "fixed", "base", "turnAxis"))
+    assert changed(old, new) == {"joint turn / axis": ("turnAxis", "turnAxis_2")}
+
+
+def test_a_renamed_joint_shows_its_new_connectors() -> None:
+    def two(first: str, second: str) -> Version:
+        joints = (joint(first, "continuous", "base", "a"), joint(second, "continuous", "base", "b"))
+        return version(*STAR[:3], *joints)
+
+    assert changed(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}) == {
+        "joint w / axis": ("vAxis", "wAxis"),
+        "joint w / support": ("vSupport", "wSupport"),
+        "joint w / position in Run": ("v_phi", "w_phi"),
+        "joint w / effort in Run": ("v_tau", "w_tau"),
+    }
+
+
+def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
+    old = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jc", "continuous", "base", "b"))
+    new = version(
+        *STAR,
+        joint("ja", "continuous", "base", "c"),
+        joint("jb", "continuous", "base", "a"),
+        joint("jc", "continuous", "base", "b"),
+    )
+    assert changed(old, new) == {}
+    assert changed(old, new, inputs="vector") == {"robot / positions": ("jb, jc", "ja, jb, jc")}
+    behind = version(
+        *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
+    )
+    assert changed(old, behind, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jc, jd")}
+    another = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jz", "prismatic", "base", "b"))
+    assert changed(old, another, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jz")}
+
+
+def test_the_record_approach_has_no_names_to_connect_to() -> None:
+    old = version(*STAR[:2], joint("turn", "continuous", "base", "a"))
+    new = version(*STAR[:2], joint("turn", "fixed", "base", "a"))
+    assert changed(old, new, approach=("record",)) == {}
 
 
 def test_mass_and_centre_of_mass_of_both_versions() -> None:

@@ -1,4 +1,4 @@
-"""Renames: recognised where they are certain, never guessed; and the files that move with them."""
+"""Renames: recognised where they are certain, never guessed."""
 
 from __future__ import annotations
 
@@ -14,16 +14,13 @@ from hypothesis import strategies as st
 from support import mutations
 from support.packages import read
 
-from urdfsync.changes import compare, moved_files
-from urdfsync.domain import Artifact, ChangeKind, ElementKey, Role, Snapshot, Target, Version
+from urdfsync.changes import compare
+from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Origin, Robot
 from urdfsync.urdf.snapshot import to_snapshot
-
-TARGET = Target("Robots.Arm", "Arm")
 
 
 def link(name: str, mass: float = 0.0) -> Link:
@@ -177,36 +174,6 @@ def test_the_renames_among_the_histories(corpus: Path) -> None:
                 counts = kinds.count("link"), kinds.count("joint")
                 assert counts == REAL.get((folder.name, file.stem), (0, 0)), file
             old = new or old
-
-
-def owners(robot: Snapshot) -> Mapping[str, tuple[str, Role]]:
-    files = DOMAIN.artifacts(robot, {}, TARGET, Options())
-    return {file.path: (file.owner, file.role) for file in files if isinstance(file, Artifact)}
-
-
-def class_names(robot: Snapshot) -> Mapping[ElementKey, str]:
-    keys = [("link", name) for name in robot["links"]] + [("joint", name) for name in robot["joints"]]
-    return {key: identifier.type for key, identifier in identify(keys, (TARGET.name,)).items()}
-
-
-def expected_moves(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]) -> Mapping[str, str]:
-    """By the rule of names: both files of each element whose class has another name now."""
-    before, after = class_names(old), class_names(new)
-    pairs = [(kind, before[kind, name], after.get((kind, names.get((kind, name), name)))) for kind, name in before]
-    return {
-        f"{kind.capitalize()}s/{one}{suffix}.mo": f"{kind.capitalize()}s/{two}{suffix}.mo"
-        for kind, one, two in pairs
-        if two is not None and one != two
-        for suffix in ("", "Parameters")
-    }
-
-
-@given(st.randoms(use_true_random=False), st.integers(1, 3))
-def test_files_move_as_the_rule_of_names_says(random: Random, count: int) -> None:
-    first = mutations.version(random)
-    old, new = first.snapshot, mutations.mutated(first, random, count).snapshot
-    names = find_renames(old, new)
-    assert moved_files(owners(old), owners(new), names) == expected_moves(old, new, names)
 
 
 def chain(prefix: str, length: int) -> Snapshot:

@@ -16,7 +16,7 @@ from support.robots import any_number, origin, tree
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.shapes import GREY, contacts, link_shapes, standing_height
+from urdfsync.urdf.model.shapes import GREY, link_model, link_shapes, standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,
@@ -76,8 +76,9 @@ def test_colours_are_integers_that_tools_take(
 def test_every_collision_touches_the_ground_but_a_mesh_without_points(
     base: str, points: list[list[float]], names: list[str]
 ) -> None:
-    _, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
-    assert [f"{contact['component']} {contact['type']}" for contact in contacts(collisions)] == names
+    visuals, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
+    contacts = link_model(visuals, collisions, Options())["contacts"]
+    assert [f"{contact['component']} {contact['type']}" for contact in contacts] == names
 
 
 def body(name: str, *shapes: Geometry) -> Link:

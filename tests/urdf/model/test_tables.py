@@ -5,19 +5,16 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from types import SimpleNamespace
 
-import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from support.records import record_components, record_tables
 from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import has_tables, tables
+from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Mimic, Robot
 
-TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: has_tables(robot.joints))
+TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: not obstacles(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
 FIELD = re.compile(r"(\w+) = (\{[^{}]*\})")
 """A field of an array of records."""
@@ -72,22 +69,8 @@ def test_the_text_of_a_gripper() -> None:
     assert entries(found["slidingLosses.steepness"]) == ["other.dynamics.steepness", "slide.dynamics.steepness"]
 
 
-def test_the_text_of_a_chain_of_mimic_joints_grows_with_its_length() -> None:
-    """Each follower has its own ratio only, not the product of the chain before it."""
-
-    def length(count: int) -> int:
-        followers = (
-            Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=Mimic(f"j{n - 1}", 0.5, 0.1))
-            for n in range(10001, 10000 + count)
-        )
-        return sum(map(len, record_tables(tree(Joint("j10000", "revolute", "l10000", "l10001"), *followers))))
-
-    small, middle, large = (length(count) for count in (200, 400, 800))
-    assert large - middle == pytest.approx(2 * (middle - small), rel=0.01)
-
-
 def test_a_robot_that_does_not_move_is_one_body() -> None:
-    assert has_tables([])
+    assert not obstacles([])
     found = tables(tree(Joint("j", "fixed", "a", "b")))
     assert (found.link_bodies, found.joint_tree, found.first_joints) == ([1, 1], [], [1])
     text = texts_of(tree(Joint("j", "fixed", "a", "b")))
@@ -124,34 +107,6 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
             lambda number: number <= len(numbers), iterate(found.first_joints[body - 1], found.next_joints)
         )
         assert list(chain) == [n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body]
-
-
-@few
-@given(TREES, st.lists(st.floats(-2, 2), min_size=7, max_size=7))
-def test_followers_are_where_the_whole_chain_puts_them(robot: Robot, positions: list[float]) -> None:
-    of = KinematicTree.of(robot)
-    found, names = tables(of), [joint.name for joint in moving(of)]
-    driven = {number for axes in found.axes.values() for number in axes}
-    place = {joint.name: at for joint, at in zip(of.joints, positions, strict=False) if joint.type != "fixed"}
-    mimics = {of.joint(j.name).component: SimpleNamespace(mimic=j.mimic) for j in of.joints if j.mimic is not None}
-
-    def position(joint: Joint) -> float:
-        """By the definition of mimic, one joint after the other; a fixed one stays at zero."""
-        if joint.type == "fixed":
-            return 0.0
-        if joint.mimic is None:
-            return place[joint.name]
-        leader = next(other for other in of.joints if other.name == joint.mimic.joint)
-        return joint.mimic.multiplier * position(leader) + joint.mimic.offset
-
-    assert {number for number, _ in found.followers} == set(range(1, len(names) + 1)) - driven
-    text = texts_of(of)
-    places = {number: place[names[number - 1]] for number in driven}
-    columns = [entries(text.get(f"follower{name}", "")) for name in ("Multipliers", "Angles", "Lengths")]
-    for (number, leader), *terms in zip(found.followers, *columns, strict=True):
-        multiplier, angle, length = (eval(term, {}, mimics) for term in terms)
-        places[number] = (multiplier * places[leader] if leader else 0.0) + angle + length
-        assert places[number] == pytest.approx(position(moving(of)[number - 1]), abs=1e-9)
 
 
 @few

@@ -5,7 +5,6 @@ The corpus stands beside the repository, or where URDFSYNC_CORPUS says; without 
 
 from __future__ import annotations
 
-import random
 from typing import Any
 
 import msgspec
@@ -18,7 +17,6 @@ from support.corpus import FOLDER as CORPUS
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Inertia, Origin
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 FILES = sorted(path.relative_to(CORPUS).as_posix() for path in CORPUS.rglob("*.urdf") if path.is_file())
 ROBOTS = [file for file in FILES if file.startswith("robots/")]
@@ -138,18 +136,3 @@ def test_nothing_is_dropped_and_every_line_is_right(file: str) -> None:
     for kind in ("link", "joint"):
         for element in root.findall(kind):
             assert f"<{kind}" in lines[reading.lines[f"{kind} {element.get('name')}"] - 1]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])
-def test_the_order_of_elements_makes_no_difference_to_the_snapshot(file: str) -> None:
-    root = etree.parse(CORPUS / file).getroot()
-    children = list(root)
-    random.Random(file).shuffle(children)
-    root[:] = children
-    original, shuffled = read(file).robot, read_robot(etree.tostring(root), file, cross_check=False).robot
-    assert original is not None
-    assert shuffled is not None
-    snapshot = to_snapshot(original)
-    assert to_snapshot(shuffled) == snapshot
-    assert to_snapshot(from_snapshot(snapshot)) == snapshot

@@ -47,9 +47,3 @@ def test_elements_are_those_that_lxml_reads(inside: str) -> None:
     found = [(one.tag, {k: v for k, v in one.items() if k != "xmlns:p"}) for one in document.root.iter()]
     assert found == wanted
     assert "".join(document.root.itertext()) == "".join(other.itertext("*", with_tail=True))
-
-
-def test_lines_are_those_of_the_start_tags() -> None:
-    document = xml.parse(b'<r>\n<a\n b="1"\n><b/>\n\n<c/></a><!--\n--><d/></r>')
-    found = [(element.tag, line) for element, line in document.lines.items()]
-    assert found == [("r", 1), ("a", 2), ("b", 4), ("c", 6), ("d", 7)]

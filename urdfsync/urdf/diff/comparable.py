@@ -11,9 +11,6 @@ from urdfsync.domain import ElementKey, Snapshot
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 
-_SUBJECT = r"<[^>]*?\s(?:name|reference)=\"([^\"]*)\""
-"""The name in an element's first tag; in canonical XML the value of an attribute has no quotes."""
-
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
     """Return the snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
@@ -25,11 +22,24 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     if renames:
         links = {renames.get(("link", name), name): link for name, link in links.items()}
         joints = {renames.get(("joint", name), name): _joint(joint, renames) for name, joint in joints.items()}
-        extensions = {_owner(owner, renames): tags for owner, tags in extensions.items()}
+        extensions = {}
+        for owner, tags in snapshot["extensions"].items():
+            kind, _, name = owner.partition(" ")
+            extensions[f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner] = tags
+    robot = joints_of(joints)
+    passive = passive_joints(robot)
+    drives = {
+        joint.name: {"drive": "passive" if joint.name in passive else "driven"}
+        for joint in robot
+        if can_be_driven(joint)
+    }
     return {
         "name": snapshot["name"],
         "links": links,
-        "joints": _with_drives(joints),
+        "joints": {
+            name: {key: value for key, value in joint.items() if key != "actuated"} | drives.get(name, {})
+            for name, joint in joints.items()
+        },
         "extensions": {owner: _keyed(tags) for owner, tags in extensions.items()},
     }
 
@@ -41,29 +51,14 @@ def _joint(joint: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mappi
     return {**joint, **ends}
 
 
-def _with_drives(joints: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping[str, Any]]:
-    robot = joints_of(joints)
-    passive = passive_joints(robot)
-    drives = {joint.name: "passive" if joint.name in passive else "driven" for joint in robot if can_be_driven(joint)}
-    return {
-        name: {key: value for key, value in joint.items() if key != "actuated"}
-        | ({"drive": drives[name]} if name in drives else {})
-        for name, joint in joints.items()
-    }
-
-
-def _owner(owner: str, renames: Mapping[ElementKey, str]) -> str:
-    kind, _, name = owner.partition(" ")
-    return f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner
-
-
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, str]:
     """Texts of extensions by `tag name`, with a number from 2 on where that is not enough."""
     result: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():
         for text in texts:
-            subject = re.match(_SUBJECT, text)
+            # the name in the first tag; in canonical XML the value of an attribute has no quotes
+            subject = re.match(r'<[^>]*?\s(?:name|reference)="([^"]*)"', text)
             label = f"{tag} {subject[1]}" if subject else tag
             counts[label] += 1
             result[label if counts[label] == 1 else f"{label} ({counts[label]})"] = text

@@ -8,15 +8,15 @@ that both have other names, none is matched.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
 
-_NAMES = {"joint": ("parent", "child", "actuated"), "mimic": ("joint",), "material": ("name",), "shape": ("name",)}
-"""Per block of the snapshot, the entries that are names, or follow from names elsewhere (a transmission that names the
+_NAMES = frozenset({"name", "parent", "child", "joint", "actuated"})
+"""Entries of the snapshot, in any block, that are names, or follow from names elsewhere (a transmission that names the
 joint): not part of what makes elements alike."""
 
 
@@ -33,19 +33,21 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
     places.append((_root(old), _root(new)))
     for one, other in places:  # grows while it is walked
         if one != other:
-            if one in links or other in links or _link(old["links"][one]) != _link(new["links"][other]):
+            if one in links or other in links or _frozen(old["links"][one]) != _frozen(new["links"][other]):
                 continue
             renames["link", one] = other
         matches = {name: name for name in joints.intersection(before[one], after[other])}
         gone = [name for name in before[one] if name not in joints]
         came = [name for name in after[other] if name not in joints]
         if gone and came:
-            found = _only_matches(
-                {name: _likeness(old, name, links, joints) for name in gone},
-                {name: _likeness(new, name, links, joints) for name in came},
-            )
-            renames |= {("joint", name): match for name, match in found.items()}
-            matches |= found
+            alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
+            for name in gone:
+                alike[_likeness(old, name, links, joints)][0].append(name)
+            for name in came:
+                alike[_likeness(new, name, links, joints)][1].append(name)
+            for ones, others in alike.values():
+                if len(ones) == len(others) == 1:
+                    renames["joint", ones[0]] = matches[ones[0]] = others[0]
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []
@@ -71,19 +73,9 @@ def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: Ab
     `links` and `joints` are the names in both versions.
     """
     joint = snapshot["joints"][name]
-    plain, child, mimic = _without_names(joint, "joint"), joint["child"], joint.get("mimic")
-    leader = None
-    if mimic:
-        plain["mimic"] = _without_names(mimic, "mimic")
-        leader = mimic["joint"] if mimic["joint"] in joints else ""
-    return _frozen(plain), leader, child if child in links else _link(snapshot["links"][child])
-
-
-def _only_matches(before: Mapping[str, Hashable], after: Mapping[str, Hashable]) -> dict[str, str]:
-    """Return pairs of names with equal keys, as far as each key occurs once on both sides."""
-    counts = Counter(before.values()), Counter(after.values())
-    names = {key: name for name, key in after.items()}
-    return {name: names[key] for name, key in before.items() if counts[0][key] == counts[1][key] == 1}
+    child, leader = joint["child"], joint["mimic"]["joint"] if "mimic" in joint else None
+    known = leader if leader is None or leader in joints else ""
+    return _frozen(joint), known, child if child in links else _frozen(snapshot["links"][child])
 
 
 def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:
@@ -98,21 +90,8 @@ def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapsh
             del renames["joint", name], leaders[name]
 
 
-def _link(link: Mapping[str, Any]) -> Hashable:
-    """Return numbers and shapes of a link."""
-    shapes = {group: [_without_names(shape, "shape") for shape in link[group]] for group in ("visuals", "collisions")}
-    for shape in shapes["visuals"]:
-        if "material" in shape:
-            shape["material"] = _without_names(shape["material"], "material")
-    return _frozen({**link, **shapes})
-
-
-def _without_names(block: Mapping[str, Any], kind: str) -> dict[str, Any]:
-    return {key: value for key, value in block.items() if key not in _NAMES[kind]}
-
-
 def _frozen(value: Any) -> Hashable:
-    """Return plain data as a key, equal where the data is."""
+    """Return plain data as a key, equal where the data is, names aside."""
     if isinstance(value, Mapping):
-        return tuple((key, _frozen(item)) for key, item in sorted(value.items()))
+        return tuple((key, _frozen(item)) for key, item in sorted(value.items()) if key not in _NAMES)
     return tuple(map(_frozen, value)) if isinstance(value, list) else value

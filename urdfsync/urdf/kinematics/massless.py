@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 
 import msgspec
@@ -55,7 +55,12 @@ def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = No
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}
-    axes = {joint.name: _axis(joint, poses) for joint in tree.joints if joint.type in MOTION_KINDS}
+    axes: dict[str, _Axis] = {}
+    for joint in tree.joints:
+        if joint.type in MOTION_KINDS:
+            rotation, point = compose(poses[joint.parent], pose(joint.origin))
+            x, y, z = (dot(row, joint.axis) for row in rotation)
+            axes[joint.name] = _Axis(MOTION_KINDS[joint.type], point, (x, y, z))
     followers = tree.followers_by_leader()
     single = {name for name in axes if name not in followers} - {joint.name for joint, _ in tree.followers()}
     free = single if free is None else single & free
@@ -75,12 +80,6 @@ def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = No
 
     candidates = (joint for joint in tree.joints if joint.name in axes and joint.mimic is None)
     return [joint.name for joint in candidates if not moves_something(joint)]
-
-
-def _axis(joint: Joint, poses: Mapping[str, Pose]) -> _Axis:
-    rotation, point = compose(poses[joint.parent], pose(joint.origin))
-    x, y, z = (dot(row, joint.axis) for row in rotation)
-    return _Axis(MOTION_KINDS[joint.type], point, (x, y, z))
 
 
 def _cross(a: Sequence[float], b: Sequence[float]) -> Vector:

@@ -64,7 +64,14 @@ def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[s
 
 def start_positions(tree: KinematicTree) -> Mapping[str, float]:
     """Return where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
-    ranges = _ranges(tree)
+    ranges = {joint.name: own_range(joint) for joint in tree.joints}
+    followers = tree.followers_by_leader()
+    for joint in reversed(tree.leaders_first()):
+        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
+            if abs(mimic.multiplier) > math.ulp(1):  # with a smaller one the follower hardly moves: no end is reached
+                ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
+                lower, upper = ranges[joint.name]
+                ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
     positions: dict[str, float] = {}
     for joint in tree.leaders_first():
         if joint.mimic is not None and joint.type in MOTION_KINDS:
@@ -74,18 +81,6 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
             position = min(max(0.0, lower), upper)
         positions[joint.name] = _near(position)
     return positions
-
-
-def _ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
-    ranges = {joint.name: own_range(joint) for joint in tree.joints}
-    followers = tree.followers_by_leader()
-    for joint in reversed(tree.leaders_first()):
-        for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
-            if abs(mimic.multiplier) > math.ulp(1):
-                ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
-                lower, upper = ranges[joint.name]
-                ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
-    return ranges
 
 
 def own_range(joint: Joint) -> tuple[float, float]:

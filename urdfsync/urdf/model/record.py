@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
-from urdfsync.urdf.connectors import connector_names, visual_names
+from urdfsync.urdf.connectors import connector_names, free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
-from urdfsync.urdf.model.tables import has_tables, tables
+from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit
 
 NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
-_VECTORS: Mapping[Motion, str] = {"rotational": "rotationalAxis", "translational": "translationalAxis"}
 
 
 def generic_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
@@ -38,18 +37,21 @@ def record_data(
 
     All is counted from 1. Without a package around it, the record itself names the libraries that it uses.
     """
-    is_generic = has_tables(tree.joints)
-    visuals = {link.name: link_shapes(link, imports, target.package, options)[0] for link in tree.links}
-    named = visual_names(tree, {link: [shape["component"] for shape in shapes] for link, shapes in visuals.items()})
+    is_generic, taken = not obstacles(tree.joints), taken_names(tree)
     links, joints, drawn = [], [], []
     for number, link in enumerate(tree.links, 1):
+        identifier, (visuals, _) = tree.link(link.name), link_shapes(link, imports, target.package, options)
         shapes = [
-            shape | {"component": component}
-            for shape, component in zip(visuals[link.name], named[link.name], strict=True)
+            shape | {"component": free_name(identifier, shape["component"].capitalize(), taken)} for shape in visuals
         ]
-        component = tree.link(link.name).component
         links.append(
-            {"number": number, "component": component, "name": link.name, "inertial": link.inertial, "visuals": shapes}
+            {
+                "number": number,
+                "component": identifier.component,
+                "name": link.name,
+                "inertial": link.inertial,
+                "visuals": shapes,
+            }
         )
         for shape in shapes:
             kinds = ("Capsule", "LowerEnd", "UpperEnd") if shape["type"] == "Capsule" else (shape["type"],)
@@ -68,6 +70,12 @@ def record_data(
     def referred(found: list[Joint]) -> list[dict[str, str]]:
         return [{"component": tree.joint(joint.name).component, "type": joint.type} for joint in found]
 
+    constants = connector_names(tree, Options()).axes
+    axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges
+        {"constant": constants[joint.name], "name": joint.name, "vector": f"{motion}Axis", "number": number}
+        for motion in ("rotational", "translational")
+        for number, joint in enumerate(tree.axes(motion), 1)
+    ]
     structure = {
         "connection_matrix": [(numbers[joint.parent], numbers[joint.child]) for joint in tree.joints],
         "moveable_joints": [(number, 1) for number, joint in enumerate(tree.joints, 1) if joint.type != "fixed"],
@@ -79,9 +87,8 @@ def record_data(
         "sliding": referred([joint for joint in moving if MOTION_KINDS[joint.type] == "translational"]),
         "followers": referred([j for j in tree.leaders_first() if j.type in MOTION_KINDS and j.mimic is not None]),
         "shapes": drawn,
-        "axes": _axes(tree) if is_generic else [],
+        "axes": axes if is_generic else [],
     }
-    is_mobile = options.base == "floating"
     return {
         "within": target.package,
         "type": target.name,
@@ -90,18 +97,8 @@ def record_data(
         "is_generic": is_generic,
         "uses": () if target.package else USES,
         "name": name,
-        "standing_height": standing_height(tree, imports) if is_mobile else None,
+        "standing_height": standing_height(tree, imports) if options.base == "floating" else None,
         "structure": structure,
         "links": links,
         "joints": joints,
     }
-
-
-def _axes(tree: KinematicTree) -> list[dict[str, Any]]:
-    """Return the driven joints, those that turn first: with the constant that has the number of its flanges."""
-    constants = connector_names(tree, Options()).axes
-    return [
-        {"constant": constants[joint.name], "name": joint.name, "vector": vector, "number": number}
-        for motion, vector in _VECTORS.items()
-        for number, joint in enumerate(tree.axes(motion), 1)
-    ]

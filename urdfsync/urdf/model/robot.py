@@ -14,13 +14,17 @@ from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model import notes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
 _FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
+
+
+def joint_title(joint: Joint) -> str:
+    """Return what a joint is, in words."""
+    return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
 
 
 def robot_data(robot: Robot, target: Target, options: Options) -> Mapping[str, Any]:
@@ -62,7 +66,7 @@ def _of_structure(robot: Robot, target: Target, options: Options) -> Mapping[str
             "component": identifier.component,
             "type": identifier.type,
             "kind": joint.type,
-            "title": notes.joint_title(joint),
+            "title": joint_title(joint),
             "axis": names.axes.get(joint.name),
             "follows": follows,
             "followers": [

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeVar
 
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
@@ -13,6 +13,7 @@ from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 
+_Shape = TypeVar("_Shape", Visual, Collision)
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram
@@ -28,8 +29,7 @@ def link_shapes(
     names when a mesh is found later.
     """
     visuals: list[dict[str, Any]] = []
-    for number, visual in _with_numbers(link.visuals, imports):
-        shape = _shape("visual", number, visual, imports, package)
+    for visual, shape in _shapes("visual", link.visuals, imports, package):
         shape["y"] = _ROW * (len(visuals) + 1)
         shape["color"], shape["opacity"] = GREY, 1.0
         if visual.material is not None and visual.material.rgba is not None:
@@ -37,8 +37,7 @@ def link_shapes(
             shape["color"], shape["opacity"] = tuple(round(255 * part) for part in rgb), alpha
         visuals.append(shape)
     collisions: list[dict[str, Any]] = []
-    for number, collision in _with_numbers(link.collisions, imports) if options.collisions else ():
-        shape = _shape("collision", number, collision, imports, package)
+    for collision, shape in _shapes("collision", link.collisions, imports, package) if options.collisions else ():
         shape |= {"y": -_ROW * (len(collisions) + 1), "is_collision": True, "color": PINK, "opacity": 0.5}
         if options.base == "floating":
             shape["hull"] = hull(collision.geometry, imports)
@@ -47,17 +46,14 @@ def link_shapes(
     return visuals, collisions
 
 
-def structure(shapes: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return what a model says of shapes: no number and no name of the URDF."""
-    return [{key: shape[key] for key in _IN_MODEL} for shape in shapes]
+def link_model(
+    visuals: Sequence[Mapping[str, Any]], collisions: Sequence[Mapping[str, Any]], options: Options
+) -> dict[str, Any]:
+    """Return the structure of a link, for its model: no number and no name of the URDF.
 
-
-def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return the ground contacts of a link, of the collision shapes that `record` names.
-
-    A mesh touches with its outermost points; one without any has no contact.
+    All collisions touch the ground but meshes without outermost points.
     """
-    return [
+    contacts = [
         {
             "component": shape["component"].replace("collision", "contact"),
             "type": "Points" if shape["type"] == "Mesh" else shape["type"],
@@ -67,6 +63,14 @@ def contacts(collisions: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
         for shape in collisions
         if shape["touches"]
     ]
+    return {
+        "visuals": [{key: shape[key] for key in _IN_MODEL} for shape in visuals],
+        "collisions": [{key: shape[key] for key in _IN_MODEL} for shape in collisions],
+        "contacts": contacts,
+        "visualizer": options.visualizer,
+        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
+        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
+    }
 
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
@@ -100,30 +104,26 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
     return None if lowest is None else round(-lowest, 12)
 
 
-def _with_numbers(shapes: Sequence[Visual | Collision], imports: Mapping[str, Import]) -> list[tuple[int, Any]]:
-    """Return the shapes that can be shown, with their numbers from 1."""
-    return [
-        (number, shape)
-        for number, shape in enumerate(shapes, 1)
-        if not isinstance(shape.geometry, Mesh) or lookup.key(shape.geometry) in imports
-    ]
-
-
-def _shape(
-    word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
-) -> dict[str, Any]:
-    label = f"{word.capitalize()} {number}"
-    found = imports[lookup.key(shape.geometry)] if isinstance(shape.geometry, Mesh) else None
-    return {
-        "component": f"{word}{number}",
-        "type": type(shape.geometry).__name__,
-        "label": label,
-        "title": f'{label}: "{shape.name}"' if shape.name else label,
-        "is_collision": False,
-        "touches": False,
-        "origin": shape.origin,
-        "geometry": shape.geometry,
-        "uri": f"modelica://{package}/{found.target}" if found else "",
-        "bounds": found.facts["bounds"] if found else (),
-        "hull": (),
-    }
+def _shapes(
+    word: str, shapes: Sequence[_Shape], imports: Mapping[str, Import], package: str
+) -> Iterator[tuple[_Shape, dict[str, Any]]]:
+    """Yield each shape that can be shown, with what visuals and collisions have in common."""
+    for number, shape in enumerate(shapes, 1):
+        found = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
+        if isinstance(shape.geometry, Mesh) and found is None:
+            continue
+        label = f"{word.capitalize()} {number}"
+        data = {
+            "component": f"{word}{number}",
+            "type": type(shape.geometry).__name__,
+            "label": label,
+            "title": f'{label}: "{shape.name}"' if shape.name else label,
+            "is_collision": False,
+            "touches": False,
+            "origin": shape.origin,
+            "geometry": shape.geometry,
+            "uri": f"modelica://{package}/{found.target}" if found else "",
+            "bounds": found.facts["bounds"] if found else (),
+            "hull": (),
+        }
+        yield shape, data

@@ -39,17 +39,12 @@ class Tables(msgspec.Struct, frozen=True):
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the joints for which the generic robot has no place: planar and floating ones."""
+    """Return the planar and floating joints, which the generic robot has no place for: with one there are no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 
-def has_tables(joints: Iterable[Joint]) -> bool:
-    """Return whether the generic robot can take a robot with these joints: none is planar or floating."""
-    return not obstacles(joints)
-
-
 def tables(tree: KinematicTree) -> Tables:
-    """Return the integer tables of a robot that has some (see `has_tables`)."""
+    """Return the integer tables of a robot without `obstacles`."""
     moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
     numbers = {joint.name: number for number, joint in enumerate(moving, 1)}
     bodies = {tree.links[0].name: 1}

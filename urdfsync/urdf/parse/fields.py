@@ -12,8 +12,8 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping
-from typing import Any, NamedTuple, TypeVar, get_args
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any, TypeVar, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -21,7 +21,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
-from urdfsync.urdf.validate import Finding, diagnostic, nearest, perhaps
+from urdfsync.urdf.validate import Finding, diagnostic, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
 
@@ -93,9 +93,9 @@ class Reader:
 
     def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
-        if child.tag not in _ELEMENTS and ":" not in child.tag and (meant := nearest(child.tag, tags, 0.8)):
+        if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
-            self.add(child, "unknown-element", message, f"perhaps <{meant}> is meant")
+            self.add(child, "unknown-element", message, hint)
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
@@ -103,9 +103,9 @@ class Reader:
         for name in element.attrib:
             if name in attributes or ":" in name:
                 continue
-            if meant := nearest(name, [known for known in attributes if known not in element.attrib]):
+            if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
-                self.add(element, "unknown-attribute", message, perhaps(meant))
+                self.add(element, "unknown-attribute", message, hint)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""
@@ -125,6 +125,8 @@ class Reader:
                 self.expect(child, place, (_ONE_VALUE[name],))
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
+                if name == "origin" and "quat_xyzw" in child.attrib:
+                    self.add(child, "unsupported-attribute", f"{place}: quaternions can't be read")
                 values[name] = self.read(child, place, kind)
         for name in required:
             if name not in found:
@@ -149,36 +151,34 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
+        # in the place of a required value stands one that no later check complains of
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
-
-
-class _Schema(NamedTuple):
-    """What an element has for a struct."""
-
-    attributes: dict[str, tuple[int, Any]]
-    """Counts of numbers, 0 for text, and defaults."""
-    children: dict[str, tuple[Any, Any]]
-    """Structs, or counts as above, and defaults."""
-    required: list[str]
-    """Children that must be there."""
 
 
 # 45,000 elements of a robot of 1,000 links have one of 15 kinds.
 @functools.cache
-def _schema(struct: type[msgspec.Struct]) -> _Schema:
-    schema = _Schema({}, {}, [])
+def _schema(
+    struct: type[msgspec.Struct],
+) -> tuple[Mapping[str, tuple[int, Any]], Mapping[str, tuple[Any, Any]], Sequence[str]]:
+    """Return attributes and children that an element has for a struct, and the children that must be there.
+
+    Both have defaults; attributes have counts of numbers, 0 for text; children have these or the struct that they are.
+    """
+    attributes: dict[str, tuple[int, Any]] = {}
+    children: dict[str, tuple[Any, Any]] = {}
+    required: list[str] = []
     for field in msgspec.structs.fields(struct):
         kinds = (field.type, *get_args(field.type))
         structs = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
         if structs:
             name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
-            schema.children[name] = structs[0], field.default
+            children[name] = structs[0], field.default
         elif field.name in _ONE_VALUE:
-            schema.children[field.name] = _COUNTS[field.type], field.default
-            schema.required.extend([field.name] if field.required else [])
+            children[field.name] = _COUNTS[field.type], field.default
+            required.extend([field.name] if field.required else [])
         elif field.type in _COUNTS:
-            schema.attributes[field.name] = _COUNTS[field.type], field.default
-    return schema
+            attributes[field.name] = _COUNTS[field.type], field.default
+    return attributes, children, required
 
 
 # Many attributes of a robot have the same text, such as `xyz="0 0 0"`: this saves a third of reading 1,000 links.

@@ -16,10 +16,10 @@ from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, summary
-from urdfsync.urdf.parse.joint import read_actuated, read_joint
-from urdfsync.urdf.parse.link import read_link, read_material, resolve_materials
 from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.validate import Finding, perhaps
 
 _Value = TypeVar("_Value", bound=Link | Joint | None)
 
@@ -80,7 +80,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     for child in root:
         for element in child.iter():
             names = [name for name, text in element.items() if "${" in text or "$(" in text]
-            if child.tag not in _MODELLED:
+            if child.tag not in _MODELLED:  # plugins of simulators have `$(…)` of their own
                 names = []
             is_xacro = element.tag.startswith("xacro:")
             if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
@@ -130,20 +130,18 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions))
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
-        reader.extend(validate.check_actuated(actuated, {joint.name for joint in joints}))
-    return validate.normalise_axes(robot)
+        known = {joint.name for joint in joints}
+        for path, target in actuated:
+            if target not in known:
+                message = f"{path.partition(' / ')[0]} drives joint {target!r}, which does not exist"
+                reader.extend([Finding("unknown-actuated-joint", path, message, perhaps(target, known))])
+    moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
+    return msgspec.structs.replace(robot, joints=tuple(moving))
 
 
-class _Part(NamedTuple):
-    """A link or joint about which there is nothing to say."""
-
-    value: Any
-    lines: Mapping[str, int]
-    """By path, from 0 at its own start tag."""
-
-
-# By path and text. Serves the rows "one mass changed in the daemon": nearly all links and joints are as they were.
-_parts: dict[tuple[str, bytes], _Part] = {}
+# Links and joints about which there is nothing to say, by path and text, each with its lines from 0 at its own start
+# tag. Serves the rows "one mass changed in the daemon": nearly all links and joints are as they were.
+_parts: dict[tuple[str, bytes], tuple[Any, Mapping[str, int]]] = {}
 _PARTS = 20_000
 
 
@@ -155,14 +153,14 @@ def _read_part(
     part = _parts.get(key)
     if part is None:
         own = Reader(document.lines)
-        part = _Part(read(own, element, path), {place: line - first for place, line in own.lines.items()})
+        part = read(own, element, path), {place: line - first for place, line in own.lines.items()}
         reader.diagnostics += own.diagnostics
         reader.extensions += own.extensions
         if key[1] and not own.diagnostics and not own.extensions:
             if len(_parts) == _PARTS:
                 _parts.clear()
             _parts[key] = part
-    for place, line in part.lines.items():
+    value: _Value = part[0]
+    for place, line in part[1].items():
         reader.lines.setdefault(place, first + line)
-    value: _Value = part.value
     return value

@@ -164,7 +164,21 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     declaration = _DECLARATION.match(content[:200].decode(encoding or "latin-1", errors="ignore"))
     declared = ((declaration and declaration["encoding"]) or "utf-8").lower()
     is_faulty = not encoding and declared.startswith(_WIDE)  # the bytes are others
-    text = _to_text(content, encoding or ("utf-8" if is_faulty else declared))
+    encoding = encoding or ("utf-8" if is_faulty else declared)
+    try:
+        if codecs.lookup(encoding).name in _NO_ENCODINGS:
+            raise LookupError  # noqa: TRY301 - as for one that Python does not know
+        text = content.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
+        if not text.isascii():
+            text.encode()  # some codecs give halves of characters
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode(encoding, errors="replace")
+        name = encoding.removesuffix("-sig").upper()
+        message = f"byte 0x{content[error.start]:02x} is not {name}: the file is cut off or has another encoding"
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        raise ParseError("file-encoding", message, line, column) from None
+    except (LookupError, UnicodeError):
+        raise ParseError("file-encoding", f"the declared encoding {encoding!r} can't be read") from None
     if not text.strip("\0 \t\n"):
         raise ParseError("file-empty", "the file is empty")
     declaration, warnings = _DECLARATION.match(text), []
@@ -180,22 +194,3 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     if declaration:
         text = re.sub(r"[^\n]", " ", declaration[0]) + text[declaration.end() :]
     return text, warnings
-
-
-def _to_text(content: bytes, encoding: str) -> str:
-    """Decode, and unify the line ends as XML asks for."""
-    try:
-        if codecs.lookup(encoding).name in _NO_ENCODINGS:
-            raise LookupError  # noqa: TRY301 - as for one that Python does not know
-        text = content.decode(encoding)
-        if not text.isascii():
-            text.encode()
-    except UnicodeDecodeError as error:
-        before = content[: error.start].decode(encoding, errors="replace")
-        name = encoding.removesuffix("-sig").upper()
-        message = f"byte 0x{content[error.start]:02x} is not {name}: the file is cut off or has another encoding"
-        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-        raise ParseError("file-encoding", message, line, column) from None
-    except (LookupError, UnicodeError):
-        raise ParseError("file-encoding", f"the declared encoding {encoding!r} can't be read") from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")

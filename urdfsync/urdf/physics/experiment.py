@@ -12,7 +12,7 @@ import numpy as np
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Deviation, Quantity, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import has_tables
+from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
@@ -42,7 +42,7 @@ def experiment(
     content: bytes, file: str, target: Target, options: Options, complete: bool
 ) -> PinocchioExperiment | None:
     """The experiment for a package; None if it holds no model of the robot. Raises as `PinocchioExperiment` does."""
-    if "package" not in options.approach and not has_tables(_robot(content, file).joints):
+    if "package" not in options.approach and obstacles(_robot(content, file).joints):
         return None
     return PinocchioExperiment(content, file, target, options, complete)
 

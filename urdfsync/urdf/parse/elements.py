@@ -1,0 +1,162 @@
+"""Read links, joints, materials, drives. A fault becomes a diagnostic, and a default takes the place of the value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import get_args
+from xml.etree.ElementTree import Element
+
+import msgspec
+
+from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
+from urdfsync.urdf.robot import JOINT_KINDS, Collision, Geometry, Inertia, Inertial, Joint, Link, Material, Visual
+from urdfsync.urdf.validate import Finding, perhaps
+
+_SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
+
+
+def read_link(reader: Reader, element: Element, path: str) -> Link:
+    """Read a link, without looking up its materials. Mass and inertia that are absent are 0, with a warning."""
+    owner, place = f"link {element.get('name', '')}", f"{path} / inertial"
+    part, inertial = element.find("inertial"), None
+    if part is not None:
+        mass, inertia = part.find("mass"), part.find("inertia")
+        if mass is None or "value" not in mass.attrib:
+            reader.add(part if mass is None else mass, "missing-mass", f"{place} has no mass: it is taken as 0")
+        absent = [name for name in Inertia.__struct_fields__ if inertia is None or name not in inertia.attrib]
+        if absent:
+            message = f"{place} has no {', '.join(absent)}: taken as 0"
+            reader.add(part if inertia is None else inertia, "missing-inertia", message)
+        inertial = reader.read(part, place, Inertial, owner)
+    visuals = tuple(_read_shapes(reader, element, path, "visual", owner))
+    collisions = tuple(_read_shapes(reader, element, path, "collision", owner))
+    return reader.read(element, path, Link, owner, inertial=inertial, visuals=visuals, collisions=collisions)
+
+
+def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str) -> Iterator[Visual | Collision]:
+    """Yield each visual or collision that can be drawn.
+
+    The others are left out with a warning, and do not count in the numbers of paths.
+    """
+    number = 0
+    for element in link.findall(tag):
+        around = element.find("geometry")
+        shapes = [child for child in around if child.tag in _SHAPES] if around is not None else []
+        if not shapes:
+            message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
+            reader.add(element, "unknown-geometry", message)
+            continue
+        number += 1
+        place, kind = reader.place(element, f"{path} / {tag} {number}"), shapes[0].tag
+        if len(shapes) > 1:
+            message = f"{place} has {len(shapes)} geometries, of which the first counts"
+            reader.add(element, "duplicate-element", message, f"write one {tag} for each")
+        geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind])
+        if tag == "collision":
+            yield reader.read(element, place, Collision, owner, geometry=geometry)
+        else:
+            found = element.find("material")
+            material = None if found is None else read_material(reader, found, f"{place} / material")
+            yield reader.read(element, place, Visual, owner, geometry=geometry, material=material)
+
+
+def read_material(reader: Reader, element: Element, path: str) -> Material:
+    """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
+    reader.expect(element, path, ("name",))
+    children = reader.children(element, path, ("color", "texture"))
+    color, texture = children.get("color"), children.get("texture")
+    rgba = None
+    if color is not None:
+        shown = f"{path} / color: rgba={quoted(color.get('rgba', ''))}"
+        try:
+            numbers = parse_numbers(color.get("rgba", ""), 4)
+        except ValueError as error:
+            reader.add(color, "bad-color", f"{shown} {error}")
+        else:
+            red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in numbers)
+            rgba = red, green, blue, opacity
+            if rgba != numbers:
+                reader.add(color, "color-range", f"{shown} is not between 0 and 1, and is cut off there")
+    return Material(element.get("name", ""), rgba, None if texture is None else texture.get("filename") or None)
+
+
+def resolve_materials(reader: Reader, links: Mapping[str, Link], materials: dict[str, Material]) -> tuple[Link, ...]:
+    """Return the links with their materials looked up by name through the whole robot; keys are paths.
+
+    As in urdfdom, the first definition of a name counts: those of the robot, which are `materials`, come before those
+    in visuals.
+    """
+    inline = {
+        f"{path} / visual {number} / material": visual.material
+        for path, link in links.items()
+        for number, visual in enumerate(link.visuals, start=1)
+        if visual.material
+    }
+    if not inline:
+        return tuple(links.values())
+    table: dict[str, Material] = {}
+    for path, material in (materials | inline).items():
+        if not material.name or (material.rgba is None and material.texture is None):
+            continue
+        if table.setdefault(material.name, material) != material:
+            message = f"material {material.name!r} is defined again, with other values; the first definition counts"
+            reader.extend([Finding("material-redefined", path, message)])
+    for path, material in inline.items():
+        if material.name and material.name not in table:
+            reader.extend([Finding("unknown-material", path, f"material {material.name!r} is not defined")])
+
+    def resolved(visual: Visual) -> Visual:
+        material = visual.material and table.get(visual.material.name, visual.material)
+        return msgspec.structs.replace(visual, material=None if material == Material() else material)
+
+    return tuple(
+        msgspec.structs.replace(link, visuals=tuple(map(resolved, link.visuals))) if link.visuals else link
+        for link in links.values()
+    )
+
+
+def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
+    """Read a joint with its axis as written; return None, after an error, if it connects nothing.
+
+    A joint of unknown type becomes a plain fixed one.
+    """
+    joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
+    if joint.type not in JOINT_KINDS:
+        if joint.type:
+            hint = perhaps(joint.type.lower(), JOINT_KINDS)
+            reader.add(element, "unknown-joint-type", f"{path} has the unknown type {joint.type!r}", hint)
+        joint = Joint(joint.name, "fixed", joint.parent, joint.child)
+    if not joint.parent or not joint.child:
+        return None
+    safety = element.find("safety_controller")
+    if safety is not None and "k_velocity" not in safety.attrib:
+        reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
+    # A limit that is absent is 0 for a position, as in urdfdom, and there is none for effort and velocity.
+    kind, limit = JOINT_KINDS[joint.type], element.find("limit")
+    if limit is None:
+        if kind.has_limits:
+            message = f"{path} is {joint.type} but has no <limit>: it moves without limits"
+            reader.add(element, "missing-limit", message)
+        return joint
+    zero = [name for name in ("lower", "upper") if name not in limit.attrib and kind.has_limits]
+    unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion]
+    absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
+    absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
+    if absent:
+        reader.add(limit, "missing-limit-value", f"{path} / limit has no {'; no '.join(absent)}")
+    return joint
+
+
+def read_actuated(reader: Reader, element: Element, path: str) -> Iterator[tuple[str, str]]:
+    """Yield path and name of each joint that a `<transmission>` or `<ros2_control>` drives.
+
+    The latter drives by its own transmissions, and joints that have a `<command_interface>`: others are only measured.
+    An example of a path: `transmission wheel_trans / joint wheel`.
+    """
+    joints = element.findall("joint")
+    if element.tag == "ros2_control":
+        joints = [joint for joint in joints if joint.find("command_interface") is not None]
+        joints += element.findall("transmission/joint")
+    for joint in joints:
+        if name := joint.get("name", ""):
+            yield reader.place(joint, f"{path} / joint {name}"), name
