@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-import msgspec
 import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
@@ -100,7 +99,6 @@ def test_what_is_declared_twice_is_an_error_and_what_is_connected_twice_a_warnin
 
 
 ELBW = arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")
-SMALL_ELBOW = arm.text().replace("Elbow", "elbow")
 RENAMED = arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")
 INSIDE = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
 JOINT = "error: joint elbow:"
@@ -158,11 +156,6 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
             "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them "
             "[class-twice]",
         ),
-        (
-            {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
-            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
-            "case do not hold both [same-but-for-case]",
-        ),
     ],
 )
 def test_each_fault_has_its_place_and_its_words(edits: Mapping[str, str | bytes | None], expected: str) -> None:
@@ -200,8 +193,6 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
     edits = {f"{name}/package.mo": f"{within}\npackage X\nend X;\n", f"{name}/Inner/Y.mo": "nonsense"}
     message = f"`{name}` can't be the name of a package; rename the folder, or move it elsewhere"
     assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
-    order = f"{arm.text('package.order')}{name}\n"
-    assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
 
 
 def test_the_order_names_what_is_there_once() -> None:
@@ -218,22 +209,6 @@ def test_the_order_names_what_is_there_once() -> None:
         f"{ORDER}:{last}: error: `Wheel` is named, but is no class and no constant of the package;"
         " take the line out, or bring the class back [order-unknown]",
     ]
-
-
-def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
-    """The file is urdfsync's if the package is; whoever adds a class has to name it."""
-    names = [name for name in arm.text(ORDER).split() if name != "Turret"]
-    own = f"{WITHIN}\nmodel Own\nend Own;\n"
-    package = arm.package({ORDER: "\n".join(names), "Joints/Own.mo": own})
-    owners = {"Joints/package.mo": "robot", "Joints/Turret.mo": "joint turret"}
-    found = check_layout(msgspec.structs.replace(package, owners=owners))
-    hints = {one.message: one.hint for one in found}
-    advice = "add it where it belongs: tools put it last, or warn"
-    assert hints == {"`Own` is not named": advice, "`Turret` is not named": "`urdfsync build` adds it"}
-    elsewhere = msgspec.structs.replace(
-        arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"}
-    )
-    assert [one.hint for one in check_layout(elsewhere)] == [advice]
 
 
 # --- files around the package -----------------------------------------------------------------------------------------

@@ -29,7 +29,6 @@ LIMIT = 2**30
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
 
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
-_TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be deleted at any time.\n"
 
 
 class CacheError(UrdfsyncError):
@@ -58,9 +57,6 @@ class UserCache:
         """Make the folder; raises CacheError if that can't be."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `template_cache` takes no other
-            tag = self.folder / "CACHEDIR.TAG"  # backup programs leave such a folder out
-            if not tag.is_file():
-                tag.write_text(_TAG, encoding="utf-8")
 
     @contextlib.contextmanager
     def workspace(self) -> Iterator[Path]:

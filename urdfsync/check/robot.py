@@ -19,7 +19,7 @@ from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, listed, to_text
 from urdfsync.check.run import RobotOrder
 from urdfsync.config import Config, RobotConfig, find_own_library, load, shown
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
 
@@ -93,8 +93,6 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
     """Check files and names; returns why nothing can be compiled, empty if it can."""
     found = texts.check_layout(package.files)
     found += texts.check_around(package.robot.output, package.around)
-    message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
-    found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
     found += texts.missing_resources(package)
     result.add(found)
     if package.users_files:
