@@ -111,10 +111,14 @@ class Compilation:
         completed = package.generated if is_same else package.rendering.package(experiment.content)
         models = self._model_jobs(1)
         jobs = {**models, "completed": (completed, [_moving_task(experiment)])}
-        if plain:
-            jobs |= self._edit_jobs(_moving_task(plain))
-            if is_same:
-                del jobs["generated"]
+        if plain:  # the edited package, the generated one, and this one with each of the edits
+            move, files = [_moving_task(plain)], package.edits
+            jobs["edited"] = package.files.texts, move
+            if not is_same:
+                jobs["generated"] = package.generated, move
+            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+            for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
+                jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, move
         done = self._run_all(jobs)
         self._note_models(models, done)
         moved, said = self._series(done["completed"])
@@ -125,22 +129,21 @@ class Compilation:
             if not is_same:
                 moved, said = self._series(done["generated"])
                 result.add(said)
-            result.effects = self._edit_effects(plain, moved, done)
+            edited, faults = self._series(done["edited"])
+            if faults:  # no fault of an edited package
+                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+            if edited is None or moved is None:
+                return
+            alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
+            single = {file: plain.compare(one, moved) for file, one in alone.items() if one is not None}
+            whole = plain.compare(edited, moved)
+            result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Jobs that compile all models, in `count` parts."""
         models = [f"{self._package.robot.target.package}.{one}" for one in (*self._package.models, *self._users_models)]
         tasks = list(map(compile_task, models))
         return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
-
-    def _edit_jobs(self, move: CompileTask) -> dict[str, _Job]:
-        """Jobs that move the edited package, the generated one, and this one with each of the edits."""
-        package, files = self._package, self._package.edits
-        jobs: dict[str, _Job] = {"edited": (package.files.texts, [move]), "generated": (package.generated, [move])}
-        own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-        for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
-            jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, [move]
-        return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
@@ -154,20 +157,6 @@ class Compilation:
                     self._result.add(said)
                 elif model not in self._users_models:
                     self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
-
-    def _edit_effects(
-        self, plain: Experiment, generated: _Series | None, done: Mapping[str, Sequence[CompileResult]]
-    ) -> tuple[EditEffect, ...]:
-        """What edits do, compared with how the generated package moves."""
-        package = self._package
-        edited, faults = self._series(done["edited"])
-        if faults:  # no fault of an edited package
-            self._result.gaps += (f"what edits do was not measured: {faults[0].message}",)
-        if edited is None or generated is None:
-            return ()
-        moved = {file: self._series(done[file])[0] for file in package.edits if file in done}
-        single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
-        return tuple(edit_effects(package.edits, package.files.owners, plain.compare(edited, generated), single))
 
     def _experiment(self, *, complete: bool) -> Experiment:
         """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
@@ -199,7 +188,12 @@ class Compilation:
             top = write_package(folder, robot, texts, self._package.around)
             roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
         originals = {**self._originals, str(top): robot.output / top.name}
-        job = CompileJob((str(self._standard), *roots, str(top)), tuple(map(self._with_imports, tasks)))
+        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
+        for task in tasks:
+            first, _, rest = task.source.partition("\n")
+            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
+            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
+        job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
         self._progress.begin(f"loading libraries, then compiling {listed([*map(self._short_title, tasks)])}")
         results = []
         for one in compilers.run_job(self._options.compiler, job, cache):
@@ -211,12 +205,6 @@ class Compilation:
 
     def _short_title(self, task: CompileTask) -> str:
         return task.title.removeprefix(f"{self._package.robot.target.package}.")
-
-    def _with_imports(self, task: CompileTask) -> CompileTask:
-        """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
-        first, _, rest = task.source.partition("\n")
-        imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
-        return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""

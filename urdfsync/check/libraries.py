@@ -186,8 +186,11 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
     def ignored(folder: str, names: list[str]) -> list[str]:
         left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
         if not whole and Path(folder).is_relative_to(parts["Modelica"]):
-            below = Path(folder).relative_to(parts["Modelica"]).parts
-            left_out += [name for name in names if not _is_needed((*below, name.removesuffix(".mo")))]
+            for name in names:
+                path = (*Path(folder).relative_to(parts["Modelica"]).parts, name.removesuffix(".mo"))
+                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
+                if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
+                    left_out.append(name)
         return left_out
 
     with cache_errors(cache.folder):
@@ -208,12 +211,6 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
                         raise
         os.utime(target)  # the cache sees that it is in use
     return target
-
-
-def _is_needed(path: tuple[str, ...]) -> bool:
-    """Whether a class is in the part that robots need, or around it; `path` is its name below `Modelica`."""
-    is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)
-    return path[-1] == "package" or (is_part and _LEFT_OUT.isdisjoint(path))
 
 
 def _is_in_copy(text: bytes) -> bool:
