@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import itertools
 import json
-import os
 import sys
 
 import numpy as np
@@ -14,7 +13,6 @@ import trimesh
 
 from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Array, import_form
-from urdfsync.urdf.meshes.single_thread import VARIABLE, single_thread
 from urdfsync.urdf.meshes.worker import reader
 
 BOX = trimesh.creation.box((0.5, 1.0, 2.0))
@@ -167,10 +165,3 @@ NAMED = b"solid vertex 1 2 3\n  facet normal 0 0 1\n outer loop\n vertex 0 0 0\n
 def test_an_ascii_stl_may_have_several_solids_and_any_names() -> None:
     solid = NAMED + b"endloop\nendfacet\nendsolid vertex 1 2 3\n"
     assert _read(".stl", solid * 2).tolist() == [[[0, 0, 0], [1, 0, 0], [0, 1, -1e-3]]] * 2
-
-
-def test_a_number_of_threads_that_the_user_chose_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(VARIABLE, "3")
-    with single_thread():
-        assert os.environ[VARIABLE] == "3"
-    assert os.environ[VARIABLE] == "3"
