@@ -56,12 +56,6 @@ def robot(plant: Config, name: str) -> RobotConfig:
     return next(robot for robot in plant.robots if robot.name == name)
 
 
-def test_the_files_of_a_package_are_its_classes_and_orders(plant: Config) -> None:
-    found = files.package_texts(plant.root / "modelica" / "Plant")
-    assert {"package.mo", "package.order", "Control.mo", "Robots/Crane/Hook.mo"} <= found.keys()
-    assert not any("Resources" in path or ".git" in path for path in found)
-
-
 @pytest.fixture
 def odd(tmp_path: Path) -> Path:
     """A package with what is no regular file; but one link leads to such."""
