@@ -187,7 +187,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     assert steps[0].what == "arm: reading the source and the package"
     assert "arm: checking files and names" in [step.what for step in steps]
     assert all(0 <= one.done <= other.done <= 1 for one, other in itertools.pairwise(steps))
-    assert sorted(compiler.models) == ["Arm.Arm", "Arm.ArmRun", "Arm.ArmTest"]
+    assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
     assert second.status(strict=True) is CheckStatus.RIGHT

@@ -17,6 +17,7 @@ from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
     CompileJob,
+    Compiler,
     CompileResult,
     CompileTask,
     Complaint,
@@ -86,6 +87,7 @@ class Compilation:
         self._package, self._options, self._result, self._progress = package, options, result, progress
         self._folder, (self._standard, parts), self._libraries = folder, standard, libraries
         self._originals = {str(self._standard / name): path for name, path in parts.items() if path.suffix != ".mo"}
+        self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated)
 
     def compile_all(self) -> None:
@@ -141,22 +143,23 @@ class Compilation:
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Jobs that compile all models, in `count` parts."""
-        models = [f"{self._package.robot.target.package}.{one}" for one in (*self._package.models, *self._users_models)]
-        tasks = list(map(compile_task, models))
+        tasks = []
+        for model in (*self._package.models, *self._users_models):
+            task = compile_task(f"{self._package.robot.target.package}.{model}")
+            tasks.append(msgspec.structs.replace(task, title=model))
         return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
         for label, (_, tasks) in jobs.items():
             for task, one in zip(tasks, done[label], strict=False):
-                model = self._short_title(task)
                 if one.problem:
-                    said = self._explain(one.problem, model)
-                    if model in self._users_models:  # it may be meant to be a part of something
+                    said = explain(one.problem, self._compiler, self._package.files, task.title)
+                    if task.title in self._users_models:  # it may be meant to be a part of something
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
-                elif model not in self._users_models:
-                    self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
+                elif task.title not in self._users_models:
+                    self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
 
     def _experiment(self, *, complete: bool) -> Experiment:
         """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
@@ -194,7 +197,7 @@ class Compilation:
             imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
             with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
         job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
-        self._progress.begin(f"loading libraries, then compiling {listed([*map(self._short_title, tasks)])}")
+        self._progress.begin(f"loading libraries, then compiling {listed([task.title for task in tasks])}")
         results = []
         for one in compilers.run_job(self._options.compiler, job, cache):
             problem = one.problem
@@ -203,25 +206,18 @@ class Compilation:
             results.append(msgspec.structs.replace(one, problem=problem))
         return results
 
-    def _short_title(self, task: CompileTask) -> str:
-        return task.title.removeprefix(f"{self._package.robot.target.package}.")
-
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []
         (result,) = results
         if result.problem:
-            return None, self._explain(result.problem, "")
+            return None, explain(result.problem, self._compiler, self._package.files)
         (run,) = result.runs
         if run.problem:
             message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
-
-    def _explain(self, problem: str, model: str) -> list[Diagnostic]:
-        complaints = compilers.COMPILERS[self._options.compiler].complaints(problem)
-        return explain(problem, complaints, self._package.files, model)
 
 
 def _readable(path: Path, folder: Path) -> str:
@@ -267,11 +263,8 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(problem: str, complaints: Sequence[Complaint], package: PackageTexts, model: str = "") -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
-
-    `complaints` are what the text says, with the files that people know.
-    """
+def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
@@ -281,6 +274,7 @@ def explain(problem: str, complaints: Sequence[Complaint], package: PackageTexts
         path = f"{model.replace('.', '/')}.mo"
         is_users = path in package.texts and path not in package.owners
         return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+    complaints = compiler.complaints(problem)
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
     return list(found)[:_MOST_DIAGNOSTICS]
