@@ -40,6 +40,7 @@ def plant(rc_domain: None, tmp_path: Path) -> Config:
             "Plant/Control.mo": "block Control",
             "Plant/Resources/Old.mo": "no class",
             "Plant/.git/Hidden.mo": "no class",
+            "Plant/.#Control.mo": "what an editor leaves",
             "Plant/Robots/package.mo": "package Robots",
             "Plant/Robots/Arm/package.mo": "package Arm",
             "Plant/Robots/Arm/Arm.mo": "model Arm",
@@ -129,7 +130,6 @@ def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
         Own="within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
         Control_PID="within Plant.Robots.Arm.Control; block PID\nend PID;\n",
         Control_package="within Plant.Robots.Arm;\npackage Control\nend Control;\n",
-        Resources_Notes="model Notes\nend Notes;\n",
     )
     assert found.models_not_in(["Arm.mo", "package.mo"]) == ["Control.PID", "Own"]
     assert found.models_not_in(found.texts) == []

@@ -42,8 +42,6 @@ def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
 
 @pytest.mark.parametrize("edits", [
     pytest.param({ELBOW: arm.text().replace("\n", "\r\n")}, id="line ends of Windows"),
-    pytest.param({"Resources/notes.mo": "no Modelica"}, id="resources are no classes"),
-    pytest.param({"Joints/.#Elbow.mo": "no Modelica"}, id="hidden files are an editor's business"),
     pytest.param({ORDER: None}, id="no package.order"),
     pytest.param({ORDER: arm.text(ORDER).replace("\n", " \r\n\r\n")}, id="blanks in package.order"),
     pytest.param({ELBOW: arm.text() + "// the end\n"}, id="comments"),
@@ -256,7 +254,5 @@ def test_what_keeps_no_compiler_from_reading_files_around_is_not_said() -> None:
         "Plant/Control.mo": f"within Plant;\nmodel Other\nequation\n{twice}end Other;\n",
         "Plant/Old.v1.mo": "within Plant;\nmodel Old\nend Old;\n",
         "Plant/X.mo/package.mo": "within Plant;\npackage X\nend X;\n",
-        "Plant/Resources/Notes.mo": "no Modelica",
-        "Plant/.#Control.mo": "no Modelica",
     }
     assert around(files) == []

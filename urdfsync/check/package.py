@@ -49,7 +49,7 @@ class PackageTexts(msgspec.Struct, frozen=True):
         return [
             ".".join(path.with_suffix("").parts)
             for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
-            if holds_class(path) and path.name != "package.mo"
+            if path.suffix == ".mo" and path.name != "package.mo"
             for one in parse(self.text(str(path))).classes
             if one.kind in ("model", "block") and "partial" not in one.prefixes and str(one.name) == path.stem
         ]
@@ -134,12 +134,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
 def _words(text: bytes) -> list[str]:
     """What a text says but for comments, blanks and ends of line."""
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
-
-
-def holds_class(path: PurePosixPath) -> bool:
-    """Whether a file of a package is one that tools read as Modelica."""
-    hidden = any(part.startswith(".") for part in path.parts)
-    return path.suffix == ".mo" and not hidden and "Resources" not in path.parts[:-1]
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:

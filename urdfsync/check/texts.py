@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageTexts, class_path, holds_class
+from urdfsync.check.package import CheckedPackage, PackageTexts, class_path
 from urdfsync.check.results import listed
 from urdfsync.config import find_own_library, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -42,7 +42,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
     found: list[Diagnostic] = []
     stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
     declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
-    for path in sorted(filter(holds_class, map(PurePosixPath, package.texts))):
+    for path in sorted(PurePosixPath(name) for name in package.texts if name.endswith(".mo")):
         if culprit := _misnamed_part(path):
             is_file = culprit == path
             name = culprit.stem if is_file else culprit.name
@@ -96,7 +96,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
     """
     found: list[Diagnostic] = []
-    for path in filter(holds_class, map(PurePosixPath, sorted(files))):
+    for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
         package = PackageTexts("", output, {str(path): files[str(path)]})
         ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
