@@ -89,13 +89,8 @@ class Reference:
         """
         pin, model = self.pin, self.model
         p, speeds, gains = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
-        positions = self.projection @ p + self._offset
-        state = Configuration(pin.neutral(model), self.projection @ speeds, self.projection @ gains)
-        for joint in model.joints[2:]:
-            if joint.nv == 1:
-                position = positions[joint.idx_v]
-                turns = joint.nq == 2  # continuous: cosine and sine
-                _put(state.q, joint.idx_q, (np.cos(position), np.sin(position)) if turns else (position,))
+        q = pin.integrate(model, pin.neutral(model), self.projection @ p + self._offset)
+        state = Configuration(q, self.projection @ speeds, self.projection @ gains)
         # Pinocchio resolves velocity and acceleration of the root link in its own frame.
         place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
         angle, speed, gain = motion.TURN.at(time)
