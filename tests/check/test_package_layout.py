@@ -51,19 +51,8 @@ def test_what_the_language_allows_is_no_fault(edits: Mapping[str, str | None]) -
 
 
 def test_constants_of_a_package_may_be_ordered() -> None:
-    constant = "\n  constant Real pi = 3;\nend Joints;"
-    edits = {**arm.changed("\nend Joints;", constant, "Joints/package.mo"), ORDER: "pi\n" + arm.text(ORDER)}
-    edits["Joints/package.mo"] = _behind(edits["Joints/package.mo"], "constant")
-    assert findings(edits) == []
-
-
-def _behind(text: str, word: str) -> str:
-    """The text of a package with the declaration that begins with `word` moved up behind its first line."""
-    lines = text.splitlines(keepends=True)
-    moved = next(line for line in lines if line.strip().startswith(word))
-    lines.remove(moved)
-    first = next(number for number, line in enumerate(lines) if line.startswith("package"))
-    return "".join([*lines[: first + 1], moved, *lines[first + 1 :]])
+    package = f"{WITHIN.replace('.Joints', '')}\npackage Joints\n  constant Real pi = 3;\nend Joints;\n"
+    assert findings({"Joints/package.mo": package, ORDER: "pi\n" + arm.text(ORDER)}) == []
 
 
 # --- files ------------------------------------------------------------------------------------------------------------
@@ -231,14 +220,10 @@ def test_packages_around_are_sound() -> None:
     assert around({}) == []
 
 
-@pytest.mark.parametrize(("path", "text", "found"), [
-    ("Plant/Robots/Shelf.mo", "within Plant;\nmodel Shelf\nend Shelf;\n",
-     "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`"),
-    ("Plant/Robots/package.mo", "package Robots\nend Robots;\n",
-     "1: error: the file lacks `within Plant;`; put it into the first line"),
-])  # fmt: skip
-def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
-    assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
+def test_files_around_say_in_which_package_they_stand() -> None:
+    found = around({"Plant/Robots/Shelf.mo": "within Plant;\nmodel Shelf\nend Shelf;\n"})
+    message = "the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`"
+    assert found == [f"Plant/Robots/Shelf.mo:1: error: {message} [wrong-within]"]
 
 
 def test_a_package_around_is_called_like_its_folder() -> None:

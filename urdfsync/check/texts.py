@@ -8,7 +8,7 @@ is.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
@@ -61,33 +61,22 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
             declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
     for folder in sorted(stored):
-        lines = declarations.get(folder, {})
-        found += _check_folder(package, folder, stored, lines)
+        package_file, lines = str(folder / _PACKAGE), declarations.get(folder, {})
+        if package_file not in package.texts:
+            message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
+            where = str(folder) if folder.parts else ""
+            found.append(package.diagnostic(_ERROR, "no-package-file", message, where, hint=hint))
+        for name in sorted(stored[folder]):
+            file, is_folder, hint = f"{folder / name}.mo", folder / name in stored, "keep one of them"
+            if is_folder and file in package.texts:
+                message = f"`{name}` is both a file and a folder"
+                found.append(package.diagnostic(_ERROR, "class-twice", message, file, hint=hint))
+            if name in lines:
+                message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
+                found.append(package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint=hint))
         if str(folder / _ORDER) in package.texts:
             found += _check_order(package, folder, stored[folder] | lines.keys(), is_complete=folder in declarations)
     return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
-
-
-def _check_folder(
-    package: PackageTexts, folder: PurePosixPath, stored: Mapping[PurePosixPath, Collection[str]], lines: dict[str, int]
-) -> Iterator[Diagnostic]:
-    """Check that a folder is a package, and that each name is only there once.
-
-    `stored` are the classes in each folder, `lines` those in which the folder's `package.mo` declares others.
-    """
-    package_file = str(folder / _PACKAGE)
-    if package_file not in package.texts:
-        message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
-        place = str(folder) if folder.parts else ""
-        yield package.diagnostic(_ERROR, "no-package-file", message, place, hint=hint)
-    for name in sorted(stored[folder]):
-        file, is_folder = f"{folder / name}.mo", folder / name in stored
-        if is_folder and file in package.texts:
-            message = f"`{name}` is both a file and a folder"
-            yield package.diagnostic(_ERROR, "class-twice", message, file, hint="keep one of them")
-        if name in lines:
-            message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
-            yield package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint="keep one of them")
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:

@@ -28,12 +28,6 @@ def _gltf(**replaced: str) -> bytes:
     return json.dumps(tree).encode()
 
 
-def _moved_glb() -> bytes:
-    scene = trimesh.Scene()
-    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
-    return bytes(scene.export(file_type="glb"))
-
-
 FORMATS = {
     "binary.stl": BOX.export(file_type="stl"),
     "ascii.stl": BOX.export(file_type="stl_ascii").encode(),
@@ -91,7 +85,9 @@ def test_content_of_another_format_is_refused(name: str) -> None:
 
 
 def test_scene_of_gltf_places_its_meshes() -> None:
-    assert _read(".glb", _moved_glb()).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
+    scene = trimesh.Scene()
+    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
+    assert _read(".glb", bytes(scene.export(file_type="glb"))).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
 
 
 VERTICES = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

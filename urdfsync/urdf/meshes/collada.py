@@ -54,7 +54,13 @@ def read_collada(content: bytes) -> Triangles:
     shapes = etree.tostring(root)
     del root  # pycollada parses them into a tree of its own
     with damage_is_an_error():
-        mesh = joined(part for node in _scene(shapes).nodes for part in _triangles(node, np.identity(4)))
+        document = collada.Collada(io.BytesIO(shapes), ignore=[DaeError])
+        # what it can't make sense of is an error, what it doesn't know is not
+        if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
+            raise MeshError(f"its content isn't consistent: {document.errors[0]}")
+        if document.scene is None:
+            raise MeshError("it has no scene")
+        mesh = joined(part for node in document.scene.nodes for part in _triangles(node, np.identity(4)))
         return Triangles(unit * mesh.points, mesh.faces)
 
 
@@ -82,16 +88,6 @@ def _unit(root: etree._Element) -> float:
     if not (math.isfinite(unit) and unit > 0):
         raise MeshError(f"its unit of length is {text!r} metres")
     return unit
-
-
-def _scene(content: bytes) -> Any:
-    """The scene as pycollada's object. What it can't make sense of is an error, what it doesn't know is not."""
-    document = collada.Collada(io.BytesIO(content), ignore=[DaeError])
-    if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
-        raise MeshError(f"its content isn't consistent: {document.errors[0]}")
-    if document.scene is None:
-        raise MeshError("it has no scene")
-    return document.scene
 
 
 def _triangles(node: Any, pose: Array) -> Iterator[Triangles]:
