@@ -225,17 +225,12 @@ def test_failed_and_dry_builds_are_not_checked(project: Path) -> None:
     assert examiner.asked == []
 
 
-def contradict(project: Path) -> None:
-    """The user and an export give one number other values."""
-    for file, value in (("modelica/Ladder/Elements/R2Parameters.mo", "221"), ("ladder.json", "330")):
-        write(project / file, (project / file).read_text().replace("220.5", value))
-
-
 def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk_and_again_once_it_is_resolved(
     project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(Examiner(RIGHT))
-    contradict(project)
+    for file, value in (("modelica/Ladder/Elements/R2Parameters.mo", "221"), ("ladder.json", "330")):  # mine, theirs
+        write(project / file, (project / file).read_text().replace("220.5", value))
     (result,) = run(Examiner(RIGHT))
     assert result.conflicts
     assert result.checked is Checked.RIGHT

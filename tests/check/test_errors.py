@@ -27,7 +27,7 @@ def explain(
     text: str, edits: Mapping[str, str | bytes | None] | None = None, model: str = "", compiler: Compiler = rumoca
 ) -> list[Diagnostic]:
     """The findings about the package with some edits."""
-    return explain_problem(text, compiler.complaints(text), arm.package(edits), model)
+    return explain_problem(text, compiler, arm.package(edits), model)
 
 
 def explained(text: str, *more: Any, **facts: Any) -> list[str]:
@@ -181,5 +181,5 @@ def test_the_compiler_still_speaks_as_these_texts_do(modelica_library: Path, tmp
     for code, root, outcome in zip(DAMAGES, roots, execute(modelica_library, roots, tasks), strict=True):
         package = arm.package(DAMAGES[code], name=root.name)
         said = outcome.error.replace(str(root), str(arm.DISK))
-        (found,) = explain_problem(said, rumoca.complaints(said), package)
+        (found,) = explain_problem(said, rumoca, package)
         assert (found.code, found.file) == (code, f"{arm.DISK}/{ELBOW}")

@@ -53,7 +53,7 @@ def work(
                 raise RefusedError("OMC error occurred")
             return found
 
-    library = types.SimpleNamespace(OMCSessionLocal=Session, OMCSessionException=RefusedError)
+    library = types.SimpleNamespace(OMCSessionLocal=Session, OMSessionException=RefusedError)
     monkeypatch.setitem(sys.modules, "OMPython", library)
     return list(omc.work(job)), asked
 

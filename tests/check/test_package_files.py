@@ -6,7 +6,6 @@ import codecs
 import errno
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -41,6 +40,7 @@ def plant(rc_domain: None, tmp_path: Path) -> Config:
             "Plant/Control.mo": "block Control",
             "Plant/Resources/Old.mo": "no class",
             "Plant/.git/Hidden.mo": "no class",
+            "Plant/.#Control.mo": "what an editor leaves",
             "Plant/Robots/package.mo": "package Robots",
             "Plant/Robots/Arm/package.mo": "package Arm",
             "Plant/Robots/Arm/Arm.mo": "model Arm",
@@ -55,12 +55,6 @@ def plant(rc_domain: None, tmp_path: Path) -> Config:
 
 def robot(plant: Config, name: str) -> RobotConfig:
     return next(robot for robot in plant.robots if robot.name == name)
-
-
-def test_the_files_of_a_package_are_its_classes_and_orders(plant: Config) -> None:
-    found = files.package_texts(plant.root / "modelica" / "Plant")
-    assert {"package.mo", "package.order", "Control.mo", "Robots/Crane/Hook.mo"} <= found.keys()
-    assert not any("Resources" in path or ".git" in path for path in found)
 
 
 @pytest.fixture
@@ -78,33 +72,21 @@ def odd(tmp_path: Path) -> Path:
     return folder
 
 
-def test_what_is_no_regular_file_is_left_out_and_told(odd: Path, plant: Config) -> None:
+def test_what_is_no_regular_file_is_left_out(odd: Path, plant: Config) -> None:
     assert files.package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
-    expected = {"Linked", "Dangling.mo", "Circle.mo", *(["Pipe.mo"] if hasattr(os, "mkfifo") else [])}
-    assert {path.relative_to(odd).as_posix() for path in files.read_files(odd)[1]} == expected
-    assert files.read_files(plant.root / "modelica" / "Plant")[1] == []
-    assert files.read_files(plant.root / "absent") == ({}, [])
+    assert files.package_texts(plant.root / "absent") == {}
 
 
-@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
-def test_what_can_not_be_read_is_named_as_people_see_it(
-    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(path: str, *rest: Any) -> Any:
-        if os.fspath(path).endswith(name):
-            raise PermissionError(errno.EACCES, "Permission denied", path)
-        return genuine(path, *rest)
+def test_what_can_not_be_read_is_named_as_people_see_it(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path) -> bytes:
+        raise PermissionError(errno.EACCES, "Permission denied", path)
 
-    owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
-    genuine = getattr(owner, method)
     monkeypatch.chdir(plant.root)
-    with monkeypatch.context() as patch:
-        patch.setattr(owner, method, refuse)
-        with pytest.raises(OutputError) as caught:
-            files.package_texts(plant.root / "modelica" / "Plant")
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+    with pytest.raises(OutputError) as caught:
+        files.package_texts(plant.root / "modelica" / "Other")
     (found,) = caught.value.diagnostics
-    assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
-    assert found.hint
+    assert (found.file, found.message) == ("modelica/Other/package.mo", "it can't be read: Permission denied")
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:
@@ -148,7 +130,6 @@ def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
         Own="within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
         Control_PID="within Plant.Robots.Arm.Control; block PID\nend PID;\n",
         Control_package="within Plant.Robots.Arm;\npackage Control\nend Control;\n",
-        Resources_Notes="model Notes\nend Notes;\n",
     )
     assert found.models_not_in(["Arm.mo", "package.mo"]) == ["Control.PID", "Own"]
     assert found.models_not_in(found.texts) == []
@@ -169,14 +150,3 @@ def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
 ])  # fmt: skip
 def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
     assert (package(Own=text).models_not_in([]) == ["Own"]) is expected
-
-
-GENERATED = {"package.order": b"Arm\n", "Arm.mo": b"robot\n", "Joints/Elbow.mo": b"elbow\n", "Links/Hand.mo": b"hand\n"}
-
-
-def test_edited_are_models_that_differ_in_more_than_line_ends() -> None:
-    """Order files and files of the user's own do not count."""
-    own = {"package.order": b"Mine\nArm\n", "Mine.mo": b"mine\n"}
-    disk = {**GENERATED, **own, "Links/Hand.mo": b"hand\r\n", "Joints/Elbow.mo": b"flexible elbow\n"}
-    del disk["Arm.mo"]
-    assert files.edited_files(GENERATED, disk) == ["Joints/Elbow.mo"]

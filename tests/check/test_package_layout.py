@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-import msgspec
 import pytest
 from support import arm, corpus, packages
 from support.arm import ELBOW
@@ -43,8 +42,6 @@ def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
 
 @pytest.mark.parametrize("edits", [
     pytest.param({ELBOW: arm.text().replace("\n", "\r\n")}, id="line ends of Windows"),
-    pytest.param({"Resources/notes.mo": "no Modelica"}, id="resources are no classes"),
-    pytest.param({"Joints/.#Elbow.mo": "no Modelica"}, id="hidden files are an editor's business"),
     pytest.param({ORDER: None}, id="no package.order"),
     pytest.param({ORDER: arm.text(ORDER).replace("\n", " \r\n\r\n")}, id="blanks in package.order"),
     pytest.param({ELBOW: arm.text() + "// the end\n"}, id="comments"),
@@ -54,19 +51,8 @@ def test_what_the_language_allows_is_no_fault(edits: Mapping[str, str | None]) -
 
 
 def test_constants_of_a_package_may_be_ordered() -> None:
-    constant = "\n  constant Real pi = 3;\nend Joints;"
-    edits = {**arm.changed("\nend Joints;", constant, "Joints/package.mo"), ORDER: "pi\n" + arm.text(ORDER)}
-    edits["Joints/package.mo"] = _behind(edits["Joints/package.mo"], "constant")
-    assert findings(edits) == []
-
-
-def _behind(text: str, word: str) -> str:
-    """The text of a package with the declaration that begins with `word` moved up behind its first line."""
-    lines = text.splitlines(keepends=True)
-    moved = next(line for line in lines if line.strip().startswith(word))
-    lines.remove(moved)
-    first = next(number for number, line in enumerate(lines) if line.startswith("package"))
-    return "".join([*lines[: first + 1], moved, *lines[first + 1 :]])
+    package = f"{WITHIN.replace('.Joints', '')}\npackage Joints\n  constant Real pi = 3;\nend Joints;\n"
+    assert findings({"Joints/package.mo": package, ORDER: "pi\n" + arm.text(ORDER)}) == []
 
 
 # --- files ------------------------------------------------------------------------------------------------------------
@@ -100,7 +86,6 @@ def test_what_is_declared_twice_is_an_error_and_what_is_connected_twice_a_warnin
 
 
 ELBW = arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")
-SMALL_ELBOW = arm.text().replace("Elbow", "elbow")
 RENAMED = arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")
 INSIDE = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
 JOINT = "error: joint elbow:"
@@ -158,11 +143,6 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
             "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them "
             "[class-twice]",
         ),
-        (
-            {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
-            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
-            "case do not hold both [same-but-for-case]",
-        ),
     ],
 )
 def test_each_fault_has_its_place_and_its_words(edits: Mapping[str, str | bytes | None], expected: str) -> None:
@@ -200,8 +180,6 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
     edits = {f"{name}/package.mo": f"{within}\npackage X\nend X;\n", f"{name}/Inner/Y.mo": "nonsense"}
     message = f"`{name}` can't be the name of a package; rename the folder, or move it elsewhere"
     assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
-    order = f"{arm.text('package.order')}{name}\n"
-    assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
 
 
 def test_the_order_names_what_is_there_once() -> None:
@@ -218,22 +196,6 @@ def test_the_order_names_what_is_there_once() -> None:
         f"{ORDER}:{last}: error: `Wheel` is named, but is no class and no constant of the package;"
         " take the line out, or bring the class back [order-unknown]",
     ]
-
-
-def test_what_a_build_adds_to_an_order_nobody_has_to_add() -> None:
-    """The file is urdfsync's if the package is; whoever adds a class has to name it."""
-    names = [name for name in arm.text(ORDER).split() if name != "Turret"]
-    own = f"{WITHIN}\nmodel Own\nend Own;\n"
-    package = arm.package({ORDER: "\n".join(names), "Joints/Own.mo": own})
-    owners = {"Joints/package.mo": "robot", "Joints/Turret.mo": "joint turret"}
-    found = check_layout(msgspec.structs.replace(package, owners=owners))
-    hints = {one.message: one.hint for one in found}
-    advice = "add it where it belongs: tools put it last, or warn"
-    assert hints == {"`Own` is not named": advice, "`Turret` is not named": "`urdfsync build` adds it"}
-    elsewhere = msgspec.structs.replace(
-        arm.package({ORDER: "\n".join(names)}), owners={"Joints/Turret.mo": "joint turret"}
-    )
-    assert [one.hint for one in check_layout(elsewhere)] == [advice]
 
 
 # --- files around the package -----------------------------------------------------------------------------------------
@@ -258,14 +220,10 @@ def test_packages_around_are_sound() -> None:
     assert around({}) == []
 
 
-@pytest.mark.parametrize(("path", "text", "found"), [
-    ("Plant/Robots/Shelf.mo", "within Plant;\nmodel Shelf\nend Shelf;\n",
-     "1: error: the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`"),
-    ("Plant/Robots/package.mo", "package Robots\nend Robots;\n",
-     "1: error: the file lacks `within Plant;`; put it into the first line"),
-])  # fmt: skip
-def test_files_around_say_in_which_package_they_stand(path: str, text: str, found: str) -> None:
-    assert around({path: text}) == [f"{path}:{found} [wrong-within]"]
+def test_files_around_say_in_which_package_they_stand() -> None:
+    found = around({"Plant/Robots/Shelf.mo": "within Plant;\nmodel Shelf\nend Shelf;\n"})
+    message = "the file says `within Plant;`, but stands in `Plant.Robots`; write `within Plant.Robots;`"
+    assert found == [f"Plant/Robots/Shelf.mo:1: error: {message} [wrong-within]"]
 
 
 def test_a_package_around_is_called_like_its_folder() -> None:
@@ -281,7 +239,5 @@ def test_what_keeps_no_compiler_from_reading_files_around_is_not_said() -> None:
         "Plant/Control.mo": f"within Plant;\nmodel Other\nequation\n{twice}end Other;\n",
         "Plant/Old.v1.mo": "within Plant;\nmodel Old\nend Old;\n",
         "Plant/X.mo/package.mo": "within Plant;\npackage X\nend X;\n",
-        "Plant/Resources/Notes.mo": "no Modelica",
-        "Plant/.#Control.mo": "no Modelica",
     }
     assert around(files) == []

@@ -15,7 +15,7 @@ from urdfsync.domain import Deviation, Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import free_joints, motion, probe
+from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Instant, Reference
 
@@ -90,13 +90,13 @@ def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviatio
 def pinocchio_series(urdf: str) -> dict[str, list[float]]:
     """What a simulation of the probe would give if it were Pinocchio's; free joints stay as they begin."""
     skeleton = KinematicTree.of(urdfs.parsed(urdf))
-    axes, free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
+    axes, free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
     names = [[joint.name for joint in joints] for joints in (axes, free)]
     reference = Reference(read(urdf.encode(), "robot.urdf"), *names)
-    starts = {joint.name: reference.start(joint.name, free_joints.free_start(joint)) for joint in free}
+    starts = {joint.name: reference.start(joint.name, motion.free_start(joint)) for joint in free}
     courses = [motion.axis_course(joint) for joint in axes]
     series: dict[str, list[float]] = {}
-    for time in (0.0, free_joints.duration(skeleton)):
+    for time in (0.0, motion.duration(skeleton)):
         instant = reference.solve(reference.state(time, courses, starts))
         for name, value in {"time": time, **_values(skeleton, instant)}.items():
             series.setdefault(name, []).append(float(value))

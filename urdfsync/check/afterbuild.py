@@ -20,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.engine.result import Checked, Result
 
-_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old", "broken-standard-library")
+_ABSENT = ("no-compiler", "no-standard-library", "standard-library-too-old")
 """Codes of what this machine lacks; the package is not to blame."""
 
 

@@ -29,7 +29,6 @@ LIMIT = 2**30
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
 
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
-_TAG = "Signature: 8a477f597d28d172789f06886806bc55\n# Made by urdfsync; may be deleted at any time.\n"
 
 
 class CacheError(UrdfsyncError):
@@ -58,9 +57,6 @@ class UserCache:
         """Make the folder; raises CacheError if that can't be."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `template_cache` takes no other
-            tag = self.folder / "CACHEDIR.TAG"  # backup programs leave such a folder out
-            if not tag.is_file():
-                tag.write_text(_TAG, encoding="utf-8")
 
     @contextlib.contextmanager
     def workspace(self) -> Iterator[Path]:
@@ -100,9 +96,16 @@ class UserCache:
         total, busy, freed = sum(size for _, _, size in entries), self._busy(), 0
         for _, path, size in entries if total > _FULL * limit else ():
             in_use = path in busy or (busy and path.parent == self.libraries)
-            if total - freed > _AFTER * limit and not in_use:
-                _delete(path)
-                freed += 0 if os.path.lexists(path) else size
+            if total - freed <= _AFTER * limit or in_use:
+                continue
+            with contextlib.suppress(OSError):  # links themselves, and not what they lead to
+                if path.is_symlink() or not path.is_dir():
+                    path.unlink()
+                else:
+                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
+                    path.rename(aside)
+                    shutil.rmtree(aside, ignore_errors=True)
+                freed += size
         return freed
 
     def clear(self) -> int:
@@ -160,14 +163,3 @@ def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
         inside = [one.lstat() for one in (path, *(path.rglob("*") if is_folder else ()))]
         sizes = (max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in inside)
         yield used, path, sum(sizes)
-
-
-def _delete(path: Path) -> None:
-    """Delete a file or folder, links themselves and not what they lead to. What can't be deleted stays."""
-    with contextlib.suppress(OSError):
-        if path.is_symlink() or not path.is_dir():
-            path.unlink()
-        else:
-            aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
-            path.rename(aside)
-            shutil.rmtree(aside, ignore_errors=True)

@@ -17,6 +17,7 @@ from urdfsync.check import compilers
 from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
     CompileJob,
+    Compiler,
     CompileResult,
     CompileTask,
     Complaint,
@@ -86,6 +87,7 @@ class Compilation:
         self._package, self._options, self._result, self._progress = package, options, result, progress
         self._folder, (self._standard, parts), self._libraries = folder, standard, libraries
         self._originals = {str(self._standard / name): path for name, path in parts.items() if path.suffix != ".mo"}
+        self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated)
 
     def compile_all(self) -> None:
@@ -111,10 +113,14 @@ class Compilation:
         completed = package.generated if is_same else package.rendering.package(experiment.content)
         models = self._model_jobs(1)
         jobs = {**models, "completed": (completed, [_moving_task(experiment)])}
-        if plain:
-            jobs |= self._edit_jobs(_moving_task(plain))
-            if is_same:
-                del jobs["generated"]
+        if plain:  # the edited package, the generated one, and this one with each of the edits
+            move, files = [_moving_task(plain)], package.edits
+            jobs["edited"] = package.files.texts, move
+            if not is_same:
+                jobs["generated"] = package.generated, move
+            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+            for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
+                jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, move
         done = self._run_all(jobs)
         self._note_models(models, done)
         moved, said = self._series(done["completed"])
@@ -125,49 +131,35 @@ class Compilation:
             if not is_same:
                 moved, said = self._series(done["generated"])
                 result.add(said)
-            result.effects = self._edit_effects(plain, moved, done)
+            edited, faults = self._series(done["edited"])
+            if faults:  # no fault of an edited package
+                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+            if edited is None or moved is None:
+                return
+            alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
+            single = {file: plain.compare(one, moved) for file, one in alone.items() if one is not None}
+            whole = plain.compare(edited, moved)
+            result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Jobs that compile all models, in `count` parts."""
-        models = [f"{self._package.robot.target.package}.{one}" for one in (*self._package.models, *self._users_models)]
-        tasks = list(map(compile_task, models))
+        tasks = []
+        for model in (*self._package.models, *self._users_models):
+            task = compile_task(f"{self._package.robot.target.package}.{model}")
+            tasks.append(msgspec.structs.replace(task, title=model))
         return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
-
-    def _edit_jobs(self, move: CompileTask) -> dict[str, _Job]:
-        """Jobs that move the edited package, the generated one, and this one with each of the edits."""
-        package, files = self._package, self._package.edits
-        jobs: dict[str, _Job] = {"edited": (package.files.texts, [move]), "generated": (package.generated, [move])}
-        own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-        for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
-            jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, [move]
-        return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
         for label, (_, tasks) in jobs.items():
             for task, one in zip(tasks, done[label], strict=False):
-                model = self._short_title(task)
                 if one.problem:
-                    said = self._explain(one.problem, model)
-                    if model in self._users_models:  # it may be meant to be a part of something
+                    said = explain(one.problem, self._compiler, self._package.files, task.title)
+                    if task.title in self._users_models:  # it may be meant to be a part of something
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
-                elif model not in self._users_models:
-                    self._result.compiled += (CompiledModel(model, one.unknowns, one.states),)
-
-    def _edit_effects(
-        self, plain: Experiment, generated: _Series | None, done: Mapping[str, Sequence[CompileResult]]
-    ) -> tuple[EditEffect, ...]:
-        """What edits do, compared with how the generated package moves."""
-        package = self._package
-        edited, faults = self._series(done["edited"])
-        if faults:  # no fault of an edited package
-            self._result.gaps += (f"what edits do was not measured: {faults[0].message}",)
-        if edited is None or generated is None:
-            return ()
-        moved = {file: self._series(done[file])[0] for file in package.edits if file in done}
-        single = {file: plain.compare(one, generated) for file, one in moved.items() if one is not None}
-        return tuple(edit_effects(package.edits, package.files.owners, plain.compare(edited, generated), single))
+                elif task.title not in self._users_models:
+                    self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
 
     def _experiment(self, *, complete: bool) -> Experiment:
         """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
@@ -199,8 +191,13 @@ class Compilation:
             top = write_package(folder, robot, texts, self._package.around)
             roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
         originals = {**self._originals, str(top): robot.output / top.name}
-        job = CompileJob((str(self._standard), *roots, str(top)), tuple(map(self._with_imports, tasks)))
-        self._progress.begin(f"loading libraries, then compiling {listed([*map(self._short_title, tasks)])}")
+        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
+        for task in tasks:
+            first, _, rest = task.source.partition("\n")
+            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
+            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
+        job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
+        self._progress.begin(f"loading libraries, then compiling {listed([task.title for task in tasks])}")
         results = []
         for one in compilers.run_job(self._options.compiler, job, cache):
             problem = one.problem
@@ -209,31 +206,18 @@ class Compilation:
             results.append(msgspec.structs.replace(one, problem=problem))
         return results
 
-    def _short_title(self, task: CompileTask) -> str:
-        return task.title.removeprefix(f"{self._package.robot.target.package}.")
-
-    def _with_imports(self, task: CompileTask) -> CompileTask:
-        """The task with imports of libraries behind the first line of its text: rumoca loads no others."""
-        first, _, rest = task.source.partition("\n")
-        imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
-        return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
-
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []
         (result,) = results
         if result.problem:
-            return None, self._explain(result.problem, "")
+            return None, explain(result.problem, self._compiler, self._package.files)
         (run,) = result.runs
         if run.problem:
             message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
-
-    def _explain(self, problem: str, model: str) -> list[Diagnostic]:
-        complaints = compilers.COMPILERS[self._options.compiler].complaints(problem)
-        return explain(problem, complaints, self._package.files, model)
 
 
 def _readable(path: Path, folder: Path) -> str:
@@ -279,11 +263,8 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(problem: str, complaints: Sequence[Complaint], package: PackageTexts, model: str = "") -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; at least one.
-
-    `complaints` are what the text says, with the files that people know.
-    """
+def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
@@ -293,6 +274,7 @@ def explain(problem: str, complaints: Sequence[Complaint], package: PackageTexts
         path = f"{model.replace('.', '/')}.mo"
         is_users = path in package.texts and path not in package.owners
         return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+    complaints = compiler.complaints(problem)
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
     return list(found)[:_MOST_DIAGNOSTICS]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import shutil
@@ -14,7 +13,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, fingerprint
-from urdfsync.check.package import package_texts
+from urdfsync.check.package import package_texts, stored_files
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY
@@ -50,8 +49,8 @@ _HINT = (
 class LibraryError(UrdfsyncError):
     """There is no Modelica Standard Library that suits; the code of the one diagnostic says why."""
 
-    def __init__(self, code: str, message: str, hint: str) -> None:
-        super().__init__(Diagnostic(Severity.ERROR, code, message, hint=hint))
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(Diagnostic(Severity.ERROR, code, message, hint=_HINT))
 
 
 class StandardLibrary(msgspec.Struct, frozen=True):
@@ -81,16 +80,14 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
-    code, message, hint = "no-standard-library", "there is no Modelica Standard Library", _HINT
+    code, message = "no-standard-library", "there is no Modelica Standard Library"
     if found:
         place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
         code, oldest = "standard-library-too-old", ".".join(map(str, OLDEST))
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
     if configured:
         code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
-        if (configured / "package.mo").is_file():
-            hint = f"name the folder around it: {configured.parent}"
-    raise LibraryError(code, message, hint)
+    raise LibraryError(code, message)
 
 
 def library_folders(environment: Mapping[str, str]) -> list[Path]:
@@ -169,43 +166,44 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 def library_state(path: Path) -> str:
     """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
-    files = [str(path)] if path.is_file() else []
-    for folder, folders, names in os.walk(path):
-        folders[:] = [name for name in folders if name != "Resources" and not name.startswith(".")]
-        files += [os.path.join(folder, name) for name in names if name.endswith((".mo", ".order"))]  # noqa: PTH118
-    total = hashlib.sha256()
-    for file in sorted(files):
-        try:
-            status = os.stat(file)  # noqa: PTH116 - thousands of them
-        except OSError:  # a link to nothing, say
-            continue
-        total.update(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n".encode(errors="surrogateescape"))
-    return total.hexdigest()
+    found = []
+    for file in [path] if path.is_file() else stored_files(path):
+        status = file.stat()
+        found.append((str(file), status.st_size, status.st_mtime_ns))
+    return fingerprint(sorted(found))
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
     """A copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
 
     It is made once for each state of the library. The whole is copied as well, without its resources: the compiler
-    wants all parts in one folder, and would read all that is in this one. Raises CacheError, or LibraryError for a
-    library that lacks what robots need.
+    wants all parts in one folder, and would read all that is in this one. Raises CacheError.
     """
-    modelica = parts["Modelica"]
-    paths = [modelica.joinpath(*part) for part in _COPIED]
-    if missing := [path for path in paths if not (path.is_dir() or path.with_name(f"{path.name}.mo").is_file())]:
-        names = " and no ".join(f"`Modelica.{'.'.join(path.relative_to(modelica).parts)}`" for path in missing[:3])
-        message = f"the Modelica Standard Library in {modelica} is broken: there is no {names}"
-        raise LibraryError("broken-standard-library", message, f"install it anew, or take another one: {_HINT}")
     whole = not all(map(_is_in_copy, texts))
     key = fingerprint(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
+
+    def ignored(folder: str, names: list[str]) -> list[str]:
+        left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
+        if not whole and Path(folder).is_relative_to(parts["Modelica"]):
+            for name in names:
+                path = (*Path(folder).relative_to(parts["Modelica"]).parts, name.removesuffix(".mo"))
+                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
+                if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
+                    left_out.append(name)
+        return left_out
+
     with cache_errors(cache.folder):
         if not target.is_dir():
             target.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
                 made = Path(folder) / "library"
                 made.mkdir()
-                _copy_libraries(parts, made, whole)
+                for name, path in parts.items():
+                    if path.suffix == ".mo":
+                        shutil.copyfile(path, made / f"{name}.mo")
+                    else:
+                        shutil.copytree(path, made / name, ignore=ignored)
                 try:
                     made.rename(target)
                 except OSError:
@@ -213,29 +211,6 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
                         raise
         os.utime(target)  # the cache sees that it is in use
     return target
-
-
-def _copy_libraries(parts: Mapping[str, Path], target: Path, whole: bool) -> None:
-    """Copy libraries without their resources; of `Modelica` only the part that robots need, if not the `whole`."""
-
-    def ignored(folder: str, names: list[str]) -> list[str]:
-        left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
-        if not whole and Path(folder).is_relative_to(parts["Modelica"]):
-            below = Path(folder).relative_to(parts["Modelica"]).parts
-            left_out += [name for name in names if not _is_needed((*below, name.removesuffix(".mo")))]
-        return left_out
-
-    for name, path in parts.items():
-        if path.suffix == ".mo":
-            shutil.copyfile(path, target / f"{name}.mo")
-        else:
-            shutil.copytree(path, target / name, ignore=ignored)
-
-
-def _is_needed(path: tuple[str, ...]) -> bool:
-    """Whether a class is in the part that robots need, or around it; `path` is its name below `Modelica`."""
-    is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)
-    return path[-1] == "package" or (is_part and _LEFT_OUT.isdisjoint(path))
 
 
 def _is_in_copy(text: bytes) -> bool:

@@ -7,9 +7,8 @@ are left out, unless they are mentioned.
 from __future__ import annotations
 
 import codecs
-import contextlib
 import os
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -50,7 +49,7 @@ class PackageTexts(msgspec.Struct, frozen=True):
         return [
             ".".join(path.with_suffix("").parts)
             for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
-            if holds_class(path) and path.name != "package.mo"
+            if path.suffix == ".mo" and path.name != "package.mo"
             for one in parse(self.text(str(path))).classes
             if one.kind in ("model", "block") and "partial" not in one.prefixes and str(one.name) == path.stem
         ]
@@ -78,8 +77,6 @@ class CheckedPackage(msgspec.Struct):
     """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
     on_disk: Mapping[str, bytes]
     """The Modelica files of the package on disk, by their path below it; none if there is no package."""
-    irregular: Sequence[Path]
-    """What looks like a part of the package on disk and is none; see `read_files`."""
     in_step: bool
     conflicting: bool
     """Whether it is out of step because edits and new texts contradict each other."""
@@ -110,12 +107,12 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     reading = domain.read(rendering.content, shown(robot.source), robot.options, thorough=True)
     said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
     said += [one for one in reading.diagnostics if one.severity is not Severity.WARNING]
-    files, irregular = read_files(robot.folder)
-    on_disk, generated = _below(robot.folder, files), rendering.package(rendering.content)
+    on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
     texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
-    edited = edited_files(generated, on_disk) if in_step else []
+    models_on_disk = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
+    edited = [path for path in models_on_disk if in_step and normalised(on_disk[path]) != generated[path]]
     edits = (path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path]))
     return CheckedPackage(
         robot=robot,
@@ -123,7 +120,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         rendering=rendering,
         source_diagnostics=tuple(dict.fromkeys(said)),
         on_disk=on_disk,
-        irregular=irregular,
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
@@ -135,21 +131,9 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     )
 
 
-def edited_files(generated: Mapping[str, bytes], on_disk: Mapping[str, bytes]) -> list[str]:
-    """The Modelica files that differ from what is generated, by their path below the package."""
-    paths = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
-    return [path for path in paths if normalised(on_disk[path]) != generated[path]]
-
-
 def _words(text: bytes) -> list[str]:
     """What a text says but for comments, blanks and ends of line."""
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
-
-
-def holds_class(path: PurePosixPath) -> bool:
-    """Whether a file of a package is one that tools read as Modelica."""
-    hidden = any(part.startswith(".") for part in path.parts)
-    return path.suffix == ".mo" and not hidden and "Resources" not in path.parts[:-1]
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:
@@ -159,7 +143,7 @@ def class_path(file: PurePosixPath) -> PurePosixPath:
 
 def package_texts(folder: Path) -> dict[str, bytes]:
     """The Modelica files below a package's folder, by their path below it; see `read_files`."""
-    return _below(folder, read_files(folder)[0])
+    return _below(folder, read_files(folder))
 
 
 def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
@@ -171,13 +155,13 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     top = robot.output / robot.target.package.partition(".")[0]
     others = {other.folder: other.target.package.rpartition(".")[2].encode() for other in config.robots}
     others = {folder: name for folder, name in others.items() if top in folder.parents and folder != robot.folder}
-    found = _below(robot.output, read_files(top, {robot.folder, *others})[0]) if top != robot.folder else {}
+    found = _below(robot.output, read_files(top, {robot.folder, *others})) if top != robot.folder else {}
     waiting = [*texts.values(), *found.values()] if others else []
     while waiting:
         text = waiting.pop()
         for folder in [folder for folder, name in others.items() if has_word(text, name)]:
             del others[folder]
-            more = _below(robot.output, read_files(folder, others)[0])
+            more = _below(robot.output, read_files(folder, others))
             found |= more
             waiting += more.values()
     parts = robot.target.package.split(".")
@@ -194,7 +178,7 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
     """
     folders = {other.folder for other in config.robots}
-    read = read_files(robot.output, folders)[0] if robot.output not in folders else {}
+    read = read_files(robot.output, folders) if robot.output not in folders else {}
     files = {path: content for path, content in read.items() if path.suffix == ".mo"}
     return files_that_use(files, [robot.target.package.rpartition(".")[2]])
 
@@ -209,37 +193,31 @@ def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], 
     return folder / robot.target.package.partition(".")[0]
 
 
-def read_files(folder: Path, without: Collection[Path] = ()) -> tuple[dict[Path, bytes], list[Path]]:
-    """The Modelica files of a package and of those in it, but for the folders in `without`; and what is no such file.
-
-    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
-    OutputError for what can't be read.
-    """
+def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes]:
+    """The texts of `stored_files`. Raises OutputError for one that can't be read."""
     found: dict[Path, bytes] = {}
-    irregular = []
+    for path in stored_files(folder, without):
+        try:
+            found[path] = path.read_bytes()
+        except FileNotFoundError:
+            continue  # somebody deletes it at this moment
+        except OSError as error:
+            message, hint = f"it can't be read: {error.strerror}", "check the permissions of it and of its folder"
+            raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, shown(path), hint=hint)) from error
+    return found
 
-    def refuse(error: OSError) -> None:
-        if not isinstance(error, FileNotFoundError | NotADirectoryError):
-            raise error
 
-    try:
-        for place, folders, names in os.walk(folder, onerror=refuse):
-            here = Path(place)
-            visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
-            folders[:] = [name for name in visible if here / name not in without]
-            links = [here / name for name in folders if (here / name).is_symlink()]
-            irregular += [link for link in links if (link / "package.mo").is_file()]
-            for path in [here / name for name in sorted(names) if not name.startswith(".")]:  # editors leave some
-                if path.is_file() and (path.suffix == ".mo" or path.name == "package.order"):
-                    with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                        found[path] = path.read_bytes()
-                elif not path.is_file() and path.suffix == ".mo":
-                    irregular.append(path)
-    except OSError as error:
-        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
-        file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
-        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
-    return found, irregular
+def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
+    """The Modelica files of a package and of those in it, but for the folders in `without`.
+
+    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles.
+    """
+    for place, folders, names in os.walk(folder):
+        visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
+        folders[:] = [name for name in visible if Path(place, name) not in without]
+        for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some
+            if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
+                yield path
 
 
 def _below(folder: Path, files: Mapping[Path, bytes]) -> dict[str, bytes]:

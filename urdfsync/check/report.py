@@ -15,7 +15,6 @@ from urdfsync.check.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
-    EditEffect,
     agrees,
     largest,
     listed,
@@ -41,9 +40,18 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
-    said = [(one, "bold red") for one in reference_differences(result)]
+    wrong = [one for one in result.deviations or () if not agrees(one)]
+    said = [(one, "bold red") for one in _phrases(wrong, against=f" from {result.reference or 'the reference'}")]
+    if said:
+        advice = "whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
+        said[0] = f"{said[0][0]}; {advice}", "bold red"
     changed = "bold red" if strict else "cyan"
-    said += [(effect(one), changed if one.deviations else "dim") for one in result.effects]
+    for found in result.effects:
+        edited = f"{listed(found.files)} {'was' if len(found.files) == 1 else 'were'} edited"
+        if phrases := "; ".join(_phrases(found.deviations, found.owners)):
+            said.append((f"{phrases} since {edited}", changed))
+        else:
+            said.append((f"{edited}; nothing that is compared changed", "dim"))
     said += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
         said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
@@ -140,21 +148,6 @@ def verdict(result: CheckResult, strict: bool) -> str:
     if status is not CheckStatus.DIFFERS or result.differs or (strict and result.is_changed_by_edits):
         return str(status)
     return "out of step" if result.built else "not built"
-
-
-def reference_differences(result: CheckResult) -> list[str]:
-    """How what is generated differs from the reference: a sentence for poses, for torques and for masses."""
-    wrong = [one for one in result.deviations or () if not agrees(one)]
-    advice = "; whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
-    said = _phrases(wrong, against=f" from {result.reference or 'the reference'}")
-    return [f"{one}{advice if number == 0 else ''}" for number, one in enumerate(said)]
-
-
-def effect(found: EditEffect) -> str:
-    """What an edit did, as a sentence without a full stop."""
-    edited = f"{listed(found.files)} {'was' if len(found.files) == 1 else 'were'} edited"
-    said = "; ".join(_phrases(found.deviations, found.owners))
-    return f"{said} since {edited}" if said else f"{edited}; nothing that is compared changed"
 
 
 def _phrases(deviations: Sequence[Deviation], owners: Collection[str] = (), against: str = "") -> list[str]:

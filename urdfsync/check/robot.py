@@ -19,7 +19,7 @@ from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, listed, to_text
 from urdfsync.check.run import RobotOrder
 from urdfsync.config import Config, RobotConfig, find_own_library, load, shown
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.modelica.names import LIBRARY
 
@@ -67,7 +67,13 @@ def _check_models(
     It takes 20 s for a six-axis arm, minutes for a humanoid. `contents` are all texts of the package.
     """
     robot, cache = package.robot, UserCache.default()
-    key = _result_key(package, options, needed)
+    key = fingerprint(  # all that compiling and comparing rests on
+        *(__version__, compilers.installed_version(options.compiler, "pin"), options.physics, options.compiler),
+        *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
+        shown(robot.folder),  # findings name files as they are seen from the working folder
+        needed.state(),
+        *(sorted(files.items()) for files in (package.files.texts, package.generated, package.around)),
+    )
     if known := cache.load(key, CheckResult):
         return known
     result, own = CheckResult(robot.name, robot.target.package), find_own_library(LIBRARY, robot.target.package)
@@ -93,8 +99,6 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
     """Check files and names; returns why nothing can be compiled, empty if it can."""
     found = texts.check_layout(package.files)
     found += texts.check_around(package.robot.output, package.around)
-    message, hint = "this is no regular file, so it was not looked at", "put the file itself here, or take it away"
-    found += [Diagnostic(Severity.WARNING, "no-file", message, shown(path), hint=hint) for path in package.irregular]
     found += texts.missing_resources(package)
     result.add(found)
     if package.users_files:
@@ -105,18 +109,6 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
     own, others = texts.check_names(package, needed.standard)
     result.add([*own, *others])
     return "names in the package mean nothing" if any(one.severity is Severity.ERROR for one in own) else ""
-
-
-def _result_key(package: CheckedPackage, options: CheckOptions, needed: libraries.Libraries) -> str:
-    """SHA-256 (hex) over all that compiling and comparing a package rests on."""
-    robot = package.robot
-    return fingerprint(
-        *(__version__, compilers.installed_version(options.compiler, "pin"), options.physics, options.compiler),
-        *(robot.target, robot.options, package.in_step, package.models, package.rendering.content),
-        shown(robot.folder),  # findings name files as they are seen from the working folder
-        needed.state(),
-        *(sorted(files.items()) for files in (package.files.texts, package.generated, package.around)),
-    )
 
 
 def main() -> None:

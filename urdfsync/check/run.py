@@ -14,7 +14,7 @@ import threading
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from typing import IO, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 import psutil
@@ -141,14 +141,27 @@ def _check(
             env={**os.environ, **processes.importable()},
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends this process
         )
-        reader = threading.Thread(target=_read_steps, args=(process.stdout, steps, order), daemon=True)
+
+        def read_steps() -> None:
+            with process.stdout, contextlib.suppress(ValueError):  # up to the last one, or to what is none
+                for line in process.stdout:
+                    steps[name] = from_text(line, CheckStep)
+
+        reader = threading.Thread(target=read_steps, daemon=True)
         reader.start()
         try:
             with contextlib.suppress(OSError):  # it has ended, and its exit code says why
                 text = to_text(msgspec.structs.replace(order, workspace=str(workspace)))
                 process.stdin.write(text.encode() + b"\n")
                 process.stdin.flush()
-            for used in _memory_used(process, family):
+            while True:
+                with contextlib.suppress(psutil.TimeoutExpired):
+                    process.wait(_INTERVAL)
+                    break
+                family, used = _family(process), 0
+                for one in family:
+                    with contextlib.suppress(psutil.Error):  # it has just ended
+                        used += one.memory_info().rss
                 peak = max(peak, used)
                 if time.monotonic() >= deadline:
                     message = f"it was not done after {order.options.timeout:g} s"
@@ -180,27 +193,6 @@ def _check(
         result.add([fault])
     result.megabytes = peak / 1e6
     return result
-
-
-def _read_steps(stdout: IO[bytes], steps: dict[str, CheckStep], order: RobotOrder) -> None:
-    """Take note of the steps that a process tells, up to its last one, or to what is none."""
-    with stdout, contextlib.suppress(ValueError):
-        for line in stdout:
-            steps[order.robot] = from_text(line, CheckStep)
-
-
-def _memory_used(process: psutil.Popen, family: list[psutil.Process]) -> Iterator[int]:
-    """Yield the resident bytes of a process and of all that it started, which `family` gets, until it has ended."""
-    while True:
-        with contextlib.suppress(psutil.TimeoutExpired):
-            process.wait(_INTERVAL)
-            return
-        family[:] = _family(process)
-        used = 0
-        for one in family:
-            with contextlib.suppress(psutil.Error):  # it has just ended
-                used += one.memory_info().rss
-        yield used
 
 
 def _family(process: psutil.Popen) -> list[psutil.Process]:

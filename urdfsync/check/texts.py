@@ -8,11 +8,11 @@ is.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageTexts, class_path, holds_class
+from urdfsync.check.package import CheckedPackage, PackageTexts, class_path
 from urdfsync.check.results import listed
 from urdfsync.config import find_own_library, shown
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -42,12 +42,10 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
     found: list[Diagnostic] = []
     stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
     declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
-    misnamed: dict[PurePosixPath, set[str]] = {}  # by folder, names in it that no class can have
-    for path in sorted(filter(holds_class, map(PurePosixPath, package.texts))):
+    for path in sorted(PurePosixPath(name) for name in package.texts if name.endswith(".mo")):
         if culprit := _misnamed_part(path):
             is_file = culprit == path
             name = culprit.stem if is_file else culprit.name
-            misnamed.setdefault(culprit.parent, set()).update((name, culprit.name))
             message = f"`{name}` can't be the name of a {'class' if is_file else 'package'}"
             hint = f"rename the {'file' if is_file else 'folder'}, or move it elsewhere"
             found.append(package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint))
@@ -63,40 +61,22 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
             declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
     for folder in sorted(stored):
-        lines = declarations.get(folder, {})
-        found += _check_folder(package, folder, stored, lines)
+        package_file, lines = str(folder / _PACKAGE), declarations.get(folder, {})
+        if package_file not in package.texts:
+            message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
+            where = str(folder) if folder.parts else ""
+            found.append(package.diagnostic(_ERROR, "no-package-file", message, where, hint=hint))
+        for name in sorted(stored[folder]):
+            file, is_folder, hint = f"{folder / name}.mo", folder / name in stored, "keep one of them"
+            if is_folder and file in package.texts:
+                message = f"`{name}` is both a file and a folder"
+                found.append(package.diagnostic(_ERROR, "class-twice", message, file, hint=hint))
+            if name in lines:
+                message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
+                found.append(package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint=hint))
         if str(folder / _ORDER) in package.texts:
-            others = misnamed.get(folder, set()) if folder in declarations else None
-            found += _check_order(package, folder, stored[folder] | lines.keys(), others)
+            found += _check_order(package, folder, stored[folder] | lines.keys(), is_complete=folder in declarations)
     return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
-
-
-def _check_folder(
-    package: PackageTexts, folder: PurePosixPath, stored: Mapping[PurePosixPath, Collection[str]], lines: dict[str, int]
-) -> Iterator[Diagnostic]:
-    """Check that a folder is a package, and that each name is only there once.
-
-    `stored` are the classes in each folder, `lines` those in which the folder's `package.mo` declares others.
-    """
-    package_file = str(folder / _PACKAGE)
-    if package_file not in package.texts:
-        message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
-        place = str(folder) if folder.parts else ""
-        yield package.diagnostic(_ERROR, "no-package-file", message, place, hint=hint)
-    spellings: dict[str, str] = {}
-    for name in sorted(stored[folder]):
-        file, is_folder = f"{folder / name}.mo", folder / name in stored
-        if is_folder and file in package.texts:
-            message = f"`{name}` is both a file and a folder"
-            yield package.diagnostic(_ERROR, "class-twice", message, file, hint="keep one of them")
-        if name in lines:
-            message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
-            yield package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint="keep one of them")
-        first = spellings.setdefault(name.casefold(), name)
-        if first != name:
-            message = f"`{name}` and `{first}` differ only by case"
-            hint = "rename one: file systems that ignore case do not hold both"
-            yield package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint)
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
@@ -105,7 +85,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
     """
     found: list[Diagnostic] = []
-    for path in filter(holds_class, map(PurePosixPath, sorted(files))):
+    for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
         package = PackageTexts("", output, {str(path): files[str(path)]})
         ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
@@ -161,11 +141,11 @@ def check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText 
 
 
 def _check_order(
-    package: PackageTexts, folder: PurePosixPath, present: set[str], others: set[str] | None
+    package: PackageTexts, folder: PurePosixPath, present: set[str], *, is_complete: bool
 ) -> Iterator[Diagnostic]:
     """Check whether a `package.order` names what is `present` in the folder, each once.
 
-    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
+    It may name anything else unless that `is_complete`: a `package.mo` that can't be read may declare it.
     """
     path = str(folder / _ORDER)
     text = _decoded(package, path)
@@ -175,9 +155,7 @@ def _check_order(
     names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
     lacking = sorted(present.difference(names))
     for name in lacking:
-        generated = {str(folder / f"{name}.mo"), str(folder / name / _PACKAGE)} & package.owners.keys()
-        is_ours = generated and str(folder / _PACKAGE) in package.owners
-        hint = "`urdfsync build` adds it" if is_ours else "add it where it belongs: tools put it last, or warn"
+        hint = "add it where it belongs: tools put it last, or warn"
         yield package.diagnostic(_WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint)
     lines: dict[str, int] = {}
     for number, name in enumerate(names, start=1):
@@ -185,7 +163,7 @@ def _check_order(
         if name and first != number:
             message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
             yield package.diagnostic(_WARNING, "order-twice", message, path, number, hint=hint)
-        elif name and others is not None and name not in present | others:
+        elif name and is_complete and name not in present:
             near = nearest(name, lacking)
             message = f"`{name}` is named, but is no class and no constant of the package"
             hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"

@@ -32,7 +32,6 @@ from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import dependencies
-from urdfsync.urdf.meshes.single_thread import single_thread
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
@@ -97,8 +96,7 @@ class UrdfDomain(Domain):
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """Return a mesh as STL or OBJ, with its bounds and its outermost points."""
-        with single_thread():
-            from urdfsync.urdf.meshes.convert import convert  # with numpy, which most new meshes need
+        from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
 
         return convert(dependency, file, content)
 

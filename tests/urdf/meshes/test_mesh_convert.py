@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -119,3 +121,15 @@ def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vect
     assert diagnostic.file == f"/ws/arm/{Path(uri).name}"
     assert diagnostic.message.startswith(f"the mesh {uri} can't be read: {reason}")
     assert diagnostic.hint == "export it again, best as STL or OBJ"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads are counted there")
+def test_numpy_gets_one_thread_and_no_other_program_is_told_so() -> None:
+    program = (
+        "import os; from pathlib import Path; from urdfsync.domain import Dependency;"
+        "from urdfsync.urdf.meshes.convert import convert; content = b'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3';"
+        "mesh = Dependency('a.obj scale 1.0 1.0 1.0', 'a.obj', (), '', 'mesh', facts=('bounds', 'hull'));"
+        "assert 'hull' in convert(mesh, Path('a.obj'), content).facts;"
+        "assert len(os.listdir('/proc/self/task')) == 1; assert 'OPENBLAS_NUM_THREADS' not in os.environ"
+    )
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import itertools
 import json
-import os
 import sys
 
 import numpy as np
@@ -14,7 +13,6 @@ import trimesh
 
 from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Array, import_form
-from urdfsync.urdf.meshes.single_thread import VARIABLE, single_thread
 from urdfsync.urdf.meshes.worker import reader
 
 BOX = trimesh.creation.box((0.5, 1.0, 2.0))
@@ -28,12 +26,6 @@ def _gltf(**replaced: str) -> bytes:
         inline = "data:application/octet-stream;base64," + base64.b64encode(files[buffer["uri"]]).decode()
         buffer["uri"] = replaced.get("uri", inline)
     return json.dumps(tree).encode()
-
-
-def _moved_glb() -> bytes:
-    scene = trimesh.Scene()
-    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
-    return bytes(scene.export(file_type="glb"))
 
 
 FORMATS = {
@@ -93,7 +85,9 @@ def test_content_of_another_format_is_refused(name: str) -> None:
 
 
 def test_scene_of_gltf_places_its_meshes() -> None:
-    assert _read(".glb", _moved_glb()).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
+    scene = trimesh.Scene()
+    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
+    assert _read(".glb", bytes(scene.export(file_type="glb"))).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
 
 
 VERTICES = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -167,10 +161,3 @@ NAMED = b"solid vertex 1 2 3\n  facet normal 0 0 1\n outer loop\n vertex 0 0 0\n
 def test_an_ascii_stl_may_have_several_solids_and_any_names() -> None:
     solid = NAMED + b"endloop\nendfacet\nendsolid vertex 1 2 3\n"
     assert _read(".stl", solid * 2).tolist() == [[[0, 0, 0], [1, 0, 0], [0, 1, -1e-3]]] * 2
-
-
-def test_a_number_of_threads_that_the_user_chose_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(VARIABLE, "3")
-    with single_thread():
-        assert os.environ[VARIABLE] == "3"
-    assert os.environ[VARIABLE] == "3"

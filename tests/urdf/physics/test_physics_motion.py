@@ -5,8 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.urdf.physics.free_joints import Planar, free_start
-from urdfsync.urdf.physics.motion import axis_course
+from urdfsync.urdf.physics.motion import Planar, axis_course, free_start
 from urdfsync.urdf.robot import Joint, JointType, Limit
 
 NAMES = st.text(min_size=1, max_size=20)

@@ -48,10 +48,3 @@ def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
 ])  # fmt: skip
 def test_every_library_is_named_once(target: Target, options: Options, imports: list[str]) -> None:
     assert re.findall(r"^  import (\w+);$", probe(skeleton(), target, options).source, re.MULTILINE) == imports
-
-
-def test_only_mobile_robots_have_a_ground_and_it_is_far_below() -> None:
-    assert "Ground" not in probe(skeleton(), ARM, Options()).source
-    mobile = probe(skeleton(), ARM, Options(base="floating")).source
-    (height,) = re.findall(r"inner UrdfSync\.Contacts\.Ground ground\(height = (\S+)\);", mobile)
-    assert float(height) < -1e6

@@ -10,8 +10,7 @@ from hypothesis.extra.numpy import arrays
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.urdf.physics.free_joints import directions
-from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reading import directions, read
 
 
 @given(arrays(np.float64, 3, elements=st.floats(-100, 100)))

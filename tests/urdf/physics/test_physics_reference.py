@@ -11,10 +11,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from numpy.typing import NDArray
-from support.urdfs import dynamics, joint, link, links, mimic, parsed, robot
+from support.urdfs import dynamics, joint, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.reading import read
 from urdfsync.urdf.physics.reference import Configuration, Instant, Reference
 from urdfsync.urdf.robot import Joint
@@ -42,9 +42,9 @@ class Bot:
 
     def __init__(self, urdf: str) -> None:
         skeleton = KinematicTree.of(parsed(urdf))
-        self.axes, self.free = motion.driven_axes(skeleton), free_joints.free_joints(skeleton)
+        self.axes, self.free = motion.driven_axes(skeleton), motion.free_joints(skeleton)
         self.reference = Reference(read(urdf.encode(), "robot.urdf"), names(self.axes), names(self.free))
-        self.starts = {j.name: self.reference.start(j.name, free_joints.free_start(j)) for j in self.free}
+        self.starts = {j.name: self.reference.start(j.name, motion.free_start(j)) for j in self.free}
 
     def state(self, time: float = 0.0) -> Configuration:
         return self.reference.state(time, [motion.axis_course(joint) for joint in self.axes], self.starts)
@@ -124,11 +124,3 @@ def test_followers_move_with_their_leader_and_load_it() -> None:
     efforts = pin.rnea(model, model.createData(), state.q, state.v, state.a)
     both = efforts[model.joints[model.getJointId("shoulder")].idx_v] - 1.5 * efforts[grip.idx_v]
     assert bot.instant().efforts[0] == pytest.approx(both)
-
-
-def test_free_joints_without_inertia_are_singular() -> None:
-    plane = robot(link("floor", 1.0), link("plate"), joint("skate", "planar", "floor", "plate"))
-    bot = Bot(plane)
-    assert bot.reference.is_singular(bot.state())
-    assert not Bot(FREE).reference.is_singular(Bot(FREE).state())
-    assert not Bot(DRIVEN).reference.is_singular(Bot(DRIVEN).state())

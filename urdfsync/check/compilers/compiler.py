@@ -50,7 +50,7 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Scalar states, as the compiler counts them before it reduces the index."""
     runs: tuple[SimulationResult, ...] = ()
     seconds: float = 0.0
-    """CPU time of the task."""
+    """CPU time of the task; 0 if the compiler does not say."""
     compiling: float = 0.0
     """The part of it before the first run."""
 

@@ -8,12 +8,8 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
-
-import msgspec
 
 from urdfsync.check.compilers.compiler import (
     CompileJob,
@@ -70,12 +66,9 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     """See `Compiler`: one session; what can't be loaded is the problem of each task."""
     import OMPython  # an optional extra
 
-    begin: Any = getattr(OMPython, "OMCSessionLocal", None) or OMPython.OMCSessionZMQ  # the name until 4.0
-    names = ("OMSessionException", "OMCSessionException")
-    refused = tuple(getattr(OMPython, name) for name in names if hasattr(OMPython, name))
     try:
-        session = begin()
-    except (*refused, OSError) as error:
+        session = OMPython.OMCSessionLocal()
+    except (OMPython.OMSessionException, OSError) as error:
         raise ImportError(str(error)) from error
 
     def ask(call: str) -> str:
@@ -86,15 +79,14 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
         ask("cd(getTempDirectoryPath())")
         calls = (f"loadFile({quoted(file.as_posix())}, uses=false)" for file in _package_files(job))
         problem = next(filter(None, (_load(ask, call) for call in calls)), "")
-    except refused as error:
+    except OMPython.OMSessionException as error:
         problem = str(error)
     for task in job.tasks:
-        started = time.monotonic()
         try:
             result = CompileResult(problem) if problem else _compile(ask, task)
-        except refused as error:
+        except OMPython.OMSessionException as error:
             result = CompileResult(str(error))
-        yield msgspec.structs.replace(result, seconds=time.monotonic() - started)
+        yield result
 
 
 def _load(ask: Callable[[str], str], call: str) -> str:

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from urdfsync.domain import Dependency, Lookup
-from urdfsync.urdf.robot import Geometry, Mesh, Robot, Vector
+from urdfsync.urdf.robot import Mesh, Robot, Vector
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
@@ -35,15 +35,13 @@ _STEM_LENGTH = 40
 
 def key(mesh: Mesh) -> str:
     """Identity of a mesh among the imports: its URI and scale, for example `package://arm/a.dae scale 1.0 1.0 1.0`."""
-    return f"{mesh.filename} scale {_numbers(mesh.scale)}"
+    return f"{mesh.filename} scale {' '.join(repr(float(number)) for number in mesh.scale)}"
 
 
 def mesh(key: str) -> Mesh:
-    """The mesh that has this key. Raises ValueError if no mesh has."""
-    filename, separator, numbers = key.rpartition(" scale ")
+    """The mesh that has this key."""
+    filename, _, numbers = key.rpartition(" scale ")
     x, y, z = map(float, numbers.split(" "))
-    if not separator:
-        raise ValueError(f"not the key of a mesh: {key!r}")
     return Mesh(filename, (x, y, z))
 
 
@@ -68,9 +66,7 @@ def target(mesh: Mesh) -> str:
     return f"Resources/{stem}_{digits}{suffix(mesh.filename) if as_is(mesh) else '.stl'}"
 
 
-def dependencies(
-    robot: Robot, lookup: Lookup, lines: Mapping[str, int], *, touches: bool = True
-) -> tuple[Dependency, ...]:
+def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int], *, touches: bool) -> tuple[Dependency, ...]:
     """The mesh files of all visuals and collisions, each URI and scale once, in the order of their keys.
 
     Those of collisions need outermost points if the robot touches the ground.
@@ -79,11 +75,19 @@ def dependencies(
     the source gave it.
     """
     found: dict[str, tuple[Mesh, list[int]]] = {}
-    for path, shape in _shapes(robot):
-        if isinstance(shape, Mesh):
-            found.setdefault(key(shape), (shape, []))[1].append(_line(f"{path} / geometry / mesh", lines))
-    collisions = [shape.geometry for link in robot.links for shape in link.collisions] if touches else []
-    touching = {key(shape) for shape in collisions if isinstance(shape, Mesh)}
+    touching = set[str]()
+    for link in robot.links:
+        visuals, collisions = ([one.geometry for one in shapes] for shapes in (link.visuals, link.collisions))
+        for kind, shapes in (("visual", visuals), ("collision", collisions)):
+            for number, shape in enumerate(shapes, start=1):
+                if not isinstance(shape, Mesh):
+                    continue
+                name = key(shape)
+                place = f"link {link.name} / {kind} {number} / geometry"
+                line = lines.get(place, lines.get(f"link {link.name}", 0))
+                found.setdefault(name, (shape, []))[1].append(line)
+                if kind == "collision" and touches:
+                    touching.add(name)
     return tuple(
         Dependency(
             name,
@@ -105,7 +109,13 @@ def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
     """
     texts = (uri.strip(), unquote(uri.strip()))
     paths = (path for text in texts if not re.search(_UNFIT, text) for path in _places(text.replace("\\", "/"), lookup))
-    return tuple(dict.fromkeys(path for path in paths if path.is_absolute() and _possible(path)))
+    found: dict[Path, None] = {}
+    for path in paths:
+        sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
+        # no file system can have longer ones: asking for them is an error
+        if path.is_absolute() and max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES:
+            found[path] = None
+    return tuple(found)
 
 
 def _places(text: str, lookup: Lookup) -> Iterator[Path]:
@@ -175,31 +185,5 @@ def _in_library(class_name: str, text: str, lookup: Lookup) -> Iterator[Path]:
             yield root.joinpath(*inner[:depth], path)
 
 
-def _possible(path: Path) -> bool:
-    """Whether file systems can have such a path at all; asking them for a longer one is an error."""
-    sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
-    return max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES
-
-
-def _shapes(robot: Robot) -> Iterator[tuple[str, Geometry]]:
-    """Yield each shape with the path of its element."""
-    for link in robot.links:
-        for number, visual in enumerate(link.visuals, start=1):
-            yield f"link {link.name} / visual {number}", visual.geometry
-        for number, collision in enumerate(link.collisions, start=1):
-            yield f"link {link.name} / collision {number}", collision.geometry
-
-
-def _line(path: str, lines: Mapping[str, int]) -> int:
-    """Line of the element or of the nearest one around it; 0 if unknown."""
-    while path and path not in lines:
-        path = path.rpartition(" / ")[0]
-    return lines.get(path, 0)
-
-
 def _file_name(uri: str) -> str:
     return unquote(uri.strip().replace("\\", "/")).rpartition("/")[2]
-
-
-def _numbers(vector: Vector) -> str:
-    return " ".join(repr(float(number)) for number in vector)

@@ -15,7 +15,6 @@ import msgspec
 
 from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.urdf.meshes.errors import MeshError
-from urdfsync.urdf.meshes.single_thread import VARIABLE
 from urdfsync.urdf.robot import Vector
 
 CPU_SECONDS = 4.0
@@ -24,6 +23,8 @@ MEMORY = 450_000_000
 """Bytes that the process may allocate, on Linux. Its libraries have some 50 MB besides."""
 WALL_SECONDS = 60.0
 """For one mesh, everywhere. A busy machine may need so long for the CPU time."""
+THREADS = "OPENBLAS_NUM_THREADS"
+"""The variable that tells numpy how many threads its products of matrices have."""
 OUT_OF_MEMORY = 3
 """The exit code of a process that needs more."""
 _PATIENCE = 1.0  # s for a process to end that has closed its stdout
@@ -108,7 +109,7 @@ class MeshProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env={**os.environ, **importable(), VARIABLE: "1"},  # each thread would have memory of its own
+            env={**os.environ, **importable(), THREADS: "1"},  # each thread would have memory of its own
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
         )
 

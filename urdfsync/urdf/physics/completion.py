@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import random
-from collections import Counter
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
@@ -36,9 +35,8 @@ class CompletedSource(NamedTuple):
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader insists on."""
     root = xml.parse(content).root
-    added = [] if root.get("name") else ["the robot's name"]
+    added = set() if root.get("name") else {"the robot's name"}
     root.set("name", root.get("name") or "robot")
-    filled = Counter[str]()
     for joint in root.findall("joint"):
         if joint.get("type") in ("revolute", "prismatic") and joint.find("limit") is None:
             SubElement(joint, "limit", lower="-1000", upper="1000")
@@ -49,16 +47,16 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
     for dynamics in root.findall("joint/dynamics"):
         if not dynamics.get("friction") and not dynamics.get("damping"):
             dynamics.set("damping", "0")
-            filled["dynamics"] += 1
+            added.add("<dynamics>")
     for path, values in _NEEDED.items():
         for element in root.findall(path):
-            filled[element.tag] += not values.keys() <= element.attrib.keys()
-            element.attrib.update(values | element.attrib)
-    added += [f"{count} <{tag}>" for tag, count in sorted(filled.items()) if count]
+            if not values.keys() <= element.attrib.keys():
+                added.add(f"<{element.tag}>")
+                element.attrib.update(values | element.attrib)
     with contextlib.suppress(UnicodeDecodeError):
         if not added and "\0" not in content.decode():
             return CompletedSource(content)
-    notes = (f"what Pinocchio's reader asks for was added: {', '.join(added)}",) if added else ()
+    notes = (f"what Pinocchio's reader asks for was added: {', '.join(sorted(added))}",) if added else ()
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), notes)
 
 
@@ -77,9 +75,7 @@ def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
                 link.remove(old)
             link.append(_made_up_inertial(name))
     links = f"{len(massless)} links" if len(massless) > 1 else f'link "{next(iter(massless))}"'
-    everywhere = len(massless) == len(tree.links)
-    reason = "the file gives no mass at all" if everywhere else "joints move them without any mass"
-    note = f"inertias were made up for {links} of the generated package only, because {reason}"
+    note = f"inertias were made up for {links} of the generated package only, because they move without any mass"
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), (note,))
 
 

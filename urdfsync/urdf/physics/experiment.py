@@ -16,10 +16,9 @@ from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
-from urdfsync.urdf.physics.free_joints import Array, FrameMotion, free_joints, free_start
 from urdfsync.urdf.physics.probe import FORCE, MASS, MOMENT, TORQUE, probe, robot_variables
-from urdfsync.urdf.physics.reading import pinocchio, read
-from urdfsync.urdf.physics.reference import Configuration, Reference
+from urdfsync.urdf.physics.reading import Array, pinocchio, read
+from urdfsync.urdf.physics.reference import Configuration, FrameMotion, Reference
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
@@ -29,13 +28,6 @@ Values: TypeAlias = Mapping[str, float]
 _FIRST, _LAST = 0, -1
 _CENTRE = ("centre[1]", "centre[2]", "centre[3]")  # of mass in the world; no variable of the probe, but made from two
 _SOLVER_ERROR = 1e-6  # relative difference between two simulations of free joints that a solver's steps may cause
-
-_BENCHES = {
-    ("package",): "Run and Test (they are only compiled)",
-    ("record",): "the bench around the generic robot (it is only compiled)",
-    ("package", "record"): "Run, Test and the generic robot with the record (they are only compiled)",
-}
-"""Per approach, the models around what is compared."""
 
 
 def experiment(
@@ -54,6 +46,11 @@ class PinocchioExperiment:
     also if free joints carry so little inertia that there is no reference.
     """
 
+    unchecked: tuple[str, ...] = (
+        "limits, shapes and contacts (they change no motion) and models around the robot (they are only compiled) "
+        "are not compared",
+    )
+
     def __init__(self, content: bytes, file: str, target: Target, options: Options, complete: bool) -> None:
         self.reference = f"Pinocchio {pinocchio().__version__}"
         robot = _robot(content, file)
@@ -63,7 +60,7 @@ class PinocchioExperiment:
             self.notes += made_up
         self._tree = KinematicTree.of(_robot(self.content, file), (target.name,))
         self._variables = robot_variables(self._tree, target, options)
-        self._axes, self._free = motion.driven_axes(self._tree), free_joints(self._tree)
+        self._axes, self._free = motion.driven_axes(self._tree), motion.free_joints(self._tree)
         self._courses = [motion.axis_course(joint) for joint in self._axes]
         parts = [[joint.name for joint in joints] for joints in (self._axes, self._free)]
         self._reference = Reference(read(self.content, file), *parts)
@@ -73,10 +70,6 @@ class PinocchioExperiment:
             hint = "give each link that moves freely a mass and an inertia"
             raise SourceError(Diagnostic(Severity.ERROR, "free-without-inertia", message, file, hint=hint))
         self.probe = probe(self._tree, target, options)
-        benches = _BENCHES[tuple(sorted(set(options.approach)))]
-        self.unchecked: tuple[str, ...] = (
-            f"limits, shapes and contacts (they change no motion) and {benches} are not compared",
-        )
 
     @np.errstate(all="ignore")  # where the simulation gave no number, the reference may have none
     def compare(self, series: Series, baseline: Series | None = None) -> Sequence[Deviation]:
@@ -130,7 +123,16 @@ class PinocchioExperiment:
         Where free joints are later on follows from the simulation, whose way there is not tested.
         """
         names, values = self._variables, dict[str, float]()
-        state = self._start(found["time"]) if instant == _FIRST else self._later(found)
+        if instant == _FIRST:
+            state = self._start(found["time"])
+        else:
+            free = {}
+            for joint in self._free:
+                place, axes = (_vector(found, each[joint.child]) for each in (names.places, names.axes))
+                velocity, turning = (_vector(found, names.of_body(joint.child, part)) for part in ("v_0", "w_a"))
+                axes = axes.reshape(3, 3).T
+                free[joint.name] = FrameMotion(place, axes, velocity, axes @ turning)
+            state = self._reference.state(found["time"], self._courses, free, in_world=True)
         solved = self._reference.solve(state)
 
         def tell(variables: Iterable[str], numbers: Iterable[float]) -> None:
@@ -150,19 +152,9 @@ class PinocchioExperiment:
         tell((*MASS, *_CENTRE), (mass, *centre))
         return values
 
-    def _later(self, found: Values) -> Configuration:
-        """Return where the robot is, with its free joints where a simulation says."""
-        names, free = self._variables, {}
-        for joint in self._free:
-            link = joint.child
-            axes = _vector(found, names.axes[link]).reshape(3, 3).T
-            velocity, turning = (_vector(found, names.of_body(link, part)) for part in ("v_0", "w_a"))
-            free[joint.name] = FrameMotion(_vector(found, names.places[link]), axes, velocity, axes @ turning)
-        return self._reference.state(found["time"], self._courses, free, in_world=True)
-
     def _start(self, time: float) -> Configuration:
         """Return how the robot begins."""
-        free = {joint.name: self._reference.start(joint.name, free_start(joint)) for joint in self._free}
+        free = {joint.name: self._reference.start(joint.name, motion.free_start(joint)) for joint in self._free}
         return self._reference.state(time, self._courses, free)
 
 

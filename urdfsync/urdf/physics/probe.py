@@ -15,7 +15,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics import free_joints, motion
+from urdfsync.urdf.physics import motion
 from urdfsync.urdf.robot import MOTION_KINDS, Motion
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
@@ -120,7 +120,7 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare."""
     names = robot_variables(tree, target, options)
-    axes, free = motion.driven_axes(tree), free_joints.free_joints(tree)
+    axes, free = motion.driven_axes(tree), motion.free_joints(tree)
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -129,7 +129,7 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     modifiers = ["checkLimits = false", "fixedStart = false"]
     for joint in free:
-        start = free_joints.free_start(joint)._asdict().items()
+        start = motion.free_start(joint)._asdict().items()
         texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
         modifiers.append(f"{tree.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
     declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
@@ -153,7 +153,7 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    stop = free_joints.duration(tree)
+    stop = motion.duration(tree)
     values = [name for link in tree.links for name in (*names.places[link.name], *names.axes[link.name])]
     values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
     values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *MOMENT]

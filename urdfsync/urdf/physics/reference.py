@@ -10,15 +10,14 @@ of the driven axes, so that the efforts of these are Bᵀ·tau.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
 
-from urdfsync.urdf.physics import free_joints, motion
-from urdfsync.urdf.physics.free_joints import Array, FrameMotion, Start
-from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reading import PinocchioRobot, pinocchio
+from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.motion import Course, Floating, Start
+from urdfsync.urdf.physics.reading import Array, PinocchioRobot, SplitJoint, pinocchio
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
@@ -34,6 +33,17 @@ class Configuration(msgspec.Struct, frozen=True):
     q: Array
     v: Array
     a: Array
+
+
+class FrameMotion(NamedTuple):
+    """How a frame moves in another one, such as the world or the frame of a joint; all resolved in the other one."""
+
+    place: Array
+    axes: Array
+    """The axes of the frame as columns."""
+    velocity: Array
+    turning: Array
+    """Angular velocity."""
 
 
 class Reference:
@@ -62,7 +72,13 @@ class Reference:
 
     def start(self, name: str, start: Start) -> FrameMotion:
         """Return how a free joint begins, in the joint frame."""
-        return free_joints.start_motion(self.pin, start, self._split.get(name))
+        split = self._split.get(name)
+        if isinstance(start, Floating) or split is None:
+            r, rpy, v, w = map(np.array, start)
+            return FrameMotion(r, self.pin.rpy.rpyToMatrix(*rpy), v, w)
+        x, y, normal = split.axes
+        place, velocity = (part[0] * x + part[1] * y for part in (start.s, start.v))
+        return FrameMotion(place, self.pin.exp3(start.phi * normal), velocity, start.w * normal)
 
     def state(
         self, time: float, courses: Sequence[Course], free: Mapping[str, FrameMotion], *, in_world: bool = False
@@ -73,13 +89,8 @@ class Reference:
         """
         pin, model = self.pin, self.model
         p, speeds, gains = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
-        positions = self.projection @ p + self._offset
-        state = Configuration(pin.neutral(model), self.projection @ speeds, self.projection @ gains)
-        for joint in model.joints[2:]:
-            if joint.nv == 1:
-                position = positions[joint.idx_v]
-                turns = joint.nq == 2  # continuous: cosine and sine
-                _put(state.q, joint.idx_q, (np.cos(position), np.sin(position)) if turns else (position,))
+        q = pin.integrate(model, pin.neutral(model), self.projection @ p + self._offset)
+        state = Configuration(q, self.projection @ speeds, self.projection @ gains)
         # Pinocchio resolves velocity and acceleration of the root link in its own frame.
         place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
         angle, speed, gain = motion.TURN.at(time)
@@ -90,7 +101,7 @@ class Reference:
         _put(state.a, 0, (*inward @ acceleration - np.cross(speed * axis, inward @ velocity), *gain * axis))
         for name, parts in self._parts.items():
             frame = self._in_joint(state, name, free[name]) if in_world else free[name]
-            found = free_joints.coordinates(pin, frame, self._split.get(name))
+            found = _coordinates(pin, frame, self._split.get(name))
             for part, (q, v) in zip(parts, found, strict=True):
                 _put(state.q, part.idx_q, q)
                 _put(state.v, part.idx_v, v)
@@ -132,7 +143,7 @@ class Reference:
             while leader in scalar and leader in robot.followers:
                 follower = robot.followers[leader]
                 offset[joint.idx_v] += factor * follower.offset
-                factor, leader = factor * follower.multiplier, follower.leader
+                factor, leader = factor * follower.multiplier, follower.joint
             if leader in self.axes:
                 projection[joint.idx_v, self.axes.index(leader)] = factor
         return projection, offset
@@ -177,10 +188,22 @@ class Instant(msgspec.Struct, frozen=True):
 
     def mass_and_centre(self) -> tuple[float, Array]:
         """Return mass of the whole robot and its centre in the world; zero without any mass."""
-        bodies = list(zip(self.reference.model.inertias, self.data.oMi, strict=True))
-        mass = sum(inertia.mass for inertia, _ in bodies)
-        moment = sum((inertia.mass * place.act(inertia.lever) for inertia, place in bodies), np.zeros(3))
-        return mass, moment / mass if mass else moment
+        pin, model = self.reference.pin, self.reference.model
+        mass = pin.computeTotalMass(model)
+        return mass, np.array(pin.centerOfMass(model, self.data, pin.POSITION)) if mass else np.zeros(3)
+
+
+def _coordinates(pin: Any, frame: FrameMotion, split: SplitJoint | None) -> Sequence[tuple[Sequence[float], ...]]:
+    """Return q and v of each joint of Pinocchio that stands for a free one; `frame` is its child in the joint frame."""
+    place, axes, velocity, turning = frame
+    if split is None:
+        attitude = pin.Quaternion(axes).normalized().coeffs()
+        return [((*place, *attitude), (*axes.T @ velocity, *axes.T @ turning))]
+    x, y, normal = split.axes
+    cosine, sine = x @ axes @ x, y @ axes @ x
+    turn = np.array([cosine, sine]) / np.hypot(cosine, sine)
+    slides = [((x @ place,), (x @ velocity,)), ((y @ place,), (y @ velocity,))]
+    return [*slides, (tuple(turn), (normal @ turning,))]
 
 
 def _put(vector: Array, first: int, values: Sequence[float] | Array) -> None:
