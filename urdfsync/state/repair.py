@@ -15,8 +15,9 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Role
+from urdfsync.files import text_digest
 from urdfsync.state import manifest, modelfile
-from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
+from urdfsync.state.manifest import DependencyRecord, Manifest
 from urdfsync.state.modelfile import ConversionFacts, Model
 from urdfsync.state.record import FileRecord
 
@@ -66,7 +67,7 @@ class RecoveredState(msgspec.Struct, frozen=True):
                     imports.setdefault(key, facts)
             for path, text in side.bases.items():
                 file = rebuilt.files.get(f"{rebuilt.folder}/{path}")
-                if file and file.base == manifest.text_hash(text):
+                if file and file.base == text_digest(text.encode()):
                     bases.setdefault(path, text)
         return msgspec.structs.replace(first, imports=imports, bases=bases)
 
@@ -78,15 +79,10 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     names files outside of its package, or is no model, is left out.
     """
     for text, name in ((toml, file), (json, beside)):
-        for match in re.finditer(
-            _FORMAT, text or ""
-        ):  # a side that a newer urdfsync wrote may be no manifest for this one
-            if int(match[1]) > FORMAT:
-                message = f"a newer urdfsync wrote some of this state (format {match[1]}; this one knows {FORMAT})"
-                line = (text or "").count("\n", 0, match.start()) + 1
-                raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, name, line, hint="update urdfsync"))
+        for number in re.findall(_FORMAT, text or ""):  # a side of a newer urdfsync may be no manifest for this one
+            manifest.check_format(int(number), name)
     manifests = (_parse(manifest.loads, _each_table_once(side), file) for side in sides(toml or ""))
-    models = ((manifest.text_hash(side), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
+    models = ((text_digest(side.encode()), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
     return RecoveredState(
         tuple(side for side in manifests if side is not None),
         {key: model for key, model in models if model is not None},

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync.config import STATE_FOLDER, is_robot_name, shown
 from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure
+from urdfsync.files import TEMPORARY, Tree, digest, failure, text_digest
 from urdfsync.state import file_operations, manifest, modelfile
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
@@ -80,7 +80,7 @@ class Store:
         if content is None:
             return State(recorded, None, intact=False)
         model = modelfile.loads(content, shown(beside))
-        return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
+        return State(recorded, model, intact=text_digest(content.encode()) == recorded.source.snapshot)
 
     def texts(self, robot: str) -> tuple[str | None, str | None]:
         """The text of the robot's manifest and of its model, whatever they are; None for what is not there."""
