@@ -7,11 +7,11 @@ from urdfsync.config.paths import (
     library_folder,
     read_source,
     ros_package_path,
-    shown,
     templates_folder,
     working_folder,
 )
 from urdfsync.config.settings import FILE_NAME, STATE_FOLDER, CheckConfig, Config, Keys, RobotConfig
+from urdfsync.files import shown
 
 __all__ = [
     "FILE_NAME",

@@ -17,7 +17,6 @@ import msgspec
 
 from urdfsync import dependencies, registry, tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
-from urdfsync.config.paths import shown
 from urdfsync.config.settings import (
     FILE_NAME,
     OWN_KEYS,
@@ -30,6 +29,7 @@ from urdfsync.config.settings import (
 )
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
+from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
 _WORDS = {str: "a string", int: "an integer", float: "a number", bool: "true or false", dict: "a table"}

@@ -9,9 +9,9 @@ import msgspec
 import platformdirs
 
 from urdfsync import dependencies, tomlfile
-from urdfsync.config.paths import shown
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.files import shown
 
 
 def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | None:

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import profiling, registry
-from urdfsync.config.paths import shown, templates_folder
+from urdfsync.config.paths import templates_folder
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.dependencies import is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
 _SUFFIX = ".jinja"

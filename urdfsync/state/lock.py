@@ -69,13 +69,13 @@ class Lock:
         except OSError as error:
             if shared and isinstance(error, FileNotFoundError):
                 return
-            raise failure(error, shown(self._path)) from None
+            raise failure(error, self._path) from None
         try:
             self._wait_for(descriptor, shared, waiting)
         except OSError as error:
             os.close(descriptor)
             if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
-                raise failure(error, shown(self._folder or self._path), "it can't be locked") from None
+                raise failure(error, self._folder or self._path, "it can't be locked") from None
             self._folder = None  # the same for all processes here
             self.acquire(shared, waiting)
         except BaseException:

@@ -13,7 +13,7 @@ from typing import TypeVar
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.domain import Role
 from urdfsync.files import text_digest
 from urdfsync.state import manifest, modelfile
@@ -26,7 +26,6 @@ _MARKER = r"([<|=>])\1{6,}(?:[ \t].*)?\r?\n?"
 _FORMAT = r'(?m)^ ?"?format"?[ \t]*[=:][ \t]*(\d{1,9}),?[ \t]*\r?$'
 _BASE = r'(?m)^base = "([^"\\]+)"[ \t]*\r?$'
 _IMPORTED = r'(?m)^target_hash = "([^"\\]+)"[ \t]*\r?$'
-_TABLE = r"(?m)^(?=\[)"
 
 _Parsed = TypeVar("_Parsed")
 
@@ -81,7 +80,10 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     for text, name in ((toml, file), (json, beside)):
         for number in re.findall(_FORMAT, text or ""):  # a side of a newer urdfsync may be no manifest for this one
             manifest.check_format(int(number), name)
-    manifests = (_parse(manifest.loads, _each_table_once(side), file) for side in sides(toml or ""))
+    tables = (re.split(r"(?m)^(?=\[)", side) for side in sides(toml or ""))
+    # a merge by lines may have put in a table twice: the last one counts
+    once = ("\n".join({table.partition("\n")[0]: table for table in side}.values()) for side in tables)
+    manifests = (_parse(manifest.loads, side, file) for side in once)
     models = ((text_digest(side.encode()), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
     return RecoveredState(
         tuple(side for side in manifests if side is not None),
@@ -108,11 +110,6 @@ def sides(text: str) -> tuple[str, ...]:
             for side in into:
                 side.append(line)
     return tuple(dict.fromkeys(("".join(ours), "".join(theirs))))
-
-
-def _each_table_once(side: str) -> str:
-    """A side of the TOML file without tables that a merge by lines put in twice; the last one counts."""
-    return "\n".join({table.partition("\n")[0]: table for table in re.split(_TABLE, side)}.values())
 
 
 def _parse(parse: Callable[[str, str], _Parsed], text: str, file: str) -> _Parsed | None:
@@ -178,12 +175,3 @@ def _record(recovered: RecoveredState, path: str, mine: str | None, generated: s
         base = next((one for one in bases if one != generated), bases[0] if bases else None)
     record = next((record for record in records if record.base == base), records[0])
     return msgspec.structs.replace(record, base=base)
-
-
-def repaired(recovered: RecoveredState, robot: str, folder: str) -> Diagnostic:
-    """A note that a state was made again, and from what."""
-    origins = ("from the files alone", "from what could be read of it", "from both sides")
-    origin = origins[min(len(recovered.manifests), 2)]
-    message = f"the recorded state of robot `{robot}` was made again, {origin}"
-    hint = "files that are not what was ever written are shown as edited or in conflict" if recovered.manifests else ""
-    return Diagnostic(Severity.NOTE, "repaired-state", message, folder, hint=hint)

@@ -28,13 +28,10 @@ _IGNORE = """\
 _FOLDERS = "folders.json"
 
 
-class _WrittenFolders(msgspec.Struct, frozen=True):
-    """A file that says where builds in this checkout wrote. It is bound to its inode and time, so no copy counts."""
+class _WrittenFolders(file_operations.Bound, frozen=True):
+    """A file that says where builds in this checkout wrote, by robot."""
 
     folders: dict[str, tuple[str, ...]]
-    inode: int
-    written: int
-    """Time of change in ns."""
 
 
 Witness: TypeAlias = Mapping[Path, str | None]
@@ -56,7 +53,7 @@ class Store:
 
     def __init__(self, root: Path) -> None:
         self.folder = root / STATE_FOLDER
-        self._tree = Tree(root, shown)
+        self._tree = Tree(root)
         self._seen: dict[Path, tuple[bytes | None, str | None]] = {}
         """Content and hash of each file that was loaded; None for no file."""
 
@@ -94,7 +91,7 @@ class Store:
 
     def is_unchanged(self, witness: Witness, but: Collection[Path] = ()) -> bool:
         """Whether all files still are as they were then, but for some that somebody else looks at."""
-        tree = Tree(self._tree.root, shown)  # which finds folders that have come since
+        tree = Tree(self._tree.root)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
@@ -117,26 +114,22 @@ class Store:
             return
         file = self.folder / _FOLDERS
         temporary = file.with_name(f".{_FOLDERS}{TEMPORARY}")
-
-        def encode(inode: int, written: int) -> bytes:
-            return msgspec.json.encode(_WrittenFolders(new, inode, written))
-
-        Tree(self._tree.root, shown).check_folder(self.folder)
+        Tree(self._tree.root).check_folder(self.folder)
         try:
             file_operations.make_folder(self.folder)
             file_operations.remove(temporary)  # of a build that was killed here
-            file_operations.write_bound(temporary, encode)
+            file_operations.write_bound(temporary, _WrittenFolders(new))
             file_operations.replace(temporary, file)
         except OSError as error:
-            raise failure(error, shown(file)) from None
+            raise failure(error, file) from None
 
     def _noted_folders(self) -> Mapping[str, tuple[str, ...]]:
         """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
         file = self.folder / _FOLDERS
         try:
-            content = Tree(self._tree.root, shown).read(file)  # finds a folder that this build has made
+            content = Tree(self._tree.root).read(file)  # finds a folder that this build has made
             noted = msgspec.json.decode(content or b"", type=_WrittenFolders)
-            return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
+            return noted.folders if file_operations.is_bound(file, noted) else {}
         except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return {}
 

@@ -32,13 +32,12 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
 from urdfsync.state import file_operations
-from urdfsync.state.journal import Journal, JournalFolder, Phase, Step
+from urdfsync.state.journal import REPAIR, Journal, JournalFolder, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 _STATE_FILES = {"robots": (".toml", ".json"), "svg": (".svg",)}
 """Folders and suffixes of the files in the state folder that transactions write, beside those of conflicts."""
-_REPAIR = "`urdfsync build --repair` sets the journal aside; files that are half way are shown as conflicts then"
 
 
 class UnfinishedError(OutputError):
@@ -124,7 +123,13 @@ class Transactions:
         except StateError as error:
             if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
                 raise
-            return (self._set_aside(),)
+            try:
+                aside = self._journals.set_aside()
+            except OSError as problem:
+                self._refuse_to_finish(problem)
+            message = "the journal of an interrupted build was set aside, and nothing was done of it"
+            hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
+            return (Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint),)
         files = self._files(journal)
         if self._journals.phase() is Phase.PREPARE:
             self._discard(journal, files)
@@ -154,7 +159,7 @@ class Transactions:
             self._journals.enter(Phase.APPLY)
             file_operations.sync([self._journals.folder])
         except OSError as error:
-            raise failure(error, shown(place)) from None
+            raise failure(error, place) from None
 
     def _discard(self, journal: Journal, files: Sequence[_File], known: Sequence[Diagnostic] = ()) -> None:
         """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
@@ -211,15 +216,15 @@ class Transactions:
 
         `source` is the file of a journal that was found; None for a build that is about to write.
         """
-        trees = [Tree(self._root, shown), *(Tree(output, shown) for output in self._outputs)]
+        trees = [Tree(self._root), *(Tree(output) for output in self._outputs)]
         paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
         paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
         for path, is_folder in paths:
             tree = next((tree for tree in trees if tree.covers(path)), None)
             if tree is None or not self._is_written(path, tree.root, is_folder):
-                code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
+                code, hint = ("broken-journal", REPAIR) if source else ("outside", "")
                 if source and tree is None:
-                    hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
+                    hint = f"bring back the `output` that the robot had, and build; {REPAIR}"
                 message = f"{shown(Path(path))} is no file that a build writes"
                 file = shown(source or Path(path))
                 raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
@@ -238,15 +243,6 @@ class Transactions:
         if any(part.startswith(".") for part in parts):  # `.git` among them
             return False
         return is_folder or parts[-1] == "package.order" or parts[-1].endswith(".mo") or "Resources" in parts[1:-1]
-
-    def _set_aside(self) -> Diagnostic:
-        try:
-            aside = self._journals.set_aside()
-        except OSError as error:
-            self._refuse_to_finish(error)
-        message = "the journal of an interrupted build was set aside, and nothing was done of it"
-        hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
-        return Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint)
 
     def _refuse_to_finish(self, error: OSError, known: Sequence[Diagnostic] = ()) -> NoReturn:
         place = Path(error.filename) if isinstance(error.filename, str) else self._folder
