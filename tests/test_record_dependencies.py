@@ -65,7 +65,7 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
     """Also where folders to be searched are missing, or may not be read."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
     (folder / "closed").mkdir(mode=0)
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         calls = asked(lambda: cli._main(command))
     assert found.complete
     contents = {os.path.abspath(path) for check, path in found.entries if check in (LSTAT, STAT)}  # noqa: PTH100
@@ -84,20 +84,20 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
 def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: list[str]) -> None:
     if options != ["--full"]:
         (folder / "modelica/Leg/Leg.mo").unlink()
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         assert cli._main(["build", "--quiet", *options]) == 0
     assert not found.complete
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         registry.domain("rcnetwork")
     assert (STAT, str(rc_site)) in found.entries
 
 
 @pytest.fixture
 def found() -> Iterator[dependencies.Dependencies]:
-    with dependencies.record_dependencies() as record:
+    with dependencies.Dependencies() as record:
         yield record
 
 

@@ -222,7 +222,7 @@ def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
 def test_no_answer_depends_on_a_file_that_was_written_meanwhile(folder: Path, written: bool) -> None:
     time.sleep(0.1)  # what was before is old enough
     started = uptodate.read_clocks()
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         dependencies.read_file(folder / "urdfsync.toml")
         if written:
             Path(URDF).write_bytes(Path(URDF).read_bytes())

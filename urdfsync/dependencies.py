@@ -56,11 +56,6 @@ class Dependencies:
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
 
 
-def record_dependencies() -> Dependencies:
-    """Record all that this thread reads through this module inside a `with` block."""
-    return Dependencies()
-
-
 def mark_incomplete() -> None:
     """Say that the answer depends on more than what is recorded: it can't be saved."""
     if (dependencies := _current.get()) is not None:

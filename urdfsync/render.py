@@ -67,9 +67,6 @@ GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
 own, such as the comparison of lists that hold each other many times."""
 
-_NOT_FOR_MODELS = ("lipsum", "random")
-"""Names that Jinja offers and whose text is another one each time."""
-
 
 @contextlib.contextmanager
 def _last_resort() -> Iterator[None]:
@@ -118,11 +115,10 @@ class _Sandbox(ImmutableSandboxedEnvironment):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         self.deadline = math.inf
-        for name in _NOT_FOR_MODELS:
+        for name in ("lipsum", "random"):  # their text is another one each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
-        self.filters |= {name: _with_small_numbers(self.filters[name]) for name in ("round", "slice")}
-        self.filters["int"] = _with_small_result(self.filters["int"])
+        self.filters |= {name: _limited(self.filters[name]) for name in ("int", "round", "slice")}
 
     def check_time(self) -> None:
         """Raise SecurityError if the text takes too long."""
@@ -154,23 +150,16 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         return super().getattr(obj, attribute)
 
 
-def _with_small_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A filter of Jinja that takes no number beyond Jinja's limit of ranges: it would work through it uninterrupted."""
+def _limited(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A filter of Jinja that takes no number beyond Jinja's limit of ranges, and gives none that is too large.
+
+    It would work through such a number without a look at the clock.
+    """
 
     @functools.wraps(function)
     def checked(*arguments: Any, **named: Any) -> Any:
         if any(isinstance(one, int) and abs(one) > MAX_RANGE for one in (*arguments[1:], *named.values())):
             raise OverflowError(f"a number is larger than {MAX_RANGE}")
-        return function(*arguments, **named)
-
-    return checked
-
-
-def _with_small_result(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A filter of Jinja that raises OverflowError in the place of a number that is too large."""
-
-    @functools.wraps(function)
-    def checked(*arguments: Any, **named: Any) -> Any:
         return _small(function(*arguments, **named))
 
     return checked

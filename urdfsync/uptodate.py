@@ -118,10 +118,10 @@ def find_answer(config_file: str, key: str) -> list[str] | None:
     return answer if answer is not None and saved and saved.check() is not None else None
 
 
-def has_answer(arguments: list[str]) -> bool:
-    """Whether a saved answer would do for a command."""
+def saved_answer(arguments: list[str]) -> list[str] | None:
+    """The saved answer of a command; None if there is none, or if it does not hold any more."""
     config_file = find_config(arguments)
-    return config_file is not None and find_answer(config_file, answer_key(arguments, config_file)) is not None
+    return find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
 
 
 def print_answer(arguments: list[str]) -> str | None:
@@ -131,8 +131,7 @@ def print_answer(arguments: list[str]) -> str | None:
     """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
-    config_file = find_config(arguments)
-    answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
+    answer = saved_answer(arguments)
     if answer is None:
         return None
     with streams.SafeStreams() as output:
