@@ -132,12 +132,7 @@ class _Reader:
                 known |= _names_of(domain.options)
                 if (robot := self._robot(name, values, defaults, domain)) is not None:
                     yield robot
-        table = self._table("`[defaults]`", defaults, "defaults")
-        for key in OWN_KEYS:
-            if key in defaults:
-                message = f"`{key}` can't have a default: every robot has its own"
-                self._report("unknown-key", table.lines[key], message)
-        self._refuse_unknown(table, known)
+        self._refuse_unknown(self._table("`[defaults]`", defaults, "defaults"), known.difference(OWN_KEYS))
 
     def check(self) -> CheckConfig:
         """The table `[check]`."""
@@ -225,7 +220,7 @@ class _Reader:
                 self._report("wrong-value", table.lines[key], message)
         try:
             return struct(**values) if len(self.problems) == before else None
-        except (TypeError, ValueError) as error:
+        except ValueError as error:  # options that do not go together
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
 

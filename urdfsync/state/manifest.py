@@ -97,17 +97,12 @@ class Manifest(msgspec.Struct, frozen=True, kw_only=True):
         inside, above = f"{self.folder}/", _order_above(self.folder)
         names = {kind: dict(sorted(names.items())) for kind, names in sorted(self.names.items()) if names}
         orders = {path: order for path, order in self.orders.items() if path == above or path.startswith(inside)}
-        files = {}
-        for path, record in sorted(self.files.items()):
-            if path.startswith(inside):
-                origin = record.origin and inside + record.origin[len(inside) :]
-                files[path] = msgspec.structs.replace(record, origin=origin) if origin else record
         return msgspec.structs.replace(
             self,
             names=names,
             dependencies=dict(sorted(self.dependencies.items())),
             orders=dict(sorted(orders.items())),
-            files=files,
+            files={path: record for path, record in sorted(self.files.items()) if path.startswith(inside)},
         )
 
 
