@@ -127,8 +127,7 @@ def test_a_dry_run_waits_for_a_build_that_is_writing(
 def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
     configure(ROBOT.format("other", "Other"))
     with holder(project):
-        results = run_all(wait=0)
-    assert [result.locked for result in results] == [True, True]
+        assert [result.locked for result in run_all(wait=0)] == [True, True]
     results, loaded = [], config.load(project / "urdfsync.toml")
     for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)

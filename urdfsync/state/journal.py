@@ -73,9 +73,9 @@ class JournalFolder:
         self._root = root
         self._new = folder / f"new{TEMPORARY}"
 
-    def file(self, phase: Phase | None) -> Path:
-        """Where the journal is in a phase; the folder for None."""
-        return self.folder / f"{phase}.json" if phase else self.folder
+    def file(self, phase: Phase) -> Path:
+        """Where the journal is in a phase."""
+        return self.folder / f"{phase}.json"
 
     def phase(self) -> Phase | None:
         """The phase of the transaction under way, None if there is none."""
@@ -111,16 +111,19 @@ class JournalFolder:
             file_operations.replace(self.folder / name, self.folder / _ASIDE)
         return self.folder / _ASIDE
 
-    def load(self) -> Journal:
-        """The journal of the transaction under way.
+    def load(self) -> tuple[Journal, Phase]:
+        """The journal of the transaction under way, and its phase.
 
         Raises StateError, and changes nothing, for a journal that another urdfsync wrote or that was not written in
         this checkout, OutputError for what is no regular file, and for a folder that is a link.
         """
         tree = Tree(self._root)
         tree.check_folder(self.folder)  # whatever its files are called: they are not ours to set aside at a link's end
-        file = self.file(self.phase())
-        content = tree.read(file) if file != self.folder else b'{"format": 0}'
+        phase = self.phase()
+        if phase is None:
+            self._refuse(self.folder, "an older urdfsync was interrupted here")
+        file = self.file(phase)
+        content = tree.read(file)
         try:
             version = msgspec.json.decode(content or b"", type=_JournalFormat).format
             journal = msgspec.json.decode(content or b"", type=Journal) if version == FORMAT else None
@@ -133,7 +136,7 @@ class JournalFolder:
         is_token = journal.token and set(journal.token) <= set("0123456789abcdef")
         if not is_token or not file_operations.is_bound(file, journal):
             self._refuse(file, "the journal of an interrupted build was not written in this checkout")
-        return journal
+        return journal, phase
 
     def _names(self) -> list[str]:
         """The names of all journals but for one that was set aside."""

@@ -118,8 +118,8 @@ class Transactions:
         if not self.pending():
             return ()
         try:
-            journal = self._journals.load()
-            self._check(journal, self._journals.file(self._journals.phase()))
+            journal, phase = self._journals.load()
+            self._check(journal, self._journals.file(phase))
         except StateError as error:
             if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
                 raise
@@ -131,7 +131,7 @@ class Transactions:
             hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
             return (Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint),)
         files = self._files(journal)
-        if self._journals.phase() is Phase.PREPARE:
+        if phase is Phase.PREPARE:
             self._discard(journal, files)
             return ()
         applied = self._finish(journal, files)
