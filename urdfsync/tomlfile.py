@@ -34,18 +34,22 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
     line = column = 0
     try:
         document = tomli.loads(text)
-    except tomli.TOMLDecodeError as problem:
-        message, line, column, better = _explain(problem, text)
-        hint = hint or better
-    except RecursionError:
-        message = _TOO_DEEP
-    except ValueError:  # from int(), which refuses to read thousands of digits
-        message = "a number has too many digits"
-    else:
         if not _is_too_deep(document):
             return document
         message = _TOO_DEEP
-    raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint)) from None
+    except RecursionError:
+        message = _TOO_DEEP
+    except tomli.TOMLDecodeError as problem:
+        message = str(problem)
+        if line := marker_line(text):
+            message, hint = "unresolved merge markers", hint or "settle the merge"
+        elif place := re.search(_PLACE, message):
+            line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
+            message = message[0].lower() + message[1 : place.start()].replace("\n", " ")
+            hint = hint or ("strings stand in quotes" if message == "invalid value" else "")
+    except ValueError:  # from int(), which refuses to read thousands of digits
+        message = "a number has too many digits"
+    raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))
 
 
 _TOO_DEEP = f"tables and lists are nested more than {DEEPEST} deep"
@@ -71,20 +75,6 @@ def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> It
             yield here, value
         elif isinstance(value, dict | list):
             yield from strings(value, here)
-
-
-def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:
-    """Message, line, column and hint."""
-    if marker := marker_line(text):
-        return "unresolved merge markers", marker, 0, "settle the merge"
-    message = str(problem)
-    place = re.search(_PLACE, message)
-    if place is None:
-        return message, 0, 0, ""
-    line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
-    message = message[: place.start()].replace("\n", " ")
-    hint = "strings stand in quotes" if message == "Invalid value" else ""
-    return message[0].lower() + message[1:], line, column, hint
 
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:

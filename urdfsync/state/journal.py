@@ -77,14 +77,16 @@ class JournalFolder:
         """Where the journal is in a phase."""
         return self.folder / f"{phase}.json"
 
+    def names(self) -> list[str]:
+        """The names of all journals, perhaps of another urdfsync, but for one that was set aside."""
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            return [name for name in list_folder(self.folder) if name.endswith(".json") and name != _ASIDE]
+        return []
+
     def phase(self) -> Phase | None:
         """The phase of the transaction under way, None if there is none."""
-        names = self._names()
+        names = self.names()
         return next((phase for phase in reversed(Phase) if f"{phase}.json" in names), None)
-
-    def is_pending(self) -> bool:
-        """Whether there is a transaction, perhaps of another urdfsync."""
-        return bool(self._names())
 
     def save(self, journal: Journal) -> None:
         """Write a journal, bound to its file, for the phase PREPARE; as a whole or not at all. Raises OSError."""
@@ -107,7 +109,7 @@ class JournalFolder:
 
     def set_aside(self) -> Path:
         """Give a journal another name, so that nobody acts on it. Raises OSError."""
-        for name in self._names():
+        for name in self.names():
             file_operations.replace(self.folder / name, self.folder / _ASIDE)
         return self.folder / _ASIDE
 
@@ -137,12 +139,6 @@ class JournalFolder:
         if not is_token or not file_operations.is_bound(file, journal):
             self._refuse(file, "the journal of an interrupted build was not written in this checkout")
         return journal, phase
-
-    def _names(self) -> list[str]:
-        """The names of all journals but for one that was set aside."""
-        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-            return [name for name in list_folder(self.folder) if name.endswith(".json") and name != _ASIDE]
-        return []
 
     def _refuse(self, file: Path, message: str, code: str = "broken-journal", hint: str = REPAIR) -> NoReturn:
         raise StateError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))

@@ -140,38 +140,22 @@ def rebuilt(recovered: RecoveredState, mine: Mapping[str, str | None], generated
         for path, names in side.orders.items():
             orders[path] = tuple(dict.fromkeys([*orders.get(path, ()), *names]))
         for key, record in side.dependencies.items():
-            # that of the copy on disk, if any side has it
-            is_copy = record.target_hash is not None and record.target_hash == mine.get(
-                f"{side.folder}/{record.target}"
-            )
-            if key not in dependencies or is_copy:
+            copy = mine.get(f"{side.folder}/{record.target}")
+            if key not in dependencies or (copy is not None and copy == record.target_hash):  # the copy on disk counts
                 dependencies[key] = record
-    return msgspec.structs.replace(
-        max(manifests, key=lambda side: (side.generator.domain == domain, side.generator.revision)),
-        files={
-            path: _record(recovered, path, mine.get(path), generated.get(path))
-            for path in sorted(recovered.roles.keys() | lost)
-        },
-        orders=orders,
-        dependencies=dependencies,
-    )
-
-
-def _record(recovered: RecoveredState, path: str, mine: str | None, generated: str | None) -> FileRecord:
-    """What the sides say of a file, with one of the recorded hashes as its base.
-
-    - What is on disk, if urdfsync wrote it: nobody edited it since. A text that urdfsync wrote is its own base, even
-      if its hash got below another path in the merge. A file is never taken for untouched unless its hash is recorded.
-    - Else a hash that is not that of what is generated: the file then counts as edited, and the three-way merge
-      judges. With the generated one as its base, the file would be kept in silence, although the merge of the branches
-      may have lost what the other branch's build brought in.
-    - None if there is none: then the file conflicts.
-    """
-    records = [side.files[path] for side in recovered.manifests if path in side.files] or [FileRecord("", Role.MODEL)]
-    bases = [record.base for record in records if record.base is not None]
-    if mine is not None and (mine in recovered.written or mine in bases):
-        base: str | None = mine
-    else:
-        base = next((one for one in bases if one != generated), bases[0] if bases else None)
-    record = next((record for record in records if record.base == base), records[0])
-    return msgspec.structs.replace(record, base=base)
+    files: dict[str, FileRecord] = {}
+    for path in sorted(recovered.roles.keys() | lost):
+        records = [side.files[path] for side in manifests if path in side.files] or [FileRecord("", Role.MODEL)]
+        bases = [one.base for one in records if one.base is not None]
+        base = mine.get(path)
+        if base is None or (base not in recovered.written and base not in bases):
+            # Somebody edited it. Its base is a hash that is not that of what is generated: then the three-way merge
+            # judges. With the generated one, the file would be kept in silence, although the merge of the branches may
+            # have lost what the other branch's build brought in. Without any, it conflicts.
+            base = next((one for one in bases if one != generated.get(path)), bases[0] if bases else None)
+        # else nobody edited it since: a text that urdfsync wrote is its own base, even if its hash got below another
+        # path in the merge. A file is never taken for untouched unless its hash is recorded.
+        recorded = next((one for one in records if one.base == base), records[0])
+        files[path] = msgspec.structs.replace(recorded, base=base)
+    heading = max(manifests, key=lambda side: (side.generator.domain == domain, side.generator.revision))
+    return msgspec.structs.replace(heading, files=files, orders=orders, dependencies=dependencies)

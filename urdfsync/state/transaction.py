@@ -75,7 +75,7 @@ class Transactions:
 
     def pending(self) -> bool:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
-        return self._journals.is_pending()
+        return bool(self._journals.names())
 
     @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
@@ -88,8 +88,14 @@ class Transactions:
             Step(self._key(c.path), c.old, None if c.content is None else digest(c.content), c.is_moved)
             for c in changes
         )
-        made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
-        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
+        made: set[Path] = set()
+        for innermost in {change.path.parent for change in changes if change.content is not None}:
+            for folder in (innermost, *innermost.parents):
+                if folder == self._root or folder in made or folder.is_dir():
+                    break
+                made.add(folder)
+        keys = tuple(map(self._key, sorted(made))), tuple(map(self._key, emptied))
+        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), *keys)
         self._check(journal)
         files = self._files(journal)
         try:
@@ -178,10 +184,22 @@ class Transactions:
         not_done: list[Path] = []
         try:
             if self._journals.phase() is not Phase.DONE:
-                not_done = self._change(files)
+                state_folder = str(self._folder / "robots")
+                others = [file for file in files if file.folder != state_folder]
+                changed = [(file, file.change()) for file in others]
+                # again, since somebody may have written to an old file through a handle that was opened before
+                changed = [(file, done if file.old is None else file.change()) for file, done in changed]
+                not_done = [file.path for file, done in changed if not done]
+                for file in files:  # the recorded state comes last, and stays if a target is not as planned
+                    if file.folder == state_folder and (not_done or not file.change()):
+                        not_done.append(file.path)
                 file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
                 self._journals.enter(Phase.DONE)
-            left = {path for folder in folders for path in _temporary_files(folder)}
+            left = set()
+            for folder in folders:
+                with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+                    names = os.listdir(folder)  # noqa: PTH208 - with those of an exchange of three renames, `….…-tmp~`
+                    left |= {f"{folder}{os.sep}{name}" for name in names if TEMPORARY in name}
             saved = [(file, name) for file in files for name in file.clear(left)] if left else []
             for path in journal.emptied:
                 file_operations.remove_folder(self._path(path))
@@ -196,20 +214,6 @@ class Transactions:
                 for file, name in saved
             ),
         )
-
-    def _change(self, files: Sequence[_File]) -> list[Path]:
-        """Change all targets, the recorded state last. Returns those that are not as planned."""
-        state_folder = str(self._folder / "robots")
-        state = [file for file in files if file.folder == state_folder]
-        others = [file for file in files if file.folder != state_folder]
-        changed = [file.change() for file in others]
-        # again, since somebody may have written to an old file through a handle that was opened before
-        again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
-        not_done = [file.path for file, done in zip(others, again, strict=True) if not done]
-        for file in state:
-            if not_done or not file.change():
-                not_done.append(file.path)
-        return not_done
 
     def _check(self, journal: Journal, source: Path | None = None) -> None:
         """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
@@ -260,16 +264,6 @@ class Transactions:
             found.append(_File(folder, Path(path), Path(temporary), step.old, step.new, step.is_moved))
         return found
 
-    def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
-        """The folders that files need and that do not exist, outermost first."""
-        missing: set[Path] = set()
-        for innermost in set(folders):
-            for folder in (innermost, *innermost.parents):
-                if folder == self._root or folder in missing or folder.is_dir():
-                    break
-                missing.add(folder)
-        return list(map(self._key, sorted(missing)))
-
     def _key(self, path: Path) -> str:
         """A path as journals name it: from the configuration's folder, POSIX."""
         text = str(path)
@@ -316,7 +310,12 @@ class _File(msgspec.Struct, frozen=True):
             if found in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
             elif found is not None:
-                yield self._keep(path)
+                for number in itertools.count(1):
+                    name = self.path.with_name(f"{self.path.name}.saved{'' if number == 1 else number}")
+                    with contextlib.suppress(FileExistsError):
+                        file_operations.place(path, name)
+                        break
+                yield name
 
     def _create(self) -> bool:
         if not os.path.lexists(self.temporary):
@@ -353,15 +352,6 @@ class _File(msgspec.Struct, frozen=True):
                 file_operations.exchange(self.temporary, self.path)
         return False
 
-    def _keep(self, path: Path) -> Path:
-        """Move somebody's save to a free name beside the target."""
-        for number in itertools.count(1):
-            name = self.path.with_name(f"{self.path.name}.saved{'' if number == 1 else number}")
-            with contextlib.suppress(FileExistsError):
-                file_operations.place(path, name)
-                return name
-        raise AssertionError
-
 
 def hash_of(path: Path) -> str | None:
     """SHA-256 (hex) of a file, None for nothing; a word for what is no regular file. Raises OSError."""
@@ -370,11 +360,3 @@ def hash_of(path: Path) -> str | None:
     except IsADirectoryError:
         return _OTHER
     return None if content is None else digest(content)
-
-
-def _temporary_files(folder: str) -> list[str]:
-    """The paths of temporary files in a folder, with those that stand there in an exchange of three renames."""
-    try:
-        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name]  # noqa: PTH208
-    except (FileNotFoundError, NotADirectoryError):
-        return []
