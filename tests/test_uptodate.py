@@ -16,7 +16,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from support import answers
 from support.answers import save, saved
-from support.meshes import stl
 from support.screen import print_on_terminal
 
 from urdfsync import cli, dependencies, streams, uptodate
@@ -128,56 +127,45 @@ def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest
 # What an answer depends on
 
 
-def _edit(how: str, path: str, text: str = "") -> Edit:
-    """A change of a file; `rewrite` keeps its size and times, `replace` its content and times."""
+def _edit(path: str, what: str = "other", how: str = "write", *, old: bool = False) -> Edit:
+    """A change of a file, as `_bring` makes it."""
+    return lambda folder: _bring(folder / path, what, how, old, _state(folder / path))
 
-    def edit(folder: Path) -> None:
-        file = folder / path
-        if how == "rewrite":
-            content, status = file.read_bytes(), file.stat()
-            file.write_bytes(content[:-2] + b"x" + content[-1:])
-            os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
-            assert (file.stat().st_mtime_ns, file.stat().st_size) == (status.st_mtime_ns, status.st_size)
-        elif how == "replace":
-            shutil.copy2(file, folder / "other")
-            (folder / "other").replace(file)
-        elif how == "delete":
-            file.unlink()
-        elif how == "link":
-            file.rename(folder / "moved")
-            file.symlink_to(folder / "moved")
-        else:
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text)
 
-    return edit
+def _link_package(folder: Path) -> None:
+    (folder / "modelica/Leg").rename(folder / "moved")
+    (folder / "modelica/Leg").symlink_to(folder / "moved")
 
 
 EDITS: dict[str, Edit] = {
-    **{f"{how} {path}": _edit(how, path) for path in (URDF, LEG) for how in ("rewrite", "replace", "delete", "link")},
     **{
-        f"rewrite {path}": _edit("rewrite", path)
+        f"{what} {how} {path}": _edit(path, what, how, old=True)
+        for path in (URDF, LEG)
+        for what, how in (("other", "write"), ("first", "replace"), ("absent", "write"), ("first", "link"))
+    },
+    **{
+        f"other write {path}": _edit(path, old=True)
         for path in (
             *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
             *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
         )
     },
-    "a mesh that is better placed": _edit("write", "robots/arm_meshes/base.stl", stl()),
-    "a package that hides another": _edit("write", "ros/a/package.xml", "<name>arm_meshes</name>"),
-    "a folder to be ignored": _edit("write", "ros/group/COLCON_IGNORE"),
-    "a template": _edit("write", "own/link.mo.jinja", "<< this >>"),
-    "a folder of templates": _edit("write", "own/notes/deep/readme.txt"),
-    "a parent that is gone": _edit("delete", "modelica/Lab/package.mo"),
-    "a parent's single file": _edit("write", "modelica/Lab.mo"),
-    "a package above all": _edit("write", "modelica/package.mo"),
+    "a mesh that is better placed": _edit("robots/arm_meshes/base.stl"),
+    "a package that hides another": _edit("ros/a/package.xml"),
+    "a folder to be ignored": _edit("ros/group/COLCON_IGNORE"),
+    "a template": _edit("own/link.mo.jinja"),
+    "a folder of templates": _edit("own/notes/deep/readme.txt"),
+    "a parent that is gone": _edit("modelica/Lab/package.mo", "absent"),
+    "a parent's single file": _edit("modelica/Lab.mo"),
+    "a package above all": _edit("modelica/package.mo"),
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
-    "a folder that is a class": _edit("delete", "modelica/Lab/Arm/Links/Base/package.mo"),
-    "another stray state": _edit("write", ".urdfsync/robots/other.toml"),
+    "a folder that is a class": _edit("modelica/Lab/Arm/Links/Base/package.mo", "absent"),
+    "another stray state": _edit(".urdfsync/robots/other.toml"),
     "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
-    "an interrupted build": _edit("write", ".urdfsync/journal/apply.json"),
+    "an interrupted build": _edit(".urdfsync/journal/apply.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
-    "a linked folder": _edit("link", "modelica/Leg"),
-    "a search path that comes": _edit("write", "later/src/leg_meshes/package.xml", "<name>leg_meshes</name>"),
+    "a linked folder": _link_package,
+    "a search path that comes": _edit("later/src/leg_meshes/package.xml"),
     "a folder that may be read at last": lambda folder: (folder / "ros/closed").chmod(0o700),
     "a mark of a package, by a link": lambda folder: (folder / "target").rmdir(),
 }
@@ -203,14 +191,14 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     Path(URDF).write_text(source.replace("package://leg_meshes/", "modelica://LegMeshes/"))
     save(*BUILD)
     assert saved(*BUILD) is not None
-    _edit("write", "libraries/LegMeshes 2.0/package.mo")(folder)
+    _edit("libraries/LegMeshes 2.0/package.mo")(folder)
     assert saved(*BUILD) is None
 
 
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
-        _edit("write", path)(folder)
+        _edit(path)(folder)
     assert saved(*BUILD) is not None
 
 

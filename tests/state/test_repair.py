@@ -71,9 +71,6 @@ def merged(ours: Manifest = OURS, theirs: Manifest = THEIRS, json: str | None = 
     return merged_texts(dumps(ours), dumps(theirs), json)
 
 
-# --- sides --------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -106,9 +103,6 @@ def test_no_marker_survives(parts: list[str]) -> None:
     assert 1 <= len(found) <= 2
     for side in found:
         assert not any(line.startswith(("<<<<<<<", "|||||||", "=======", ">>>>>>>")) for line in side.split("\n"))
-
-
-# --- what is recovered --------------------------------------------------------------------------------------------
 
 
 def varied(rng: random.Random, side: str, ancestor: Hashes) -> Hashes:
@@ -176,9 +170,6 @@ def test_a_newer_side_is_refused(toml: str, json: str | None, file: str) -> None
         recover(toml, json, "arm.toml", "arm.json")
 
 
-# --- bases --------------------------------------------------------------------------------------------------------
-
-
 def chosen(candidates: list[str], mine: str | None, generated: str | None) -> str | None:
     """The base of a file with these recorded hashes on so many sides."""
     hashes: list[str | None] = [*candidates] or [None]
@@ -202,9 +193,6 @@ def test_a_choice_never_costs_an_edit(candidates: list[str], mine: str | None, g
             assert kind is not Kind.KEEP, "what is new is not left out in silence"
     if not candidates and mine not in (None, generated) and generated is not None:
         assert kind is Kind.UNOWNED
-
-
-# --- the state that follows ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("mesh", "volume"), [("m1", "m1"), ("m2", "m2"), ("edited", "m1"), (None, "m1")])

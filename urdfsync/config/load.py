@@ -124,14 +124,21 @@ class _Reader:
         for name, values in robots.items():
             if not isinstance(values, dict):
                 self._report("wrong-value", self._line("robots", name), f"`robots.{name}` must be a table")
-            elif not is_robot_name(name):
+                continue
+            if not is_robot_name(name):
                 message = f"the robot's name {name!r} can't be a file's name"
                 hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
                 self._report("robot-name", self._line("robots", name), message, hint)
-            elif (domain := self._domain(name, values, defaults)) is not None:
-                known |= _names_of(domain.options)
-                if (robot := self._robot(name, values, defaults, domain)) is not None:
-                    yield robot
+                continue
+            try:
+                domain = registry.domain(str(values.get("domain", defaults.get("domain", "urdf"))))
+            except ConfigError as error:
+                line = self._line(*(("robots", name) if "domain" in values else ("defaults",)), "domain")
+                self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
+                continue
+            known |= _names_of(domain.options)
+            if (robot := self._robot(name, values, defaults, domain)) is not None:
+                yield robot
         self._refuse_unknown(self._table("`[defaults]`", defaults, "defaults"), known.difference(OWN_KEYS))
 
     def check(self) -> CheckConfig:
@@ -193,14 +200,6 @@ class _Reader:
             options=options,
             lines=lines,
         )
-
-    def _domain(self, robot: str, own: dict[str, Any], defaults: dict[str, Any]) -> Domain | None:
-        try:
-            return registry.domain(str(own.get("domain", defaults.get("domain", "urdf"))))
-        except ConfigError as error:
-            line = self._line(*(("robots", robot) if "domain" in own else ("defaults",)), "domain")
-            self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
-            return None
 
     def _read(self, table: _Table, struct: type[Any]) -> Any:
         """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""

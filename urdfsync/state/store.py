@@ -135,11 +135,11 @@ class Store:
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return is_folder(self._base_folder(robot))
+        return is_folder(self.folder / "base" / robot)
 
     def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
-        return BaseStore(self._base_folder(robot))
+        return BaseStore(self.folder / "base" / robot)
 
     def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
@@ -179,9 +179,6 @@ class Store:
         """The robot's manifest, and its model."""
         folder = self.folder / "robots"
         return folder / f"{robot}.toml", folder / f"{robot}.json"
-
-    def _base_folder(self, robot: str) -> Path:
-        return self.folder / "base" / robot
 
     def _change(self, path: Path, content: bytes | None) -> FileChange:
         return FileChange(path, content, self._seen[path][1] if path in self._seen else None)
