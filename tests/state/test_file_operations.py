@@ -36,9 +36,9 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def test_a_written_file_is_new_and_has_the_permissions_of_another(tmp_path: Path, old: Path) -> None:
-    file_operations.write(tmp_path / "new", b"new", like=old)
+    file_operations.write(tmp_path / "new", b"new", old)
     assert (tmp_path / "new").stat().st_mode == old.stat().st_mode
-    file_operations.write(tmp_path / "newer", b"", like=tmp_path / "none")
+    file_operations.write(tmp_path / "newer", b"", tmp_path / "none")
     assert contents(tmp_path) == {"old": b"old", "new": b"new", "newer": b""}
 
 
@@ -47,7 +47,7 @@ def test_what_is_written_takes_no_place_and_follows_no_link(tmp_path: Path, old:
     (tmp_path / "link").symlink_to(tmp_path / target)
     for path in (old, tmp_path / "link"):
         with pytest.raises(FileExistsError):
-            file_operations.write(path, b"new")
+            file_operations.write(path, b"new", old)
         with pytest.raises(FileExistsError):
             file_operations.write_bound(path, file_operations.Bound())
     assert old.read_bytes() == b"old"
