@@ -311,8 +311,8 @@ def test_a_disk_that_refuses_changes_nothing(
     source('"R2"', '"R3"')
     real = file_operations.write
 
-    def refuse(path: Path, content: bytes, like: Path | None = None) -> None:
-        if like is not None and like.name == "R3.mo":
+    def refuse(path: Path, content: bytes, like: Path) -> None:
+        if like.name == "R3.mo":
             raise OSError(errno.ENOSPC, "No space left on device", path)
         real(path, content, like)
 

@@ -101,16 +101,17 @@ def test_every_installed_domain_is_tested(rc_domain: None) -> None:
     assert set(registry.names()) == set(SAMPLES)
 
 
-def test_names_and_options(case: Case) -> None:
-    assert registry.domain(case.domain.name) is case.domain
+def test_options(case: Case) -> None:
     fields = msgspec.structs.fields(case.domain.options)
-    shared = {field.encode_name for field in msgspec.structs.fields(Keys)}
-    assert not shared & {field.encode_name for field in fields}, "an option hides a key of the configuration"
+    known, shared = ({one.encode_name for one in found} for found in (fields, msgspec.structs.fields(Keys)))
+    assert not shared & known, "an option hides a key of the configuration"
     assert msgspec.convert(msgspec.to_builtins(case.options), case.domain.options) == case.options
     with pytest.raises(AttributeError, match="immutable"):
         setattr(case.options, fields[0].name, None)
-    assert isinstance(case.domain.revision, int)
-    assert isinstance(case.domain.converter, int)
+    assert list(case.domain.check_options(case.snapshot, case.options)) == [], "defaults suit every model"
+    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
+    assert values.keys() <= known
+    msgspec.convert(values, case.domain.options)
 
 
 def test_a_snapshot_is_plain_data(case: Case) -> None:
@@ -162,12 +163,6 @@ def test_dependencies_are_only_looked_for_by_the_core(case: Case) -> None:
     generate.check_paths((dependency.target,))
 
 
-def test_a_conversion_is_repeatable(case: Case) -> None:
-    content = SAMPLES[case.domain.name][1]
-    one, two = (case.domain.convert(case.dependency, case.dependency.candidates[0], content) for _ in range(2))
-    assert (one.content, dict(one.facts)) == (two.content, dict(two.facts))
-
-
 def texts(package: generate.Package) -> dict[str, bytes]:
     return {path: package.content(path) for path in package.artifacts}
 
@@ -175,18 +170,20 @@ def texts(package: generate.Package) -> dict[str, bytes]:
 def test_artifacts_are_inside_the_package_and_apart(case: Case) -> None:
     artifacts = case.artifacts()
     generate.check_paths((*(artifact.path for artifact in artifacts), case.dependency.target))
-    assert {artifact.role for artifact in artifacts if isinstance(artifact, Artifact)} <= {
-        Role.RECORD,
-        Role.MODEL,
-        Role.PACKAGE,
-    }
-    assert all(artifact.owner for artifact in artifacts if isinstance(artifact, Artifact))
+    files = [artifact for artifact in artifacts if isinstance(artifact, Artifact)]
+    assert {file.role for file in files} <= {Role.RECORD, Role.MODEL, Role.PACKAGE}
+    assert all(file.owner for file in files)
 
 
 def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
-    one, two = case.generated(), make(case.domain.name).generated()
+    again = make(case.domain.name)
+    assert again.imports == case.imports, "conversions, too"
+    one, two = case.generated(), again.generated()
     assert (one.artifacts, one.orders) == (two.artifacts, two.orders)
     assert texts(one) == texts(two)
+    drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
+    assert drawing is None or "<svg" in drawing
+    assert drawing == again.domain.drawing(again.snapshot, again.imports, TARGET, again.options)
 
 
 def test_imports_show_in_the_text_only_while_they_are_there(case: Case) -> None:
@@ -226,17 +223,6 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
-def test_defaults_suit_every_model(case: Case) -> None:
-    assert list(case.domain.check_options(case.snapshot, case.options)) == []
-
-
-def test_proposals_are_options(case: Case) -> None:
-    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
-    options = {field.encode_name for field in msgspec.structs.fields(case.domain.options)}
-    assert values.keys() <= options
-    msgspec.convert(values, case.domain.options)
-
-
 def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
     models = case.domain.models(case.snapshot, TARGET, case.options)
     assert models[0] == TARGET.name
@@ -256,9 +242,3 @@ def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
         text = generate.Package([found.artifact], templates).content(found.artifact.path).decode()
         assert text.startswith(f"{within_clause}\nrecord Whole ")
         assert text.endswith("end Whole;\n")
-
-
-def test_a_drawing_is_svg(case: Case) -> None:
-    drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
-    assert drawing is None or "<svg" in drawing
-    assert drawing == case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)

@@ -14,7 +14,7 @@ from support.commands import Execute
 from support.replay import contents
 
 from urdfsync import cli
-from urdfsync.state.manifest import text_hash
+from urdfsync.files import text_digest
 from urdfsync.state.store import Store
 
 BEFORE = Path(__file__).parent / "golden" / "before"
@@ -48,7 +48,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(BEFORE / "robots", root / ".urdfsync" / "robots")
     for robot in ("Arm", "Cart"):
         texts = [path.read_text() for path in sorted((root / "modelica" / robot).rglob("*.mo"))]
-        Store(root).bases(robot.lower()).add({text_hash(text): text for text in texts})
+        Store(root).bases(robot.lower()).add({text_digest(text.encode()): text for text in texts})
     monkeypatch.chdir(root)
     return root
 

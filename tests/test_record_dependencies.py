@@ -6,7 +6,7 @@ import builtins
 import io
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,23 +19,18 @@ READS = ("open", "listdir", "scandir", "readlink")
 """Calls after which the content matters, not only what is there."""
 
 
-@pytest.fixture
-def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], set[tuple[str, str]]]:
-    """A function that runs another and gives the calls of the system that it made, each with its path."""
-
-    def during(action: Callable[[], object]) -> set[tuple[str, str]]:
-        calls: set[tuple[str, str]] = set()
-        with monkeypatch.context() as patch:
-            for module, name in (
-                *((os, name) for name in ("stat", "lstat", "listdir", "scandir", "readlink", "access", "open")),
-                (os.path, "realpath"),
-                *((module, "open") for module in (io, builtins)),
-            ):
-                patch.setattr(module, name, _noting(getattr(module, name), name, calls))
-            action()
-        return calls
-
-    return during
+def calls_during(action: Callable[[], object], monkeypatch: pytest.MonkeyPatch) -> set[tuple[str, str]]:
+    """The calls of the system that an action makes, each with its path."""
+    calls: set[tuple[str, str]] = set()
+    with monkeypatch.context() as patch:
+        for module, name in (
+            *((os, name) for name in ("stat", "lstat", "listdir", "scandir", "readlink", "access", "open")),
+            (os.path, "realpath"),
+            *((module, "open") for module in (io, builtins)),
+        ):
+            patch.setattr(module, name, _noting(getattr(module, name), name, calls))
+        action()
+    return calls
 
 
 def _noting(function: Callable[..., Any], name: str, calls: set[tuple[str, str]]) -> Callable[..., Any]:
@@ -57,16 +52,13 @@ def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 @pytest.mark.parametrize("command", [["build"], ["build", "--check"], ["status"], ["build", "--config=urdfsync.toml"]])
 def test_all_that_a_command_without_work_asks_for_is_recorded(
-    folder: Path,
-    command: list[str],
-    asked: Callable[[Callable[[], object]], set[tuple[str, str]]],
-    monkeypatch: pytest.MonkeyPatch,
+    folder: Path, command: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where folders to be searched are missing, or may not be read."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(folder / "later"), str(folder / "closed")]))
     (folder / "closed").mkdir(mode=0)
-    with dependencies.record_dependencies() as found:
-        calls = asked(lambda: cli._main(command))
+    with dependencies.Dependencies() as found:
+        calls = calls_during(lambda: cli._main(command), monkeypatch)
     assert found.complete
     contents = {os.path.abspath(path) for check, path in found.entries if check in (LSTAT, STAT)}  # noqa: PTH100
     known = {os.path.abspath(path) for _, path in found.entries}  # noqa: PTH100
@@ -84,41 +76,30 @@ def test_all_that_a_command_without_work_asks_for_is_recorded(
 def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: list[str]) -> None:
     if options != ["--full"]:
         (folder / "modelica/Leg/Leg.mo").unlink()
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         assert cli._main(["build", "--quiet", *options]) == 0
     assert not found.complete
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with dependencies.record_dependencies() as found:
+    with dependencies.Dependencies() as found:
         registry.domain("rcnetwork")
     assert (STAT, str(rc_site)) in found.entries
 
 
-@pytest.fixture
-def found() -> Iterator[dependencies.Dependencies]:
-    with dependencies.record_dependencies() as record:
-        yield record
-
-
-def test_a_file_that_changes_meanwhile(found: dependencies.Dependencies, tmp_path: Path) -> None:
+def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:
     file = tmp_path / "file"
-    file.write_text("a")
-    assert dependencies.read_file(file) == b"a"
-    assert found.complete
-    file.write_text("ab")
-    assert dependencies.read_file(file) == b"ab"
-    assert not found.complete
-
-
-def test_a_file_that_comes_meanwhile(found: dependencies.Dependencies, tmp_path: Path) -> None:
-    assert not dependencies.is_file(tmp_path / "file")
-    (tmp_path / "file").write_text("a")
-    assert dependencies.is_file(tmp_path / "file")
-    assert not found.complete
-
-
-def test_an_error_makes_the_record_incomplete(found: dependencies.Dependencies, tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="too long"):
+    with dependencies.Dependencies() as found:
+        assert not dependencies.is_file(file)
+        file.write_text("a")
+        assert dependencies.is_file(file)
+    assert not found.complete, "it came meanwhile"
+    with dependencies.Dependencies() as found:
+        assert dependencies.read_file(file) == b"a"
+        assert found.complete
+        file.write_text("ab")
+        assert dependencies.read_file(file) == b"ab"
+    assert not found.complete, "it changed meanwhile"
+    with dependencies.Dependencies() as found, pytest.raises(OSError, match="too long"):
         dependencies.is_file(tmp_path / ("a" * 5000))
-    assert not found.complete
+    assert not found.complete, "the system did not tell"

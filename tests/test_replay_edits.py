@@ -25,7 +25,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import Result
-from urdfsync.state.manifest import text_hash
+from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
 
 STEPS = replay.STEPS or 60
@@ -108,7 +108,7 @@ class Episode:
         """Build, and see that nothing is wrong."""
         self.project.save(self.content)
         self.fresh = plain(self.fresh_of(self.content)[0])
-        self.texts |= {text_hash(text.decode()): text for text in self.fresh.values()}
+        self.texts |= {text_digest(text): text for text in self.fresh.values()}
         raw = self.project.files()
         self.before = plain(raw)
         result = self.project.build(choices={f"{replay.PACKAGE}/{path}": what for path, what in choices.items()})
@@ -186,7 +186,7 @@ class Episode:
     def replaced(self) -> Iterator[str]:
         """What the user has edited changes by a merge only, and never without permission."""
         for path, content in self.before.items():
-            if text_hash(content.decode()) in self.texts or is_order(path):
+            if text_digest(content) in self.texts or is_order(path):
                 continue  # as generated, be it because all edits were taken back
             if self.project.package.joinpath(path).is_file() and self.after.get(path) == content:
                 continue
@@ -249,7 +249,7 @@ class Episode:
                 yield f"{stem}.generated.mo is not what would be written"
             if conflict.base is not None and lf(texts["base"] or b"") != lf(conflict.base.encode()):
                 yield f"{stem}.base.mo is not the base"
-            if conflict.base is not None and action.base and text_hash(conflict.base) != action.base:
+            if conflict.base is not None and action.base and text_digest(conflict.base.encode()) != action.base:
                 yield f"the base of {path} is not the recorded one"
             if texts["merge"] is not None:
                 tags = edits.tagged({path: self.before[place]}).keys() - edits.tagged({path: texts["merge"]}).keys()

@@ -15,7 +15,7 @@ import msgspec
 
 from urdfsync import __version__, profiling, streams, uptodate
 from urdfsync.commands import arguments
-from urdfsync.dependencies import mark_incomplete, record_dependencies
+from urdfsync.dependencies import Dependencies, mark_incomplete
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
@@ -38,7 +38,7 @@ def main(given: Sequence[str] | None = None) -> int:
         if config_file is None or not (sys.stdout and sys.stderr):
             return _run(given)
         key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
-        with record_dependencies() as dependencies:
+        with Dependencies() as dependencies:
             code = _run(given, transcript)
         if code == Exit.IN_STEP:
             answer = [text for entry in transcript if entry[1] for text in entry]
@@ -127,7 +127,7 @@ def _measured(given: Sequence[str]) -> Iterator[None]:
     with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
         with profiling.stage("saved answer"):
             plain = [argument for argument in given if argument != "--profile"]
-            profile.has_answer = uptodate.has_answer(plain) if plain[0] in uptodate.COMMANDS else None
+            profile.has_answer = uptodate.saved_answer(plain) is not None if plain[0] in uptodate.COMMANDS else None
         yield
 
 

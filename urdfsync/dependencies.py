@@ -23,6 +23,8 @@ _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
 
 
+_NONBLOCK = getattr(os, "O_NONBLOCK", 0)
+
 LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
 """How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
 `os.lstat`, what they lead to with `os.stat`."""
@@ -54,11 +56,6 @@ class Dependencies:
 
 
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
-
-
-def record_dependencies() -> Dependencies:
-    """Record all that this thread reads through this module inside a `with` block."""
-    return Dependencies()
 
 
 def mark_incomplete() -> None:
@@ -117,7 +114,8 @@ def read_file(path: str | os.PathLike[str]) -> bytes:
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
     """Read a file as `read_file` does, without recording it: where `read_stat` has, or nobody asks for dependencies."""
-    with open(path, "rb", buffering=0, opener=_open_at_once) as file:
+    # a pipe would wait for somebody who writes to it
+    with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
@@ -127,10 +125,6 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
             return file.read()
         # a file of the system may say that it is empty, and never end
         return file.read(MAX_FILE) or b""
-
-
-def _open_at_once(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))  # a pipe would wait for somebody who writes to it
 
 
 def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:

@@ -7,7 +7,7 @@ import errno
 import hashlib
 import os
 import stat
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync import profiling
@@ -24,6 +24,19 @@ _HINTS = {
     **dict.fromkeys((errno.EISDIR, errno.ENOTDIR, errno.EEXIST, errno.ENOTEMPTY), "move away what is in its place"),
     **dict.fromkeys((errno.ENAMETOOLONG, errno.EINVAL), "choose a shorter or plainer name for it"),
 }
+
+
+def shown(path: Path) -> str:
+    """A path as people see it: relative to the working folder if it is inside it."""
+    text = str(path)
+    try:
+        current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
+    except FileNotFoundError:  # somebody has deleted it
+        return text
+    inside = os.path.join(current, "")  # noqa: PTH118
+    if os.path.normcase(text).startswith(os.path.normcase(inside)):
+        return text[len(inside) :]
+    return "." if text == current else text
 
 
 def digest(content: bytes) -> str:
@@ -69,11 +82,11 @@ def templates_digest(folders: Sequence[Path]) -> str:
     return digest("".join(lines).encode())
 
 
-def failure(error: OSError, name: str, what: str = "it can't be written") -> OutputError:
-    """What the system says of the file that messages call `name`, with what to do about it."""
+def failure(error: OSError, path: Path, what: str = "it can't be written") -> OutputError:
+    """What the system says of a file or folder, with what to do about it."""
     hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
     message = f"{what}: {error.strerror or error}"
-    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, name, hint=hint))
+    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(path), hint=hint))
 
 
 def kind_of(mode: int) -> str:
@@ -96,9 +109,8 @@ class Tree:
     Each folder is looked at once: one that comes later is found by another tree.
     """
 
-    def __init__(self, root: Path, shown: Callable[[Path], str] = str) -> None:
+    def __init__(self, root: Path) -> None:
         self.root = root
-        self._shown = shown
         self._below = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._checked = {str(root): True}
 
@@ -125,11 +137,11 @@ class Tree:
         try:
             status = read_stat(path)
         except OSError as error:
-            raise self._unreadable(path, error) from None
+            raise _unreadable(path, error) from None
         if status is None or stat.S_ISREG(status.st_mode):
             return status
         message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
-        raise self._refusal("output-in-the-way", path, message, "move it away")
+        raise _refusal("output-in-the-way", path, message, "move it away")
 
     def content(self, path: str) -> bytes | None:
         """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
@@ -139,7 +151,7 @@ class Tree:
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
-            raise self._unreadable(path, error) from None
+            raise _unreadable(path, error) from None
 
     def check_folder(self, folder: str | os.PathLike[str]) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
@@ -147,17 +159,18 @@ class Tree:
         if folder in self._checked:
             return self._checked[folder]
         if not self.covers(folder):
-            raise self._refusal("outside", folder, f"the path leaves {self._shown(self.root)}")
+            raise _refusal("outside", folder, f"the path leaves {shown(self.root)}")
         mode = file_type(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
         if mode and not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"
-            raise self._refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
+            raise _refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
         self._checked[folder] = bool(mode)
         return bool(mode)
 
-    def _unreadable(self, path: str, error: OSError) -> OutputError:
-        hint = _HINTS.get(error.errno or 0, "")
-        return self._refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint)
 
-    def _refusal(self, code: str, path: str, message: str, hint: str = "") -> OutputError:
-        return OutputError(Diagnostic(Severity.ERROR, code, message, self._shown(Path(path)), hint=hint))
+def _unreadable(path: str, error: OSError) -> OutputError:
+    return _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", _HINTS.get(error.errno or 0, ""))
+
+
+def _refusal(code: str, path: str, message: str, hint: str = "") -> OutputError:
+    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(Path(path)), hint=hint))

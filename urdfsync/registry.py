@@ -13,9 +13,6 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
 
-GROUP = "urdfsync.domains"
-"""The entry point group; an entry's name is the domain's, its value `module:object`."""
-
 _OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
 """Ours, also an entry point: looking entry points up would cost every build 20 ms of imports."""
 
@@ -48,4 +45,5 @@ def _installed() -> dict[str, str]:
         depend_on(folder)
         for file in folder.glob("*-info/entry_points.txt"):
             depend_on(file)
-    return {entry.name: entry.value for entry in importlib.metadata.entry_points(group=GROUP)}
+    # an entry's name is the domain's, its value `module:object`
+    return {entry.name: entry.value for entry in importlib.metadata.entry_points(group="urdfsync.domains")}

@@ -34,9 +34,6 @@ if sys.platform == "linux":
     _ADDRESS_SPACE = resource.getrlimit(resource.RLIMIT_AS)
     """The limit of this process that holds while nothing is rendered."""
 
-MAX_MEMORY = 2_000_000_000
-"""Bytes that one text may need."""
-
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
     """Join what a macro makes of some values. Raises TypeError for all but macros: the call bypasses the sandbox."""
@@ -46,17 +43,13 @@ def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
 
 
 _FILTERS = (
-    once,
-    literals.real,
-    literals.vector,
-    literals.matrix,
-    literals.string,
-    literals.html,
+    *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
     literals.capitalize_first,
 )
 """Filters of the same names."""
 
-
+MAX_MEMORY = 2_000_000_000
+"""Bytes that one text may need."""
 MAX_SECONDS = 60.0
 """Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
@@ -66,26 +59,6 @@ MAX_BITS = 10_000
 GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
 own, such as the comparison of lists that hold each other many times."""
-
-_NOT_FOR_MODELS = ("lipsum", "random")
-"""Names that Jinja offers and whose text is another one each time."""
-
-
-@contextlib.contextmanager
-def _last_resort() -> Iterator[None]:
-    """End this process with SIGVTALRM if the context takes `GRACE` longer than a text may; not on Windows.
-
-    Loops and calls look at the clock themselves. A filter that works through a long text does not, and Python raises
-    nothing within a single step of its own.
-    """
-    if sys.platform == "win32":
-        yield
-        return
-    signal.setitimer(signal.ITIMER_VIRTUAL, MAX_SECONDS + GRACE)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
 
 class _CodeGenerator(CodeGenerator):
@@ -109,7 +82,7 @@ class _Environment(jinja2.Environment):
 class _Sandbox(ImmutableSandboxedEnvironment):
     """Jinja's sandbox with limits: templates of a user's folder may come from strangers.
 
-    Memory is limited by `_limited_memory`, ranges by Jinja.
+    Memory is limited by `_limited_process`, ranges by Jinja.
     """
 
     code_generator_class = _CodeGenerator
@@ -118,11 +91,10 @@ class _Sandbox(ImmutableSandboxedEnvironment):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         self.deadline = math.inf
-        for name in _NOT_FOR_MODELS:
+        for name in ("lipsum", "random"):  # their text is another one each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
-        self.filters |= {name: _with_small_numbers(self.filters[name]) for name in ("round", "slice")}
-        self.filters["int"] = _with_small_result(self.filters["int"])
+        self.filters |= {name: _limited(self.filters[name]) for name in ("int", "round", "slice")}
 
     def check_time(self) -> None:
         """Raise SecurityError if the text takes too long."""
@@ -154,23 +126,16 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         return super().getattr(obj, attribute)
 
 
-def _with_small_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A filter of Jinja that takes no number beyond Jinja's limit of ranges: it would work through it uninterrupted."""
+def _limited(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A filter of Jinja that takes no number beyond Jinja's limit of ranges, and gives none that is too large.
+
+    It would work through such a number without a look at the clock.
+    """
 
     @functools.wraps(function)
     def checked(*arguments: Any, **named: Any) -> Any:
         if any(isinstance(one, int) and abs(one) > MAX_RANGE for one in (*arguments[1:], *named.values())):
             raise OverflowError(f"a number is larger than {MAX_RANGE}")
-        return function(*arguments, **named)
-
-    return checked
-
-
-def _with_small_result(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A filter of Jinja that raises OverflowError in the place of a number that is too large."""
-
-    @functools.wraps(function)
-    def checked(*arguments: Any, **named: Any) -> Any:
         return _small(function(*arguments, **named))
 
     return checked
@@ -184,20 +149,28 @@ def _small(value: Any) -> Any:
 
 
 @contextlib.contextmanager
-def _limited_memory() -> Iterator[None]:
-    """Let this process take at most `MAX_MEMORY` more than it has; beyond that Python raises MemoryError. On Linux."""
-    if sys.platform != "linux":
-        yield
-        return
-    with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - once for each text
-        now = int(file.read().split()[0]) * resource.getpagesize()
-    soft, hard = _ADDRESS_SPACE
-    allowed = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
-    resource.setrlimit(resource.RLIMIT_AS, (min([now + MAX_MEMORY, *allowed]), hard))
+def _limited_process() -> Iterator[None]:
+    """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
+
+    At `MAX_MEMORY` more than it has, Python raises MemoryError. `GRACE` after the time that a text may take, the system
+    ends the process with SIGVTALRM: loops and calls look at the clock themselves, but a filter that works through a
+    long text does not, and Python raises nothing within a single step of its own.
+    """
+    if sys.platform == "linux":
+        with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - once for each text
+            now = int(file.read().split()[0]) * resource.getpagesize()
+        soft, hard = _ADDRESS_SPACE
+        allowed = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
+        resource.setrlimit(resource.RLIMIT_AS, (min([now + MAX_MEMORY, *allowed]), hard))
+    if sys.platform != "win32":
+        signal.setitimer(signal.ITIMER_VIRTUAL, MAX_SECONDS + GRACE)
     try:
         yield
     finally:
-        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+        if sys.platform != "win32":
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        if sys.platform == "linux":
+            resource.setrlimit(resource.RLIMIT_AS, _ADDRESS_SPACE)
 
 
 class Renderer:
@@ -238,7 +211,7 @@ class Renderer:
         if not isinstance(environment, _Sandbox):
             return environment.get_template(template).render(data)
         environment.deadline = time.monotonic() + MAX_SECONDS
-        with _last_resort(), _limited_memory():
+        with _limited_process():
             pieces, size = [], 0
             for piece in environment.get_template(template).generate(data):
                 pieces.append(piece)

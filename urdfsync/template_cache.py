@@ -57,7 +57,16 @@ def find_cache(environment: type[jinja2.Environment]) -> TemplateCache | None:
         is_safe = all(_is_private(each.stat()) for each in own) and all(_is_safe_above(each.stat()) for each in above)
     except OSError:
         return None
-    return TemplateCache(str(folder), f"{_fingerprint(environment)}-%s") if is_safe else None
+    if not is_safe:
+        return None
+    # All that decides what a template is compiled to, beside its text and the version of Python: calls, loops and
+    # operators are compiled for one kind of sandbox, and filters are applied to constants then.
+    kind = environment.sandboxed, environment.__qualname__, sorted(getattr(environment, "intercepted_binops", ()))
+    here = Path(__file__)
+    files = (Path(jinja2.__file__), Path(literals.__file__), here, here.with_name("render.py"))
+    stats = [(str(file), file.stat().st_size, file.stat().st_mtime_ns) for file in files]
+    fingerprint = hashlib.sha256(repr((kind, sys.version, stats)).encode()).hexdigest()[:16]
+    return TemplateCache(str(folder), f"{fingerprint}-%s")
 
 
 def _is_private(status: os.stat_result) -> bool:
@@ -70,15 +79,3 @@ def _is_safe_above(status: os.stat_result) -> bool:
     if not hasattr(os, "getuid"):
         return True
     return status.st_uid in (os.getuid(), 0) and (not status.st_mode & 0o022 or bool(status.st_mode & stat.S_ISVTX))
-
-
-def _fingerprint(environment: type[jinja2.Environment]) -> str:
-    """A hash of all that decides what a template is compiled to, beside its text and the version of Python.
-
-    Calls, loops and operators are compiled for one kind of sandbox, and filters are applied to constants then.
-    """
-    kind = environment.sandboxed, environment.__qualname__, sorted(getattr(environment, "intercepted_binops", ()))
-    files = [Path(file) for file in (jinja2.__file__, literals.__file__, __file__)]
-    files.append(files[-1].with_name("render.py"))
-    stats = [(str(file), file.stat().st_size, file.stat().st_mtime_ns) for file in files]
-    return hashlib.sha256(repr((kind, sys.version, stats)).encode()).hexdigest()[:16]

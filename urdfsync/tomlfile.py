@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import Any
 
 import tomli
 
@@ -17,8 +17,6 @@ _PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
 _PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
 _HEADER = re.compile(r"\s*\[\[?")
 _MARKER = r"^(<{7}|={7}|>{7})(\s|$)"
-_TWICE = r"Cannot declare \((.*)\) twice"
-_WORD = r"'([^']*)'"
 
 
 def marker_line(text: str) -> int:
@@ -36,18 +34,22 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
     line = column = 0
     try:
         document = tomli.loads(text)
-    except tomli.TOMLDecodeError as problem:
-        message, line, column, better = _explain(problem, text)
-        hint = hint or better
-    except RecursionError:
-        message = _TOO_DEEP
-    except ValueError:  # from int(), which refuses to read thousands of digits
-        message = "a number has too many digits"
-    else:
         if not _is_too_deep(document):
             return document
         message = _TOO_DEEP
-    raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint)) from None
+    except RecursionError:
+        message = _TOO_DEEP
+    except tomli.TOMLDecodeError as problem:
+        message = str(problem)
+        if line := marker_line(text):
+            message, hint = "unresolved merge markers", hint or "settle the merge"
+        elif place := re.search(_PLACE, message):
+            line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
+            message = message[0].lower() + message[1 : place.start()].replace("\n", " ")
+            hint = hint or ("strings stand in quotes" if message == "invalid value" else "")
+    except ValueError:  # from int(), which refuses to read thousands of digits
+        message = "a number has too many digits"
+    raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))
 
 
 _TOO_DEEP = f"tables and lists are nested more than {DEEPEST} deep"
@@ -75,68 +77,31 @@ def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> It
             yield from strings(value, here)
 
 
-def _explain(problem: tomli.TOMLDecodeError, text: str) -> tuple[str, int, int, str]:
-    """Message, line, column and hint."""
-    if marker := marker_line(text):
-        return "unresolved merge markers", marker, 0, "settle the merge"
-    message = str(problem)
-    place = re.search(_PLACE, message)
-    if place is None:
-        return message, 0, 0, ""
-    lines = text.rstrip().split("\n")
-    line, column = int(place[1] or len(lines)), int(place[2] or 0)
-    message = message[: place.start()].replace("\n", " ")
-    if message == "Cannot overwrite a value":
-        key = ".".join(_keys(lines[line - 1])) if line <= len(lines) else ""
-        return f"`{key}` is set twice" if key else "a key is set twice", line, 0, "remove one of them"
-    if table := re.match(_TWICE, message):
-        name = ".".join(re.findall(_WORD, table[1]))
-        return f"the table `{name}` is there twice", line, 0, "put the keys of both into one table"
-    hint = "strings stand in quotes" if message == "Invalid value" else ""
-    return message[0].lower() + message[1:], line, column, hint
+def key_lines(text: str) -> dict[tuple[str, ...], int]:
+    """The line, counted from 1, at which each key or table first stands, by its full path.
 
-
-Lines: TypeAlias = dict[tuple[str, ...], int]
-"""Where each key, by its full path, first stands in a document; lines count from 1."""
-
-
-def lines(text: str) -> Lines:
-    """The line of every key and of every table."""
-    found: Lines = {}
+    Escapes in quoted keys are not resolved: such a key is not found, and the table above it is named instead.
+    """
+    found: dict[tuple[str, ...], int] = {}
     header: tuple[str, ...] = ()
     for number, line in enumerate(text.split("\n"), start=1):
-        keys = _keys(line)
-        if _HEADER.match(line):
-            path = header = keys
-        else:
-            path = header + keys
+        opening = _HEADER.match(line)
+        end, more = opening.end() if opening else 0, "."
+        keys: tuple[str, ...] = ()
+        while more and (part := _PART.match(line, end)):
+            quoted, literal, bare, more = part.groups()
+            keys, end = (*keys, quoted or literal or bare or ""), part.end()
+        if more or line[end : end + 1] not in ("=", "]"):
+            keys = ()  # the line neither sets a key nor opens a table
+        path = keys if opening else header + keys
+        if opening:
+            header = keys
         for length in range(1, min(len(path), DEEPEST) + 1):
             found.setdefault(path[:length], number)
     return found
 
 
-def nearest(found: Lines, *path: str) -> int:
+def nearest(lines: dict[tuple[str, ...], int], *path: str) -> int:
     """The line of the key at `path`, or else of the nearest table above it; 0 if there is none."""
     paths = (path[:length] for length in range(len(path), 0, -1))
-    return next((found[prefix] for prefix in paths if prefix in found), 0)
-
-
-def _keys(line: str) -> tuple[str, ...]:
-    """The dotted key that a line sets, or the table that it opens; empty if it does neither."""
-    opening = _HEADER.match(line)
-    start = opening.end() if opening else 0
-    keys = []
-    while part := _PART.match(line, start):
-        quoted, literal, bare, more = part.groups()
-        keys.append(_unescaped(quoted) if quoted is not None else bare if literal is None else literal)
-        start = part.end()
-        if not more:
-            return tuple(keys) if line[start : start + 1] in ("=", "]") else ()
-    return ()
-
-
-def _unescaped(quoted: str) -> str:
-    try:
-        return str(tomli.loads(f'key = "{quoted}"')["key"]) if "\\" in quoted else quoted
-    except tomli.TOMLDecodeError:
-        return quoted
+    return next((lines[prefix] for prefix in paths if prefix in lines), 0)

@@ -118,10 +118,10 @@ def find_answer(config_file: str, key: str) -> list[str] | None:
     return answer if answer is not None and saved and saved.check() is not None else None
 
 
-def has_answer(arguments: list[str]) -> bool:
-    """Whether a saved answer would do for a command."""
+def saved_answer(arguments: list[str]) -> list[str] | None:
+    """The saved answer of a command; None if there is none, or if it does not hold any more."""
     config_file = find_config(arguments)
-    return config_file is not None and find_answer(config_file, answer_key(arguments, config_file)) is not None
+    return find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
 
 
 def print_answer(arguments: list[str]) -> str | None:
@@ -131,8 +131,7 @@ def print_answer(arguments: list[str]) -> str | None:
     """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
-    config_file = find_config(arguments)
-    answer = find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
+    answer = saved_answer(arguments)
     if answer is None:
         return None
     with streams.SafeStreams() as output:
@@ -168,29 +167,25 @@ def save_answer(
     before = saved.check() if saved and len(saved.answers) < _MAX_ANSWERS else None
     if saved and before and all(before.get(pair, found) == found for pair, found in recorded.items()):
         recorded, answers = before | recorded, saved.answers | answers
+    listed = [[found, *texts] for found, texts in answers.items()]
+    checks = [text for pair in recorded for text in pair]
+    if any(not text or "\0" in text for section in (checks, *listed) for text in section):
+        return  # the file can't hold that
+    temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     try:
-        _write(folder, [text for pair in recorded for text in pair], _hash(recorded), answers)
+        descriptor = _create(temporary)
+        try:
+            status = os.fstat(descriptor)  # which the file is bound to
+            head = [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), str(_hash(recorded))]
+            text = "\0\0".join("\0".join(section) for section in (head, checks, *listed, [str(len(listed))]))
+            os.write(descriptor, text.encode("utf-8", "surrogateescape"))
+            os.utime(descriptor, ns=(status.st_mtime_ns, status.st_mtime_ns))
+            os.replace(temporary, os.path.join(folder, _NAME))
+        finally:
+            os.close(descriptor)
+            _remove(temporary)
     except (OSError, ValueError):
         return  # the next command runs, as this one did
-
-
-def _write(folder: str, checks: list[str], found: int, answers: dict[str, list[str]]) -> None:
-    """Write the file, bound to its inode and time; nothing if it can't hold one of the texts. Raises OSError."""
-    listed = [[key, *answer] for key, answer in answers.items()]
-    if any(not text or "\0" in text for section in (checks, *listed) for text in section):
-        return
-    temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
-    file = _create(temporary)
-    try:
-        status = os.fstat(file)
-        head = [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), str(found)]
-        text = "\0\0".join("\0".join(section) for section in (head, checks, *listed, [str(len(listed))]))
-        os.write(file, text.encode("utf-8", "surrogateescape"))
-        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
-        os.replace(temporary, os.path.join(folder, _NAME))
-    finally:
-        os.close(file)
-        _remove(temporary)
 
 
 def _create(path: str) -> int:

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from unittest import mock
 
+import msgspec
 import pytest
 
 from urdfsync.state import file_operations
@@ -35,9 +36,9 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def test_a_written_file_is_new_and_has_the_permissions_of_another(tmp_path: Path, old: Path) -> None:
-    file_operations.write(tmp_path / "new", b"new", like=old)
+    file_operations.write(tmp_path / "new", b"new", old)
     assert (tmp_path / "new").stat().st_mode == old.stat().st_mode
-    file_operations.write(tmp_path / "newer", b"", like=tmp_path / "none")
+    file_operations.write(tmp_path / "newer", b"", tmp_path / "none")
     assert contents(tmp_path) == {"old": b"old", "new": b"new", "newer": b""}
 
 
@@ -46,25 +47,25 @@ def test_what_is_written_takes_no_place_and_follows_no_link(tmp_path: Path, old:
     (tmp_path / "link").symlink_to(tmp_path / target)
     for path in (old, tmp_path / "link"):
         with pytest.raises(FileExistsError):
-            file_operations.write(path, b"new")
+            file_operations.write(path, b"new", old)
         with pytest.raises(FileExistsError):
-            file_operations.write_bound(path, lambda inode, time: b"new")
+            file_operations.write_bound(path, file_operations.Bound())
     assert old.read_bytes() == b"old"
     assert not (tmp_path / "none").exists()
 
 
 def test_a_file_is_bound_to_its_place(tmp_path: Path) -> None:
     path, copy = tmp_path / "bound", tmp_path / "copy"
-    file_operations.write_bound(path, lambda inode, time: f"{inode} {time}".encode())
-    inode, time = map(int, path.read_text().split())
-    assert file_operations.is_bound(path, inode, time)
+    file_operations.write_bound(path, file_operations.Bound())
+    content = msgspec.json.decode(path.read_bytes(), type=file_operations.Bound)
+    assert file_operations.is_bound(path, content)
     copy.write_bytes(path.read_bytes())
-    os.utime(copy, ns=(time, time))
-    assert not file_operations.is_bound(copy, inode, time)
+    os.utime(copy, ns=(content.written, content.written))
+    assert not file_operations.is_bound(copy, content)
     path.rename(tmp_path / "moved")
-    assert file_operations.is_bound(tmp_path / "moved", inode, time)
+    assert file_operations.is_bound(tmp_path / "moved", content)
     (tmp_path / "moved").write_bytes(copy.read_bytes())
-    assert not file_operations.is_bound(tmp_path / "moved", inode, time)
+    assert not file_operations.is_bound(tmp_path / "moved", content)
 
 
 def test_a_place_must_be_free(system: str, old: Path, tmp_path: Path) -> None:

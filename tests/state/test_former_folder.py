@@ -56,24 +56,17 @@ def hostile(execute: Execute, project: Path) -> Path:
     return project
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["build"],
-        ["build", "--full"],
-        ["build", "--repair"],
-        ["build", "--dry-run"],
-        ["build", "--check"],
-        ["status"],
-        ["diff"],
-        ["resolve", "--all", "--take"],
-    ],
-    ids=" ".join,
-)
+COMMANDS = "build, build --full, build --repair, build --dry-run, build --check, status, diff, resolve --all --take"
+HOOKS = [pytest.param(command, marks=NEEDS_GIT) for command in ("hook build", "hook check")]
+
+
+@pytest.mark.parametrize("command", [*COMMANDS.split(", "), *HOOKS])
 def test_a_strangers_manifest_deletes_nothing_of_the_users(
-    execute: Execute, hostile: Path, command: Sequence[str]
+    execute: Execute, hostile: Path, command: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    execute(*command, code=None)
+    if command.startswith("hook"):
+        Repository(hostile, monkeypatch).git("add", "-A")
+    execute(*command.split(), code=None)
     assert contents(hostile / "modelica/Mine") == OWN
     execute("build", code=None)
     assert contents(hostile / "modelica/Mine") == OWN
@@ -168,16 +161,6 @@ def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Exec
     execute("build")
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
-
-
-@NEEDS_GIT
-@pytest.mark.parametrize("mode", ["build", "check"])
-def test_a_hook_deletes_nothing_either(
-    execute: Execute, hostile: Path, mode: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    Repository(hostile, monkeypatch).git("add", "-A")
-    execute("hook", mode, code=None)
-    assert contents(hostile / "modelica/Mine") == OWN
 
 
 @pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])

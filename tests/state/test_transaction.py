@@ -62,17 +62,21 @@ def test_a_file_gets_the_group_of_its_folder(
     assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
 
 
-@pytest.mark.parametrize("number", range(4))
-def test_a_file_that_is_not_as_planned_stays(
-    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int
+@pytest.mark.parametrize(("number", "is_folder"), [*((number, False) for number in range(4)), (0, True)])
+def test_what_is_not_as_planned_stays(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int, is_folder: bool
 ) -> None:
     mine = changes[number].path
     mine.parent.mkdir(parents=True, exist_ok=True)
-    mine.write_bytes(b"mine")
+    if is_folder:
+        mine.unlink()
+        mine.mkdir()
+    else:
+        mine.write_bytes(b"mine")
     applied = transactions.apply("arm", changes, [tmp_path / "a"])
-    assert applied.not_done[0] == mine
+    assert applied.not_done == tuple(dict.fromkeys([mine, changes[3].path]))
     after = DONE if number == 3 else OVERTAKEN
-    assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"mine"}
+    assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"" if is_folder else b"mine"}
 
 
 @pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
@@ -122,13 +126,3 @@ def test_what_cant_be_finished_is_finished_later(
     assert note.message == "the last build of robot `arm` was interrupted; it is finished"
     assert contents(tmp_path) == DONE
     assert transactions.recover() == ()
-
-
-def test_a_folder_in_the_way_stays(tmp_path: Path, transactions: Transactions, changes: list[FileChange]) -> None:
-    (tmp_path / "renewed.mo").unlink()
-    (tmp_path / "renewed.mo").mkdir()
-    assert transactions.apply("arm", changes, [tmp_path / "a"]).not_done == (
-        tmp_path / "renewed.mo",
-        tmp_path / "state/robots/arm.json",
-    )
-    assert contents(tmp_path) == {**OVERTAKEN, "renewed.mo": b""}

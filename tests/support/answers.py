@@ -78,8 +78,7 @@ def save(*arguments: str) -> None:
 
 def saved(*arguments: str) -> list[str] | None:
     """The saved answer of a command, if it holds."""
-    file = uptodate.find_config(list(arguments))
-    return uptodate.find_answer(file, uptodate.answer_key(list(arguments), file)) if file else None
+    return uptodate.saved_answer(list(arguments))
 
 
 def tmpfs(path: Path) -> bool:

@@ -16,7 +16,7 @@ import tomli_w
 from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.config import shown
-from urdfsync.config.values import in_words
+from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.engine import source as source_files

@@ -1,34 +1,19 @@
 """The configuration `urdfsync.toml`: what a user may set, how it is read, and the folders of urdfsync itself."""
 
-from urdfsync.config.load import find, load, parse
-from urdfsync.config.names import is_robot_name
-from urdfsync.config.paths import (
-    find_own_library,
-    library_folder,
-    read_source,
-    ros_package_path,
-    shown,
-    templates_folder,
-    working_folder,
-)
-from urdfsync.config.settings import FILE_NAME, STATE_FOLDER, CheckConfig, Config, Keys, RobotConfig
-
-__all__ = [
-    "FILE_NAME",
-    "STATE_FOLDER",
-    "CheckConfig",
-    "Config",
-    "Keys",
-    "RobotConfig",
-    "find",
-    "find_own_library",
-    "is_robot_name",
-    "library_folder",
-    "load",
-    "parse",
-    "read_source",
-    "ros_package_path",
-    "shown",
-    "templates_folder",
-    "working_folder",
-]
+from urdfsync.config.load import find as find
+from urdfsync.config.load import load as load
+from urdfsync.config.load import parse as parse
+from urdfsync.config.names import is_robot_name as is_robot_name
+from urdfsync.config.paths import find_own_library as find_own_library
+from urdfsync.config.paths import library_folder as library_folder
+from urdfsync.config.paths import read_source as read_source
+from urdfsync.config.paths import ros_package_path as ros_package_path
+from urdfsync.config.paths import templates_folder as templates_folder
+from urdfsync.config.paths import working_folder as working_folder
+from urdfsync.config.settings import FILE_NAME as FILE_NAME
+from urdfsync.config.settings import STATE_FOLDER as STATE_FOLDER
+from urdfsync.config.settings import CheckConfig as CheckConfig
+from urdfsync.config.settings import Config as Config
+from urdfsync.config.settings import Keys as Keys
+from urdfsync.config.settings import RobotConfig as RobotConfig
+from urdfsync.files import shown as shown

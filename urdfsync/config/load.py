@@ -6,16 +6,17 @@ domain; `[defaults]` the same without source, package and class; `[check]` the k
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import NoneType, UnionType
+from typing import Any, Literal, NamedTuple, Union, get_args, get_origin
 
 import msgspec
 
 from urdfsync import dependencies, registry, tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
-from urdfsync.config.paths import shown
 from urdfsync.config.settings import (
     FILE_NAME,
     OWN_KEYS,
@@ -26,10 +27,12 @@ from urdfsync.config.settings import (
     Keys,
     RobotConfig,
 )
-from urdfsync.config.values import convert
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
+from urdfsync.files import shown
 from urdfsync.spelling import nearest
+
+_WORDS = {str: "a string", int: "an integer", float: "a number", bool: "true or false", dict: "a table"}
 
 
 def find(start: Path) -> Path:
@@ -74,6 +77,18 @@ def parse(text: str, file: Path, name: str) -> Config:
     return Config(file, robots, check)
 
 
+def in_words(kind: Any) -> str:
+    """What a value may be: `a string`, `"fixed" or "floating"`, `a list of strings`."""
+    origin, arguments = get_origin(kind), get_args(kind)
+    if origin is Literal:
+        return " or ".join(map(json.dumps, arguments))
+    if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
+        return " or ".join(in_words(part) for part in arguments if part is not NoneType)
+    if origin in (tuple, list):
+        return f"a list of {'strings' if arguments[0] is str else in_words(arguments[0])}"
+    return _WORDS.get(kind, f"of the type {kind}")
+
+
 class _Table(NamedTuple):
     """A table to be read: how messages call it, its values, and the line of each key; that of the table for `""`."""
 
@@ -88,7 +103,7 @@ class _Reader:
     def __init__(self, text: str, file: str, root: Path) -> None:
         self.problems: list[Diagnostic] = []
         self._document = tomlfile.parse(text, file, ConfigError)
-        self._lines = tomlfile.lines(text)
+        self._lines = tomlfile.key_lines(text)
         self._file, self._root = file, root
 
     def check_characters(self) -> None:
@@ -109,20 +124,22 @@ class _Reader:
         for name, values in robots.items():
             if not isinstance(values, dict):
                 self._report("wrong-value", self._line("robots", name), f"`robots.{name}` must be a table")
-            elif not is_robot_name(name):
+                continue
+            if not is_robot_name(name):
                 message = f"the robot's name {name!r} can't be a file's name"
                 hint = "use letters, digits, `_`, `-` and `.`, a letter or digit first"
                 self._report("robot-name", self._line("robots", name), message, hint)
-            elif (domain := self._domain(name, values, defaults)) is not None:
-                known |= _names_of(domain.options)
-                if (robot := self._robot(name, values, defaults, domain)) is not None:
-                    yield robot
-        table = self._table("`[defaults]`", defaults, "defaults")
-        for key in OWN_KEYS:
-            if key in defaults:
-                message = f"`{key}` can't have a default: every robot has its own"
-                self._report("unknown-key", table.lines[key], message)
-        self._refuse_unknown(table, known)
+                continue
+            try:
+                domain = registry.domain(str(values.get("domain", defaults.get("domain", "urdf"))))
+            except ConfigError as error:
+                line = self._line(*(("robots", name) if "domain" in values else ("defaults",)), "domain")
+                self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
+                continue
+            known |= _names_of(domain.options)
+            if (robot := self._robot(name, values, defaults, domain)) is not None:
+                yield robot
+        self._refuse_unknown(self._table("`[defaults]`", defaults, "defaults"), known.difference(OWN_KEYS))
 
     def check(self) -> CheckConfig:
         """The table `[check]`."""
@@ -131,9 +148,6 @@ class _Reader:
         keys = self._read(table, CheckKeys)
         if keys is None or keys.library is None:
             return CheckConfig()
-        if not keys.library:
-            hint = "give the path of the folder that holds the Modelica Standard Library, or take the line out"
-            self._report("wrong-value", table.lines["library"], "`library` must name a folder", hint)
         return CheckConfig(_absolute(self._root / keys.library), table.lines["library"])
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
@@ -161,16 +175,21 @@ class _Reader:
         table = _Table(f"robot `{name}`", inherited | own, lines)
         self._refuse_unknown(table, known)
         keys, options = self._read(table, Keys), self._read(table, domain.options)
-        if keys is not None:
-            self._check_keys(table, keys)
-        if keys is None or options is None or len(self.problems) > before:
+        if keys is None:
             return None
-        source = Path(keys.source)
+        for key, message, hint in find_name_problems(keys.package, keys.class_):
+            self._report("modelica-name", lines[key], message, hint)
+        source, output = Path(keys.source), _absolute(self._root / keys.output)
+        if Path(_folded(output)).is_relative_to(_folded(self._root / STATE_FOLDER)):
+            message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
+            self._report("wrong-value", lines["output"], message, "name another folder")
+        if len(self.problems) > before:
+            return None
         return RobotConfig(
             name=name,
             source=_absolute(self._root / source),
             source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
-            output=_absolute(self._root / keys.output),
+            output=output,
             target=Target(keys.package, model_class(keys.package, keys.class_)),
             domain=keys.domain,
             templates=_absolute(self._root / keys.templates) if keys.templates else None,
@@ -182,28 +201,6 @@ class _Reader:
             lines=lines,
         )
 
-    def _domain(self, robot: str, own: dict[str, Any], defaults: dict[str, Any]) -> Domain | None:
-        try:
-            return registry.domain(str(own.get("domain", defaults.get("domain", "urdf"))))
-        except ConfigError as error:
-            line = self._line("robots", robot, "domain") if "domain" in own else self._line("defaults", "domain")
-            self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
-            return None
-
-    def _check_keys(self, table: _Table, keys: Keys) -> None:
-        """Names and paths that can be read, and can't be used."""
-        for key, message, hint in find_name_problems(keys.package, keys.class_):
-            self._report("modelica-name", table.lines[key], message, hint)
-        if not keys.source:
-            hint = "give the path of the source"
-            self._report("wrong-value", table.lines["source"], "`source` must name a file", hint)
-        if not keys.output:
-            hint = 'write "." for the folder of the configuration itself'
-            self._report("wrong-value", table.lines["output"], "`output` must name a folder", hint)
-        if Path(_folded(_absolute(self._root / keys.output))).is_relative_to(_folded(self._root / STATE_FOLDER)):
-            message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
-            self._report("wrong-value", table.lines["output"], message, "name another folder")
-
     def _read(self, table: _Table, struct: type[Any]) -> Any:
         """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
         values: dict[str, Any] = {}
@@ -212,16 +209,17 @@ class _Reader:
             key = field.encode_name
             try:
                 if key in table.values:
-                    values[field.name] = convert(key, table.values[key], field.type)
+                    values[field.name] = msgspec.convert(table.values[key], field.type)
                 elif field.required:
-                    self._report(
-                        "missing-key", table.lines[""], f"{table.name} has no `{key}`", f"add a line `{key} = …`"
-                    )
-            except ValueError as error:
-                self._report("wrong-value", table.lines[key], str(error))
+                    message, hint = f"{table.name} has no `{key}`", f"add a line `{key} = …`"
+                    self._report("missing-key", table.lines[""], message, hint)
+            except msgspec.ValidationError:
+                given = json.dumps(table.values[key], ensure_ascii=False, default=str)
+                message = f"`{key}` must be {in_words(field.type)}, not {given}"
+                self._report("wrong-value", table.lines[key], message)
         try:
             return struct(**values) if len(self.problems) == before else None
-        except (TypeError, ValueError) as error:
+        except ValueError as error:  # options that do not go together
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
 

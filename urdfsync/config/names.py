@@ -30,9 +30,8 @@ def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
         if name in KEYWORDS:
             found.append((key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name)))
         elif not is_identifier(name):
-            message = f"`{key}`: {name!r} is no Modelica identifier"
-            message = message if name else f"`package` must be a full class name, not {package!r}"
-            found.append((key, message, "use letters, digits and `_`, a letter first"))
+            hint = "use letters, digits and `_`, a letter first"
+            found.append((key, f"`{key}`: {name!r} is no Modelica identifier", hint))
     if found:
         return found
     for index, part in enumerate(parts):

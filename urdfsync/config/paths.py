@@ -10,6 +10,7 @@ import urdfsync
 from urdfsync import dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain
+from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 
 
@@ -29,19 +30,6 @@ def read_source(file: Path) -> bytes:
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
-
-
-def shown(path: Path) -> str:
-    """A path as people see it: relative to the working folder if it is inside it."""
-    text = str(path)
-    try:
-        current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
-    except FileNotFoundError:  # somebody has deleted it
-        return text
-    inside = os.path.join(current, "")  # noqa: PTH118
-    if os.path.normcase(text).startswith(os.path.normcase(inside)):
-        return text[len(inside) :]
-    return "." if text == current else text
 
 
 def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:

@@ -8,9 +8,9 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync.config.paths import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Target
+from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
 FILE_NAME = "urdfsync.toml"

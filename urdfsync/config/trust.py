@@ -9,9 +9,15 @@ import msgspec
 import platformdirs
 
 from urdfsync import dependencies, tomlfile
-from urdfsync.config.paths import shown
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.files import shown
+
+
+class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
+    """The user's file."""
+
+    folders: list[str] = []
 
 
 def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | None:
@@ -22,27 +28,17 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     if robot.output.is_relative_to(config.root):
         return None
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
-    if os.path.realpath(config.root) in _trusted_folders(file):
+    try:
+        text = dependencies.read_file(file).decode()
+        folders = msgspec.convert(tomlfile.parse(text, str(file), ConfigError), _Trusted).folders
+    except FileNotFoundError:
+        folders = []
+    except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
+        message, hint = f"it can't be used: {error}", 'write `folders = ["/home/me/robots"]`, in UTF-8'
+        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
+    if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None
     message = f"`output` leads out of the configuration's folder, to {shown(robot.output)}"
     hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'
     line = robot.lines.get("output", 0)
     return Diagnostic(Severity.ERROR, "untrusted-output", message, shown(config.file), line, hint=hint)
-
-
-class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
-    """The user's file."""
-
-    folders: list[str] = []
-
-
-def _trusted_folders(file: Path) -> set[str]:
-    try:
-        text = dependencies.read_file(file).decode()
-        folders = msgspec.convert(tomlfile.parse(text, str(file), ConfigError), _Trusted).folders
-    except FileNotFoundError:
-        return set()
-    except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
-        message, hint = f"it can't be used: {error}", 'write `folders = ["/home/me/robots"]`, in UTF-8'
-        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
-    return {os.path.realpath(Path(folder).expanduser()) for folder in folders}

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync import profiling, registry
-from urdfsync.config.paths import shown, templates_folder
+from urdfsync.config.paths import templates_folder
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.dependencies import is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
 _SUFFIX = ".jinja"
@@ -17,7 +18,7 @@ _SUFFIX = ".jinja"
 
 @profiling.stage("configuration")
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
-    """Search paths that do not exist, and templates that replace none."""
+    """Search paths that do not exist; files in template folders that no template of the domain or other file names."""
     found = []
     for robot in robots:
         for folder in robot.package_paths:
@@ -26,11 +27,6 @@ def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagno
                 line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
                 warning = Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line, hint=hint)
                 found.append(warning)
-    return tuple(dict.fromkeys([*found, *_find_stray_templates(robots)]))
-
-
-def _find_stray_templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]:
-    """Files in template folders that are neither named as a template of the domain nor used by another file there."""
     for robot in robots:
         if robot.templates is None or not is_folder(robot.templates):
             continue
@@ -45,7 +41,8 @@ def _find_stray_templates(robots: Sequence[RobotConfig]) -> Iterator[Diagnostic]
             near = nearest(replaces, sorted(known), 0.5)
             hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
             message = "no template of urdfsync has this name, so this one replaces none"
-            yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
+            found.append(Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint))
+    return tuple(dict.fromkeys(found))
 
 
 def _files(folder: Path) -> dict[str, Path]:

@@ -13,7 +13,6 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.state import repair
 from urdfsync.state.record import Choice
 from urdfsync.state.store import Store
 
@@ -30,7 +29,9 @@ def find_all(generation: Generation, actions: Actions, names: list[Diagnostic]) 
         place = shown(inputs.config.file), inputs.robot.lines[""]
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
     if inputs.recovered:
-        found.append(repair.repaired(inputs.recovered, inputs.robot.name, shown(inputs.store.folder)))
+        message = f"the recorded state of robot `{inputs.robot.name}` was made again from what could be read of it"
+        hint = "files that are not what was ever written are shown as edited or in conflict"
+        found.append(Diagnostic(Severity.NOTE, "repaired-state", message, shown(inputs.store.folder), hint=hint))
     found += [*_left_behind(inputs, actions), *_lost_connectors(generation), *_outdated(inputs, actions)]
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from urdfsync import dependencies
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
@@ -37,7 +37,7 @@ class PackageFiles:
         """`known` are states that hold as long as a file has the same stat values."""
         self.root, self._output = config.root, robot.output
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
-        self._trees = [Tree(robot.output, shown), Tree(config.root, shown)]
+        self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._known = known or {}
         self.states: dict[str, FileState | None] = {}

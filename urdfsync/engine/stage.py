@@ -18,6 +18,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.parents import SharedFile
+from urdfsync.files import text_digest
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.record import FileRecord, RecordState
 from urdfsync.state.store import State, Store, Witness
@@ -182,7 +183,7 @@ def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, st
     model = modelfile.of(snapshot, generation.imported.imports, bases, since, revision)
     model_text = modelfile.dumps(model)
     whole = msgspec.structs.replace(
-        inputs.heading(manifest.text_hash(model_text)),
+        inputs.heading(text_digest(model_text.encode())),
         names=inputs.domain.names(snapshot, inputs.robot.target),
         dependencies=generation.imported.records,
         orders=decision.orders,

@@ -14,7 +14,7 @@ import msgspec
 from urdfsync import config as configuration
 from urdfsync import precommit, uptodate
 from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
-from urdfsync.dependencies import record_dependencies
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
@@ -62,7 +62,7 @@ def check_index(
     for file in files:
         started = uptodate.read_clocks()
         try:
-            with record_dependencies() as dependencies:
+            with Dependencies() as dependencies:
                 found = _check_configuration(index, file, options, writing, stashed)
         except UrdfsyncError as error:
             diagnostics += error.diagnostics

@@ -16,7 +16,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
@@ -67,7 +66,7 @@ class BaseStore:
                 file_operations.make_folder(folder)
             file_operations.append(self._file, itertools.chain([b"\n"], lines))  # the last line may have been cut off
         except OSError as error:
-            raise failure(error, shown(self._folder)) from None
+            raise failure(error, self._folder) from None
         self._added |= new.keys()
 
     def prune(self, wanted: Collection[str]) -> None:

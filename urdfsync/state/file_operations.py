@@ -16,6 +16,8 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
+import msgspec
+
 from urdfsync import profiling
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
@@ -56,16 +58,15 @@ def read(path: Path) -> bytes | None:
         return None
 
 
-def write(path: Path, content: bytes, like: Path | None = None) -> None:
+def write(path: Path, content: bytes, like: Path) -> None:
     """Write a new file, with the permissions of `like` if that exists."""
     descriptor = os.open(path, _CREATE, 0o666)
     try:
         while content:
             content = content[os.write(descriptor, content) :]
-        if like is not None:
-            with contextlib.suppress(FileNotFoundError):
-                mode = stat.S_IMODE(like.lstat().st_mode)
-                os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
+        with contextlib.suppress(FileNotFoundError):
+            mode = stat.S_IMODE(like.lstat().st_mode)
+            os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
     finally:
         os.close(descriptor)
 
@@ -78,22 +79,28 @@ def append(path: Path, lines: Iterable[bytes]) -> None:
         file.writelines(lines)
 
 
-def write_bound(path: Path, encode: Callable[[int, int], bytes]) -> None:
-    """Write a new file whose content names its own inode and time (ns): `encode(inode, time)`.
+class Bound(msgspec.Struct, frozen=True, kw_only=True):
+    """The content of a JSON file that names the file's own inode and time: no copy has both, nor a clone."""
 
-    No copy of the file has both, and none that version control makes: see `is_bound`.
-    """
+    inode: int = 0
+    written: int = 0
+    """Time of change in ns."""
+
+
+def write_bound(path: Path, content: Bound) -> None:
+    """Write a new file that is bound to its inode and time."""
     with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
         status = os.fstat(file.fileno())
-        file.write(encode(status.st_ino, status.st_mtime_ns))
+        bound = msgspec.structs.replace(content, inode=status.st_ino, written=status.st_mtime_ns)
+        file.write(msgspec.json.encode(bound))
     follows = os.utime not in os.supports_follow_symlinks  # only where there is no other way
     os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed it
 
 
-def is_bound(path: Path, inode: int, time: int) -> bool:
+def is_bound(path: Path, content: Bound) -> bool:
     """Whether a file still has the inode and the time that its content names."""
     status = path.lstat()
-    return (status.st_ino, status.st_mtime_ns) == (inode, time)
+    return (status.st_ino, status.st_mtime_ns) == (content.inode, content.written)
 
 
 def exchange(path: Path, target: Path) -> None:

@@ -22,7 +22,7 @@ from urdfsync.state import file_operations
 FORMAT = 4
 """Raised when another urdfsync could misread a journal."""
 _ASIDE = "refused.json"
-_HINT = "`urdfsync build --repair` sets it aside; files that are half way are shown as conflicts then"
+REPAIR = "`urdfsync build --repair` sets the journal aside; files that are half way are shown as conflicts then"
 
 
 class Phase(enum.StrEnum):
@@ -47,7 +47,7 @@ class Step(msgspec.Struct, frozen=True, omit_defaults=True):
     """As in `transaction.FileChange`."""
 
 
-class Journal(msgspec.Struct, frozen=True):
+class Journal(file_operations.Bound, frozen=True):
     """One transaction."""
 
     robot: str
@@ -58,9 +58,6 @@ class Journal(msgspec.Struct, frozen=True):
     """Folders that the transaction makes, outermost first."""
     emptied: tuple[str, ...] = ()
     """Folders that go if the transaction leaves them empty, innermost first."""
-    inode: int = 0
-    written: int = 0
-    """Inode and time of change (ns) of the journal's own file."""
     format: int = FORMAT
 
 
@@ -76,27 +73,25 @@ class JournalFolder:
         self._root = root
         self._new = folder / f"new{TEMPORARY}"
 
-    def file(self, phase: Phase | None) -> Path:
-        """Where the journal is in a phase; the folder for None."""
-        return self.folder / f"{phase}.json" if phase else self.folder
+    def file(self, phase: Phase) -> Path:
+        """Where the journal is in a phase."""
+        return self.folder / f"{phase}.json"
+
+    def names(self) -> list[str]:
+        """The names of all journals, perhaps of another urdfsync, but for one that was set aside."""
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            return [name for name in list_folder(self.folder) if name.endswith(".json") and name != _ASIDE]
+        return []
 
     def phase(self) -> Phase | None:
         """The phase of the transaction under way, None if there is none."""
-        names = self._names()
+        names = self.names()
         return next((phase for phase in reversed(Phase) if f"{phase}.json" in names), None)
-
-    def is_pending(self) -> bool:
-        """Whether there is a transaction, perhaps of another urdfsync."""
-        return bool(self._names())
 
     def save(self, journal: Journal) -> None:
         """Write a journal, bound to its file, for the phase PREPARE; as a whole or not at all. Raises OSError."""
-
-        def encode(inode: int, written: int) -> bytes:
-            return msgspec.json.encode(msgspec.structs.replace(journal, inode=inode, written=written))
-
         file_operations.remove(self._new)  # of a run that was killed here
-        file_operations.write_bound(self._new, encode)
+        file_operations.write_bound(self._new, journal)
         file_operations.replace(self._new, self.file(Phase.PREPARE))
         file_operations.sync([self.file(Phase.PREPARE)])
 
@@ -114,20 +109,23 @@ class JournalFolder:
 
     def set_aside(self) -> Path:
         """Give a journal another name, so that nobody acts on it. Raises OSError."""
-        for name in self._names():
+        for name in self.names():
             file_operations.replace(self.folder / name, self.folder / _ASIDE)
         return self.folder / _ASIDE
 
-    def load(self) -> Journal:
-        """The journal of the transaction under way.
+    def load(self) -> tuple[Journal, Phase]:
+        """The journal of the transaction under way, and its phase.
 
         Raises StateError, and changes nothing, for a journal that another urdfsync wrote or that was not written in
         this checkout, OutputError for what is no regular file, and for a folder that is a link.
         """
-        tree = Tree(self._root, shown)
+        tree = Tree(self._root)
         tree.check_folder(self.folder)  # whatever its files are called: they are not ours to set aside at a link's end
-        file = self.file(self.phase())
-        content = tree.read(file) if file != self.folder else b'{"format": 0}'
+        phase = self.phase()
+        if phase is None:
+            self._refuse(self.folder, "an older urdfsync was interrupted here")
+        file = self.file(phase)
+        content = tree.read(file)
         try:
             version = msgspec.json.decode(content or b"", type=_JournalFormat).format
             journal = msgspec.json.decode(content or b"", type=Journal) if version == FORMAT else None
@@ -138,15 +136,9 @@ class JournalFolder:
         if journal is None:
             self._refuse(file, "an older urdfsync was interrupted here")
         is_token = journal.token and set(journal.token) <= set("0123456789abcdef")
-        if not is_token or not file_operations.is_bound(file, journal.inode, journal.written):
+        if not is_token or not file_operations.is_bound(file, journal):
             self._refuse(file, "the journal of an interrupted build was not written in this checkout")
-        return journal
+        return journal, phase
 
-    def _names(self) -> list[str]:
-        """The names of all journals but for one that was set aside."""
-        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-            return [name for name in list_folder(self.folder) if name.endswith(".json") and name != _ASIDE]
-        return []
-
-    def _refuse(self, file: Path, message: str, code: str = "broken-journal", hint: str = _HINT) -> NoReturn:
+    def _refuse(self, file: Path, message: str, code: str = "broken-journal", hint: str = REPAIR) -> NoReturn:
         raise StateError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))

@@ -51,11 +51,6 @@ class Lock:
         self._descriptor: int | None = None
         self._expired = False
 
-    @property
-    def held(self) -> bool:
-        """Whether this process has the lock by way of this object."""
-        return self._descriptor is not None
-
     def acquire(self, shared: bool = False, waiting: Callable[[], None] = lambda: None) -> None:
         """Take the lock, unless it is held already; `shared` waits for writers only. Calls `waiting` on and on.
 
@@ -64,20 +59,26 @@ class Lock:
         Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file or
         folder can't be locked.
         """
-        if self.held:
+        if self._descriptor is not None:
             return
         try:
-            descriptor = self._open_target(shared)
+            if self._folder is not None:
+                descriptor = os.open(self._folder, os.O_RDONLY)
+            elif shared:
+                descriptor = self._open(os.O_RDONLY)
+            else:
+                self._path.parent.mkdir(exist_ok=True)
+                descriptor = self._open(os.O_RDWR | os.O_CREAT)
         except OSError as error:
             if shared and isinstance(error, FileNotFoundError):
                 return
-            raise failure(error, shown(self._path)) from None
+            raise failure(error, self._path) from None
         try:
             self._wait_for(descriptor, shared, waiting)
         except OSError as error:
             os.close(descriptor)
             if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
-                raise failure(error, shown(self._folder or self._path), "it can't be locked") from None
+                raise failure(error, self._folder or self._path, "it can't be locked") from None
             self._folder = None  # the same for all processes here
             self.acquire(shared, waiting)
         except BaseException:
@@ -100,15 +101,6 @@ class Lock:
     def __exit__(self, *_: object) -> None:
         self.release()
 
-    def _open_target(self, shared: bool) -> int:
-        """Open what is locked. Raises OSError."""
-        if self._folder is not None:
-            return os.open(self._folder, os.O_RDONLY)
-        if shared:
-            return self._open(os.O_RDONLY)
-        self._path.parent.mkdir(exist_ok=True)
-        return self._open(os.O_RDWR | os.O_CREAT)
-
     def _wait_for(self, descriptor: int, shared: bool, waiting: Callable[[], None]) -> None:
         end = time.monotonic() + (0 if self._expired else self._wait)
         while True:
@@ -121,7 +113,13 @@ class Lock:
                 return
             if time.monotonic() >= end:
                 self._expired = True
-                raise self._locked()
+                holder = ""
+                with contextlib.suppress(OSError), os.fdopen(self._open(os.O_RDONLY), errors="replace") as file:
+                    holder = file.read(20).strip()
+                who = f"process {holder}" if holder.isdecimal() else "another process"
+                message = f"{who} is building here, and did not finish within {self._wait:g} s"
+                hint = "wait for it or end it, then build again"
+                raise LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._path), hint=hint))
             waiting()
             time.sleep(_PAUSE)
 
@@ -136,15 +134,6 @@ class Lock:
                     file.seek(0)
                     file.truncate()
                     file.write(number)
-
-    def _locked(self) -> LockedError:
-        holder = ""
-        with contextlib.suppress(OSError), os.fdopen(self._open(os.O_RDONLY), errors="replace") as file:
-            holder = file.read(20).strip()
-        who = f"process {holder}" if holder.isdecimal() else "another process"
-        message = f"{who} is building here, and did not finish within {self._wait:g} s"
-        hint = "wait for it or end it, then build again"
-        return LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._path), hint=hint))
 
     def _open(self, flags: int) -> int:
         """Open the file itself: a link is not followed, and a pipe in its place is not waited for."""

@@ -56,7 +56,10 @@ def of(
     since_revision: int | msgspec.UnsetType = msgspec.UNSET,
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
-    facts = {key: ConversionFacts(i.source_hash, i.converter, _plain(i.facts)) for key, i in sorted(imports.items())}
+    facts = {}
+    for key, imported in sorted(imports.items()):
+        plain = msgspec.json.decode(msgspec.json.encode(imported.facts, order="sorted"))
+        facts[key] = ConversionFacts(imported.source_hash, imported.converter, plain)
     texts = dict(sorted((bases or {}).items()))
     return Model(dict(snapshot), facts, texts, None if since is None else dict(since), since_revision)
 
@@ -76,8 +79,3 @@ def loads(text: str, file: str) -> Model:
         message = "unresolved merge markers" if line else f"this is no state of urdfsync: {error}"
         raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR)) from None
     return model
-
-
-def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
-    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(facts, order="sorted"))
-    return data

@@ -13,10 +13,11 @@ from typing import TypeVar
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.domain import Role
+from urdfsync.files import text_digest
 from urdfsync.state import manifest, modelfile
-from urdfsync.state.manifest import FORMAT, DependencyRecord, Manifest
+from urdfsync.state.manifest import DependencyRecord, Manifest
 from urdfsync.state.modelfile import ConversionFacts, Model
 from urdfsync.state.record import FileRecord
 
@@ -25,7 +26,6 @@ _MARKER = r"([<|=>])\1{6,}(?:[ \t].*)?\r?\n?"
 _FORMAT = r'(?m)^ ?"?format"?[ \t]*[=:][ \t]*(\d{1,9}),?[ \t]*\r?$'
 _BASE = r'(?m)^base = "([^"\\]+)"[ \t]*\r?$'
 _IMPORTED = r'(?m)^target_hash = "([^"\\]+)"[ \t]*\r?$'
-_TABLE = r"(?m)^(?=\[)"
 
 _Parsed = TypeVar("_Parsed")
 
@@ -66,7 +66,7 @@ class RecoveredState(msgspec.Struct, frozen=True):
                     imports.setdefault(key, facts)
             for path, text in side.bases.items():
                 file = rebuilt.files.get(f"{rebuilt.folder}/{path}")
-                if file and file.base == manifest.text_hash(text):
+                if file and file.base == text_digest(text.encode()):
                     bases.setdefault(path, text)
         return msgspec.structs.replace(first, imports=imports, bases=bases)
 
@@ -78,15 +78,13 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     names files outside of its package, or is no model, is left out.
     """
     for text, name in ((toml, file), (json, beside)):
-        for match in re.finditer(
-            _FORMAT, text or ""
-        ):  # a side that a newer urdfsync wrote may be no manifest for this one
-            if int(match[1]) > FORMAT:
-                message = f"a newer urdfsync wrote some of this state (format {match[1]}; this one knows {FORMAT})"
-                line = (text or "").count("\n", 0, match.start()) + 1
-                raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, name, line, hint="update urdfsync"))
-    manifests = (_parse(manifest.loads, _each_table_once(side), file) for side in sides(toml or ""))
-    models = ((manifest.text_hash(side), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
+        for number in re.findall(_FORMAT, text or ""):  # a side of a newer urdfsync may be no manifest for this one
+            manifest.check_format(int(number), name)
+    tables = (re.split(r"(?m)^(?=\[)", side) for side in sides(toml or ""))
+    # a merge by lines may have put in a table twice: the last one counts
+    once = ("\n".join({table.partition("\n")[0]: table for table in side}.values()) for side in tables)
+    manifests = (_parse(manifest.loads, side, file) for side in once)
+    models = ((text_digest(side.encode()), _parse(modelfile.loads, side, beside)) for side in sides(json or ""))
     return RecoveredState(
         tuple(side for side in manifests if side is not None),
         {key: model for key, model in models if model is not None},
@@ -112,11 +110,6 @@ def sides(text: str) -> tuple[str, ...]:
             for side in into:
                 side.append(line)
     return tuple(dict.fromkeys(("".join(ours), "".join(theirs))))
-
-
-def _each_table_once(side: str) -> str:
-    """A side of the TOML file without tables that a merge by lines put in twice; the last one counts."""
-    return "\n".join({table.partition("\n")[0]: table for table in re.split(_TABLE, side)}.values())
 
 
 def _parse(parse: Callable[[str, str], _Parsed], text: str, file: str) -> _Parsed | None:
@@ -147,47 +140,22 @@ def rebuilt(recovered: RecoveredState, mine: Mapping[str, str | None], generated
         for path, names in side.orders.items():
             orders[path] = tuple(dict.fromkeys([*orders.get(path, ()), *names]))
         for key, record in side.dependencies.items():
-            # that of the copy on disk, if any side has it
-            is_copy = record.target_hash is not None and record.target_hash == mine.get(
-                f"{side.folder}/{record.target}"
-            )
-            if key not in dependencies or is_copy:
+            copy = mine.get(f"{side.folder}/{record.target}")
+            if key not in dependencies or (copy is not None and copy == record.target_hash):  # the copy on disk counts
                 dependencies[key] = record
-    return msgspec.structs.replace(
-        max(manifests, key=lambda side: (side.generator.domain == domain, side.generator.revision)),
-        files={
-            path: _record(recovered, path, mine.get(path), generated.get(path))
-            for path in sorted(recovered.roles.keys() | lost)
-        },
-        orders=orders,
-        dependencies=dependencies,
-    )
-
-
-def _record(recovered: RecoveredState, path: str, mine: str | None, generated: str | None) -> FileRecord:
-    """What the sides say of a file, with one of the recorded hashes as its base.
-
-    - What is on disk, if urdfsync wrote it: nobody edited it since. A text that urdfsync wrote is its own base, even
-      if its hash got below another path in the merge. A file is never taken for untouched unless its hash is recorded.
-    - Else a hash that is not that of what is generated: the file then counts as edited, and the three-way merge
-      judges. With the generated one as its base, the file would be kept in silence, although the merge of the branches
-      may have lost what the other branch's build brought in.
-    - None if there is none: then the file conflicts.
-    """
-    records = [side.files[path] for side in recovered.manifests if path in side.files] or [FileRecord("", Role.MODEL)]
-    bases = [record.base for record in records if record.base is not None]
-    if mine is not None and (mine in recovered.written or mine in bases):
-        base: str | None = mine
-    else:
-        base = next((one for one in bases if one != generated), bases[0] if bases else None)
-    record = next((record for record in records if record.base == base), records[0])
-    return msgspec.structs.replace(record, base=base)
-
-
-def repaired(recovered: RecoveredState, robot: str, folder: str) -> Diagnostic:
-    """A note that a state was made again, and from what."""
-    origins = ("from the files alone", "from what could be read of it", "from both sides")
-    origin = origins[min(len(recovered.manifests), 2)]
-    message = f"the recorded state of robot `{robot}` was made again, {origin}"
-    hint = "files that are not what was ever written are shown as edited or in conflict" if recovered.manifests else ""
-    return Diagnostic(Severity.NOTE, "repaired-state", message, folder, hint=hint)
+    files: dict[str, FileRecord] = {}
+    for path in sorted(recovered.roles.keys() | lost):
+        records = [side.files[path] for side in manifests if path in side.files] or [FileRecord("", Role.MODEL)]
+        bases = [one.base for one in records if one.base is not None]
+        base = mine.get(path)
+        if base is None or (base not in recovered.written and base not in bases):
+            # Somebody edited it. Its base is a hash that is not that of what is generated: then the three-way merge
+            # judges. With the generated one, the file would be kept in silence, although the merge of the branches may
+            # have lost what the other branch's build brought in. Without any, it conflicts.
+            base = next((one for one in bases if one != generated.get(path)), bases[0] if bases else None)
+        # else nobody edited it since: a text that urdfsync wrote is its own base, even if its hash got below another
+        # path in the merge. A file is never taken for untouched unless its hash is recorded.
+        recorded = next((one for one in records if one.base == base), records[0])
+        files[path] = msgspec.structs.replace(recorded, base=base)
+    heading = max(manifests, key=lambda side: (side.generator.domain == domain, side.generator.revision))
+    return msgspec.structs.replace(heading, files=files, orders=orders, dependencies=dependencies)

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync.config import STATE_FOLDER, is_robot_name, shown
 from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure
+from urdfsync.files import TEMPORARY, Tree, digest, failure, text_digest
 from urdfsync.state import file_operations, manifest, modelfile
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
@@ -28,13 +28,10 @@ _IGNORE = """\
 _FOLDERS = "folders.json"
 
 
-class _WrittenFolders(msgspec.Struct, frozen=True):
-    """A file that says where builds in this checkout wrote. It is bound to its inode and time, so no copy counts."""
+class _WrittenFolders(file_operations.Bound, frozen=True):
+    """A file that says where builds in this checkout wrote, by robot."""
 
     folders: dict[str, tuple[str, ...]]
-    inode: int
-    written: int
-    """Time of change in ns."""
 
 
 Witness: TypeAlias = Mapping[Path, str | None]
@@ -56,7 +53,7 @@ class Store:
 
     def __init__(self, root: Path) -> None:
         self.folder = root / STATE_FOLDER
-        self._tree = Tree(root, shown)
+        self._tree = Tree(root)
         self._seen: dict[Path, tuple[bytes | None, str | None]] = {}
         """Content and hash of each file that was loaded; None for no file."""
 
@@ -80,7 +77,7 @@ class Store:
         if content is None:
             return State(recorded, None, intact=False)
         model = modelfile.loads(content, shown(beside))
-        return State(recorded, model, intact=manifest.text_hash(content) == recorded.source.snapshot)
+        return State(recorded, model, intact=text_digest(content.encode()) == recorded.source.snapshot)
 
     def texts(self, robot: str) -> tuple[str | None, str | None]:
         """The text of the robot's manifest and of its model, whatever they are; None for what is not there."""
@@ -94,7 +91,7 @@ class Store:
 
     def is_unchanged(self, witness: Witness, but: Collection[Path] = ()) -> bool:
         """Whether all files still are as they were then, but for some that somebody else looks at."""
-        tree = Tree(self._tree.root, shown)  # which finds folders that have come since
+        tree = Tree(self._tree.root)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
@@ -117,36 +114,32 @@ class Store:
             return
         file = self.folder / _FOLDERS
         temporary = file.with_name(f".{_FOLDERS}{TEMPORARY}")
-
-        def encode(inode: int, written: int) -> bytes:
-            return msgspec.json.encode(_WrittenFolders(new, inode, written))
-
-        Tree(self._tree.root, shown).check_folder(self.folder)
+        Tree(self._tree.root).check_folder(self.folder)
         try:
             file_operations.make_folder(self.folder)
             file_operations.remove(temporary)  # of a build that was killed here
-            file_operations.write_bound(temporary, encode)
+            file_operations.write_bound(temporary, _WrittenFolders(new))
             file_operations.replace(temporary, file)
         except OSError as error:
-            raise failure(error, shown(file)) from None
+            raise failure(error, file) from None
 
     def _noted_folders(self) -> Mapping[str, tuple[str, ...]]:
         """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
         file = self.folder / _FOLDERS
         try:
-            content = Tree(self._tree.root, shown).read(file)  # finds a folder that this build has made
+            content = Tree(self._tree.root).read(file)  # finds a folder that this build has made
             noted = msgspec.json.decode(content or b"", type=_WrittenFolders)
-            return noted.folders if file_operations.is_bound(file, noted.inode, noted.written) else {}
+            return noted.folders if file_operations.is_bound(file, noted) else {}
         except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return {}
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
-        return is_folder(self._base_folder(robot))
+        return is_folder(self.folder / "base" / robot)
 
     def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
-        return BaseStore(self._base_folder(robot))
+        return BaseStore(self.folder / "base" / robot)
 
     def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
         """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
@@ -186,9 +179,6 @@ class Store:
         """The robot's manifest, and its model."""
         folder = self.folder / "robots"
         return folder / f"{robot}.toml", folder / f"{robot}.json"
-
-    def _base_folder(self, robot: str) -> Path:
-        return self.folder / "base" / robot
 
     def _change(self, path: Path, content: bytes | None) -> FileChange:
         return FileChange(path, content, self._seen[path][1] if path in self._seen else None)

@@ -32,13 +32,12 @@ from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
 from urdfsync.state import file_operations
-from urdfsync.state.journal import Journal, JournalFolder, Phase, Step
+from urdfsync.state.journal import REPAIR, Journal, JournalFolder, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 _STATE_FILES = {"robots": (".toml", ".json"), "svg": (".svg",)}
 """Folders and suffixes of the files in the state folder that transactions write, beside those of conflicts."""
-_REPAIR = "`urdfsync build --repair` sets the journal aside; files that are half way are shown as conflicts then"
 
 
 class UnfinishedError(OutputError):
@@ -76,7 +75,7 @@ class Transactions:
 
     def pending(self) -> bool:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
-        return self._journals.is_pending()
+        return bool(self._journals.names())
 
     @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
@@ -89,8 +88,14 @@ class Transactions:
             Step(self._key(c.path), c.old, None if c.content is None else digest(c.content), c.is_moved)
             for c in changes
         )
-        made = self._missing_folders(change.path.parent for change in changes if change.content is not None)
-        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), tuple(made), tuple(map(self._key, emptied)))
+        made: set[Path] = set()
+        for innermost in {change.path.parent for change in changes if change.content is not None}:
+            for folder in (innermost, *innermost.parents):
+                if folder == self._root or folder in made or folder.is_dir():
+                    break
+                made.add(folder)
+        keys = tuple(map(self._key, sorted(made))), tuple(map(self._key, emptied))
+        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), *keys)
         self._check(journal)
         files = self._files(journal)
         try:
@@ -119,14 +124,20 @@ class Transactions:
         if not self.pending():
             return ()
         try:
-            journal = self._journals.load()
-            self._check(journal, self._journals.file(self._journals.phase()))
+            journal, phase = self._journals.load()
+            self._check(journal, self._journals.file(phase))
         except StateError as error:
             if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
                 raise
-            return (self._set_aside(),)
+            try:
+                aside = self._journals.set_aside()
+            except OSError as problem:
+                self._refuse_to_finish(problem)
+            message = "the journal of an interrupted build was set aside, and nothing was done of it"
+            hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
+            return (Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint),)
         files = self._files(journal)
-        if self._journals.phase() is Phase.PREPARE:
+        if phase is Phase.PREPARE:
             self._discard(journal, files)
             return ()
         applied = self._finish(journal, files)
@@ -154,7 +165,7 @@ class Transactions:
             self._journals.enter(Phase.APPLY)
             file_operations.sync([self._journals.folder])
         except OSError as error:
-            raise failure(error, shown(place)) from None
+            raise failure(error, place) from None
 
     def _discard(self, journal: Journal, files: Sequence[_File], known: Sequence[Diagnostic] = ()) -> None:
         """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
@@ -173,10 +184,22 @@ class Transactions:
         not_done: list[Path] = []
         try:
             if self._journals.phase() is not Phase.DONE:
-                not_done = self._change(files)
+                state_folder = str(self._folder / "robots")
+                others = [file for file in files if file.folder != state_folder]
+                changed = [(file, file.change()) for file in others]
+                # again, since somebody may have written to an old file through a handle that was opened before
+                changed = [(file, done if file.old is None else file.change()) for file, done in changed]
+                not_done = [file.path for file, done in changed if not done]
+                for file in files:  # the recorded state comes last, and stays if a target is not as planned
+                    if file.folder == state_folder and (not_done or not file.change()):
+                        not_done.append(file.path)
                 file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
                 self._journals.enter(Phase.DONE)
-            left = {path for folder in folders for path in _temporary_files(folder)}
+            left = set()
+            for folder in folders:
+                with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+                    names = os.listdir(folder)  # noqa: PTH208 - with those of an exchange of three renames, `….…-tmp~`
+                    left |= {f"{folder}{os.sep}{name}" for name in names if TEMPORARY in name}
             saved = [(file, name) for file in files for name in file.clear(left)] if left else []
             for path in journal.emptied:
                 file_operations.remove_folder(self._path(path))
@@ -192,34 +215,20 @@ class Transactions:
             ),
         )
 
-    def _change(self, files: Sequence[_File]) -> list[Path]:
-        """Change all targets, the recorded state last. Returns those that are not as planned."""
-        state_folder = str(self._folder / "robots")
-        state = [file for file in files if file.folder == state_folder]
-        others = [file for file in files if file.folder != state_folder]
-        changed = [file.change() for file in others]
-        # again, since somebody may have written to an old file through a handle that was opened before
-        again = [done if file.old is None else file.change() for file, done in zip(others, changed, strict=True)]
-        not_done = [file.path for file, done in zip(others, again, strict=True) if not done]
-        for file in state:
-            if not_done or not file.change():
-                not_done.append(file.path)
-        return not_done
-
     def _check(self, journal: Journal, source: Path | None = None) -> None:
         """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
 
         `source` is the file of a journal that was found; None for a build that is about to write.
         """
-        trees = [Tree(self._root, shown), *(Tree(output, shown) for output in self._outputs)]
+        trees = [Tree(self._root), *(Tree(output) for output in self._outputs)]
         paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
         paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
         for path, is_folder in paths:
             tree = next((tree for tree in trees if tree.covers(path)), None)
             if tree is None or not self._is_written(path, tree.root, is_folder):
-                code, hint = ("broken-journal", _REPAIR) if source else ("outside", "")
+                code, hint = ("broken-journal", REPAIR) if source else ("outside", "")
                 if source and tree is None:
-                    hint = f"bring back the `output` that the robot had, and build; {_REPAIR}"
+                    hint = f"bring back the `output` that the robot had, and build; {REPAIR}"
                 message = f"{shown(Path(path))} is no file that a build writes"
                 file = shown(source or Path(path))
                 raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
@@ -239,15 +248,6 @@ class Transactions:
             return False
         return is_folder or parts[-1] == "package.order" or parts[-1].endswith(".mo") or "Resources" in parts[1:-1]
 
-    def _set_aside(self) -> Diagnostic:
-        try:
-            aside = self._journals.set_aside()
-        except OSError as error:
-            self._refuse_to_finish(error)
-        message = "the journal of an interrupted build was set aside, and nothing was done of it"
-        hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
-        return Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint)
-
     def _refuse_to_finish(self, error: OSError, known: Sequence[Diagnostic] = ()) -> NoReturn:
         place = Path(error.filename) if isinstance(error.filename, str) else self._folder
         message = f"an interrupted build can't be brought to an end: {error.strerror or error}"
@@ -263,16 +263,6 @@ class Transactions:
             temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
             found.append(_File(folder, Path(path), Path(temporary), step.old, step.new, step.is_moved))
         return found
-
-    def _missing_folders(self, folders: Iterable[Path]) -> list[str]:
-        """The folders that files need and that do not exist, outermost first."""
-        missing: set[Path] = set()
-        for innermost in set(folders):
-            for folder in (innermost, *innermost.parents):
-                if folder == self._root or folder in missing or folder.is_dir():
-                    break
-                missing.add(folder)
-        return list(map(self._key, sorted(missing)))
 
     def _key(self, path: Path) -> str:
         """A path as journals name it: from the configuration's folder, POSIX."""
@@ -320,7 +310,12 @@ class _File(msgspec.Struct, frozen=True):
             if found in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
             elif found is not None:
-                yield self._keep(path)
+                for number in itertools.count(1):
+                    name = self.path.with_name(f"{self.path.name}.saved{'' if number == 1 else number}")
+                    with contextlib.suppress(FileExistsError):
+                        file_operations.place(path, name)
+                        break
+                yield name
 
     def _create(self) -> bool:
         if not os.path.lexists(self.temporary):
@@ -357,15 +352,6 @@ class _File(msgspec.Struct, frozen=True):
                 file_operations.exchange(self.temporary, self.path)
         return False
 
-    def _keep(self, path: Path) -> Path:
-        """Move somebody's save to a free name beside the target."""
-        for number in itertools.count(1):
-            name = self.path.with_name(f"{self.path.name}.saved{'' if number == 1 else number}")
-            with contextlib.suppress(FileExistsError):
-                file_operations.place(path, name)
-                return name
-        raise AssertionError
-
 
 def hash_of(path: Path) -> str | None:
     """SHA-256 (hex) of a file, None for nothing; a word for what is no regular file. Raises OSError."""
@@ -374,11 +360,3 @@ def hash_of(path: Path) -> str | None:
     except IsADirectoryError:
         return _OTHER
     return None if content is None else digest(content)
-
-
-def _temporary_files(folder: str) -> list[str]:
-    """The paths of temporary files in a folder, with those that stand there in an exchange of three renames."""
-    try:
-        return [f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name]  # noqa: PTH208
-    except (FileNotFoundError, NotADirectoryError):
-        return []
