@@ -16,6 +16,7 @@ DEEPEST = 50
 _PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
 _PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
 _HEADER = re.compile(r"\s*\[\[?")
+_QUOTED = r"'([^']*)'"
 _MARKER = r"^(<{7}|={7}|>{7})(\s|$)"
 
 
@@ -46,7 +47,13 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
         elif place := re.search(_PLACE, message):
             line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
             message = message[0].lower() + message[1 : place.start()].replace("\n", " ")
-            hint = hint or ("strings stand in quotes" if message == "invalid value" else "")
+            if twice := re.match(r"cannot declare \((.*)\) twice", message):
+                message = f"the table `{'.'.join(re.findall(_QUOTED, twice[1]))}` is there twice"
+                hint = hint or "put the keys of both into one table"
+            elif message == "cannot overwrite a value":
+                message, hint = "a key is set twice", hint or "remove one of them"
+            elif message == "invalid value":
+                hint = hint or "strings stand in quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits
         message = "a number has too many digits"
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))

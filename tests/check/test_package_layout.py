@@ -86,6 +86,7 @@ def test_what_is_declared_twice_is_an_error_and_what_is_connected_twice_a_warnin
 
 
 ELBW = arm.text().replace("model Elbow", "model Elbw").replace("end Elbow", "end Elbw")
+SMALL_ELBOW = arm.text().replace("Elbow", "elbow")
 RENAMED = arm.text("package.mo").replace("SixAxisArm", "Arm").replace(".Arm", ".SixAxisArm")
 INSIDE = f"within {arm.NAME};\npackage Joints\n  model Elbow\n  end Elbow;\nend Joints;\n"
 JOINT = "error: joint elbow:"
@@ -142,6 +143,11 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
             {"Joints/package.mo": INSIDE},
             "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them "
             "[class-twice]",
+        ),
+        (
+            {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
+            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
+            "case do not hold both [same-but-for-case]",
         ),
     ],
 )

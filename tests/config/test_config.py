@@ -100,6 +100,7 @@ MISTAKES = {
     "create_parents = 'yes'": '`create_parents` must be true or false, not "yes" [wrong-value]',
     "package_paths = ['a', 1]": '`package_paths` must be a list of strings, not ["a", 1] [wrong-value]',
     "on_build = true": '`on_build` must be "nothing" or "check", not true [wrong-value]',
+    'output = ""': '`output` is empty; give a path; "." is the folder of the configuration [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
     "x = ": "invalid value; strings stand in quotes [toml-syntax]",
     'class = "2nd"': "`class`: '2nd' is no Modelica identifier; use letters, digits and `_`, a letter first "
@@ -122,7 +123,8 @@ OTHER_MISTAKES = {
     "# \u2028 \x85\n" + robot("grund = true"): "6 unknown key `grund` in robot `arm`; did you mean `ground`?",
     robot(package="Plant.end"): "3 `package`: `end` is a keyword of Modelica; choose another name, for example "
     "`EndRobot` [modelica-name]",
-    "a = 1\na = 2\n[b]\n": "2:6 cannot overwrite a value [toml-syntax]",
+    "a = 1\na = 2\n[b]\n": "2:6 a key is set twice; remove one of them",
+    "[robots.a]\n[robots.a]\n": "2:10 the table `robots.a` is there twice; put the keys of both into one",
     "a = 1\n<<<<<<< ours\n": "2 unresolved merge markers; settle the merge",
     "a = " + "1" * 5000: " a number has too many digits",
     robot("x = " + "[" * 5000 + "]" * 5000): DEEP,

@@ -66,6 +66,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
             where = str(folder) if folder.parts else ""
             found.append(package.diagnostic(_ERROR, "no-package-file", message, where, hint=hint))
+        spellings: dict[str, str] = {}
         for name in sorted(stored[folder]):
             file, is_folder, hint = f"{folder / name}.mo", folder / name in stored, "keep one of them"
             if is_folder and file in package.texts:
@@ -74,6 +75,10 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             if name in lines:
                 message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
                 found.append(package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint=hint))
+            if (first := spellings.setdefault(name.casefold(), name)) != name:
+                message = f"`{name}` and `{first}` differ only by case"
+                other = "rename one: file systems that ignore case do not hold both"
+                found.append(package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=other))
         if str(folder / _ORDER) in package.texts:
             found += _check_order(package, folder, stored[folder] | lines.keys(), is_complete=folder in declarations)
     return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))

@@ -32,6 +32,8 @@ from urdfsync.domain import Domain, Target
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
+_PATHS = ("source", "output", "library")
+"""Keys that must not be empty: nobody means the folder of the configuration by that."""
 _WORDS = {str: "a string", int: "an integer", float: "a number", bool: "true or false", dict: "a table"}
 
 
@@ -208,7 +210,10 @@ class _Reader:
         for field in msgspec.structs.fields(struct):
             key = field.encode_name
             try:
-                if key in table.values:
+                if key in _PATHS and table.values.get(key) == "":
+                    hint = 'give a path; "." is the folder of the configuration'
+                    self._report("wrong-value", table.lines[key], f"`{key}` is empty", hint)
+                elif key in table.values:
                     values[field.name] = msgspec.convert(table.values[key], field.type)
                 elif field.required:
                     message, hint = f"{table.name} has no `{key}`", f"add a line `{key} = …`"

@@ -113,6 +113,28 @@ def test_lines_and_nodes_without_a_shape_are_left_out() -> None:
     assert len(_read(_dae(scene, _box(extra=lines + strips)))) == 12
 
 
+def test_skin_stands_as_it_is_bound() -> None:
+    def source(name: str, array: str, kind: str, parameter: str) -> str:
+        accessor = (
+            f'<accessor source="#{name}-a" count="1" stride="1"><param name="{parameter}" type="{kind}"/></accessor>'
+        )
+        return f'<source id="{name}">{array}<technique_common>{accessor}</technique_common></source>'
+
+    bind = "1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1"
+    skin = f"""<library_controllers><controller id="skin"><skin source="#box">
+      <bind_shape_matrix>{bind}</bind_shape_matrix>
+      {source("j", '<Name_array id="j-a" count="1">bone</Name_array>', "name", "JOINT")}
+      {source("m", f'<float_array id="m-a" count="16">{bind}</float_array>', "float4x4", "TRANSFORM")}
+      {source("w", '<float_array id="w-a" count="1">1</float_array>', "float", "WEIGHT")}
+      <joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#m"/></joints>
+      <vertex_weights count="8"><input semantic="JOINT" source="#j" offset="0"/>
+        <input semantic="WEIGHT" source="#w" offset="1"/><vcount>{"1 " * 8}</vcount><v>{"0 0 " * 8}</v>
+      </vertex_weights></skin></controller></library_controllers>"""
+    content = _dae('<node><instance_controller url="#skin"/></node>')
+    content = content.replace(b"<library_visual_scenes>", skin.encode() + b"<library_visual_scenes>")
+    assert _bounds(content) == [[4, 5, 6], [5, 7, 9]]
+
+
 @pytest.mark.parametrize(("content", "reason"), [
     (b"", "well-formed"),
     (b"solid a\nendsolid a\n", "well-formed"),
@@ -125,7 +147,6 @@ def test_lines_and_nodes_without_a_shape_are_left_out() -> None:
     (_dae('<node><instance_geometry url="#other"/></node>'), "#other"),
     (_dae('<node><instance_geometry url="other.dae#box"/></node>'), "other.dae#box"),
     (_dae('<node><instance_geometry url="#box"/><instance_node url="#other"/></node>'), "#other"),
-    (_dae('<node><instance_controller url="#skin"/></node>'), "skins"),
     (_dae("<node><skew>1 0 0 0 1 0 0</skew></node>"), "skewed"),
     (_dae().replace(b"<polylist", b"<polygons><ph><p/><h/></ph></polygons><polylist"), "holes"),
     (_dae().replace(b"<p>0 1 3 2", b"<p>0 1 3 8"), "index"),

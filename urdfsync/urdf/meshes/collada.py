@@ -18,7 +18,7 @@ from typing import Any
 
 import collada
 import numpy as np
-from collada import polylist, scene, triangleset
+from collada import controller, polylist, scene, triangleset
 from collada.common import DaeError, DaeUnsupportedError
 from lxml import etree
 
@@ -40,7 +40,7 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
-_NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes", "instance_controller": "skins or morphed shapes"}
+_NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 
 
 def read_collada(content: bytes) -> Triangles:
@@ -54,13 +54,7 @@ def read_collada(content: bytes) -> Triangles:
     shapes = etree.tostring(root)
     del root  # pycollada parses them into a tree of its own
     with damage_is_an_error():
-        document = collada.Collada(io.BytesIO(shapes), ignore=[DaeError])
-        # what it can't make sense of is an error, what it doesn't know is not
-        if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
-            raise MeshError(f"its content isn't consistent: {document.errors[0]}")
-        if document.scene is None:
-            raise MeshError("it has no scene")
-        mesh = joined(part for node in document.scene.nodes for part in _triangles(node, np.identity(4)))
+        mesh = joined(part for node in _scene(shapes).nodes for part in _triangles(node, np.identity(4)))
         return Triangles(unit * mesh.points, mesh.faces)
 
 
@@ -90,19 +84,42 @@ def _unit(root: etree._Element) -> float:
     return unit
 
 
+def _scene(content: bytes) -> Any:
+    """The scene as pycollada's object. What it can't make sense of is an error, what it doesn't know is not."""
+    document = collada.Collada(io.BytesIO(content), ignore=[DaeError])
+    if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
+        raise MeshError(f"its content isn't consistent: {document.errors[0]}")
+    if document.scene is None:
+        raise MeshError("it has no scene")
+    return document.scene
+
+
 def _triangles(node: Any, pose: Array) -> Iterator[Triangles]:
     """The triangles at and below a node of pycollada's scene; `pose` (4 × 4) is that of the parent."""
     if isinstance(node, scene.NodeNode):
         yield from _triangles(node.node, pose)
     elif isinstance(node, scene.Node):
         for transformation in node.transforms:
-            # a matrix product in double precision and a fixed order of operations, the same on every machine
-            matrix = transformation.matrix.astype(np.float64)
-            pose = (pose[:, :, np.newaxis] * matrix[np.newaxis]).sum(axis=1)
+            pose = _product(pose, transformation.matrix)
         for child in node.children:
             yield from _triangles(child, pose)
     elif isinstance(node, scene.GeometryNode):
-        for primitive in node.geometry.primitives:  # lines are left out
-            part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
-            if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
-                yield placed(Triangles(part.vertex.astype(np.float64), part.vertex_index), pose)
+        yield from _primitives(node.geometry, pose)
+    elif isinstance(node, scene.ControllerNode) and isinstance(node.controller, controller.Skin):
+        yield from _primitives(node.controller.geometry, _product(pose, node.controller.bind_shape_matrix))
+    elif isinstance(node, scene.ControllerNode):
+        yield from _primitives(node.controller.source_geometry, pose)
+
+
+def _primitives(geometry: Any, pose: Array) -> Iterator[Triangles]:
+    """The triangles of one geometry at a pose; lines are left out."""
+    for primitive in geometry.primitives:
+        part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
+        if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
+            yield placed(Triangles(part.vertex.astype(np.float64), part.vertex_index), pose)
+
+
+def _product(first: Array, second: Array) -> Array:
+    """Matrix product (4 × 4) in double precision and a fixed order of operations, the same on every machine."""
+    product: Array = (first[:, :, np.newaxis] * second.astype(np.float64)[np.newaxis]).sum(axis=1)
+    return product
