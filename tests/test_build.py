@@ -434,7 +434,10 @@ def test_a_file_that_cant_be_converted_is_told_once(project: Path, before: bool,
 @pytest.mark.parametrize(
     ("uri", "hint"),
     [
-        ("package://ladder_data/step.csv", "add the folder that holds the folder `ladder_data` to `package_paths`"),
+        (
+            "package://ladder_data/step.csv",
+            "put it into the package `ladder_data`, or add the folder that holds that to `package_paths`",
+        ),
         ("modelica://Ladder.Data/step.csv", "put the folder that holds the library `Ladder` on MODELICAPATH"),
         ("tables/step.csv", "add the folder that holds it to `package_paths`"),
         ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),

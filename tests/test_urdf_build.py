@@ -121,9 +121,9 @@ def test_missing_meshes_are_one_warning_for_each_package_and_a_note_from_the_sec
 
     warnings = [
         "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
-        "add the folder that holds the folder `six_axis_arm` to `package_paths` [mesh-not-found]",
+        "put it into the package `six_axis_arm`, or add the folder that holds that to `package_paths` [mesh-not-found]",
         "warning: mesh `package://turntable/carousel.obj` not found; left out; "
-        "add the folder that holds the folder `turntable` to `package_paths` [mesh-not-found]",
+        "put it into the package `turntable`, or add the folder that holds that to `package_paths` [mesh-not-found]",
     ]
     note = "note: 7 meshes left out; `urdfsync build --full` says which, and why [left-out]"
     assert told() == warnings

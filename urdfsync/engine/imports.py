@@ -28,7 +28,7 @@ _HINTS = {
     # a place on this machine, to which search paths make no difference
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
-    "[a-z]+://([^/]+)/": "add the folder that holds the folder `{}` to `package_paths`",
+    "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder that holds that to `package_paths`",
     "": "add the folder that holds it to `package_paths`",
 }
 """What to do about a file that is not found, by how its URI begins; the first one counts."""
