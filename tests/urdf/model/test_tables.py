@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.records import record_components, record_tables
+from support.packages import record_components, record_tables
 from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
