@@ -83,21 +83,13 @@ def corpus() -> Path:
     return folder
 
 
-def find_library() -> Path | None:
-    """A folder that holds the Modelica Standard Library in a version that the embedded compiler takes."""
+@pytest.fixture(scope="session")
+def modelica_library() -> Path:
+    """The folder with the Modelica Standard Library, in a version that the embedded compiler takes."""
     try:
         return find_standard_library(os.environ).parts["Modelica"].parent
     except LibraryError:
-        return None
-
-
-@pytest.fixture(scope="session")
-def modelica_library() -> Path:
-    """The folder with the Modelica Standard Library, 4.1.0 or later."""
-    folder = find_library()
-    if folder is None:
         pytest.skip(NO_LIBRARY)
-    return folder
 
 
 @pytest.fixture(scope="session")

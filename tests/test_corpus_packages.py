@@ -10,19 +10,21 @@ import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
+from xml.sax.saxutils import quoteattr
 
 import pymoca.parser
 import pytest
 import rumoca
-from support import corpus, nasty
+from support import corpus
 from support.corpus import FOLDER
-from support.modelica import URDFSYNC
+from support.modelica import URDFSYNC, compile_task, execute
 from support.packages import Package, generate, proposed_base, read, scaled
-from support.urdfs import link, robot
-from support.words import Word, grammar_kinds, qualified_names, unbalanced, without_annotations, without_values, words
+from support.urdfs import dynamics, limit, link, robot
 
 from urdfsync.domain import Role, Target
+from urdfsync.modelica.lexer import is_name, lex
 from urdfsync.modelica.names import is_identifier
+from urdfsync.modelica.parser import parse
 
 BOT = Target("Bot", "Bot")
 PARTS = 16
@@ -91,35 +93,51 @@ def test_a_file_without_package_has_a_fault(corpus: Path) -> None:
 @functools.cache
 def kinds_of_texts() -> Mapping[str, str]:
     """Texts that differ in nothing but numbers, names and strings are one to a grammar: one of each kind."""
-    return {grammar_kinds(text): text for text in texts()}
+    found = {}
+    for text in texts():
+        tokens = (token.text for token in lex(text)[0])
+        kinds = ('"' if t[:1] == '"' else "0" if t[:1].isdigit() else "a" if is_name(t) else t for t in tokens)
+        found[" ".join(kinds)] = text
+    return found
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(PARTS))
 def test_pymoca_parses_every_kind_of_text(part: int, corpus: Path) -> None:
     for text in list(kinds_of_texts().values())[part::PARTS]:
-        assert_pymoca_parses(text, texts()[text])
-
-
-def assert_pymoca_parses(text: str, place: str) -> None:
-    try:
-        tree = pymoca.parser.parse(text, bypass_cache=True)
-    except pymoca.parser.ModelicaSyntaxError as error:
-        pytest.fail(f"{place}: {error}")
-    assert tree is not None
+        try:
+            tree = pymoca.parser.parse(text, bypass_cache=True)
+        except pymoca.parser.ModelicaSyntaxError as error:
+            pytest.fail(f"{texts()[text]}: {error}")
+        assert tree is not None
 
 
 @each_source
 def test_texts_are_tidy_belong_where_they_are_and_are_full_copies(files: Sequence[str], corpus: Path) -> None:
-    """LF at every end of a line, no tabs, brackets in pairs, all words known."""
+    """LF at every end of a line, no tabs, no fault that our own parser sees; links and joints extend no others.
+
+    The `within` clause names the folder, and the class has the name of its file.
+    """
     for path, text, place in models(files):
-        assert text.endswith("\n"), place
         assert not set("\t\r\f\v") & set(text), place
-        assert not unbalanced(words(text)), place
-        assert_belongs(path, text, "Bot", place)
+        assert parse(text).faults == [], place
+        folder = ["Bot", *PurePosixPath(path).parent.parts]
+        own = folder.pop() if path.endswith("package.mo") else PurePosixPath(path).stem
+        found = re.match(r"within ?([\w.]*);\n\n(?:model|record|package) (\w+) ", text)
+        assert found, place
+        assert found.groups() == (".".join(folder), own), place
+        assert text.endswith(f"\nend {own};\n"), place
         if path.startswith(("Links/", "Joints/")):
-            names = qualified_names(without_annotations(words(text)))
-            assert not [name for name in names if name.startswith(("UrdfSync.Links", "UrdfSync.Joints"))], place
+            assert not re.search(r"UrdfSync\.(Links|Joints)\b", code(text)), place
+
+
+STRING = re.compile(r'"(?:\\.|[^"\\])*"', re.DOTALL)
+NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][+-]?\d+)?", re.ASCII)
+
+
+def code(text: str) -> str:
+    """A generated text with empty strings and without annotations."""
+    return re.sub(r"\bannotation\s*\([^;]*;", ";", STRING.sub('""', text))
 
 
 # Layout
@@ -147,59 +165,44 @@ def test_orders_are_complete_and_names_are_distinct(files: Sequence[str], corpus
         assert all(map(is_identifier, components))
 
 
-def assert_belongs(path: str, text: str, package: str, place: str) -> None:
-    """The `within` clause names the folder, and the class has the name of its file."""
-    folder = [*package.split("."), *PurePosixPath(path).parent.parts]
-    own = folder.pop() if path.endswith("package.mo") else PurePosixPath(path).stem
-    found = re.match(r"within ?([\w.]*);\n\n(?:model|record|package) (\w+) ", text)
-    assert found, place
-    assert found.groups() == (".".join(folder), own), place
-    assert text.endswith(f"\nend {own};\n"), place
-
-
 @pytest.mark.slow
 @each_source
 def test_the_compiler_accepts_layout_and_names_of_all_versions(
     files: Sequence[str], corpus: Path, tmp_path: Path
 ) -> None:
-    """Versions that differ in numbers and strings alone have the same layout and the same names."""
-    distinct = {tuple((path, without_values(text)) for path, text in package(f).models.items()): f for f in files}
+    """Versions that differ in numbers and strings alone have the same layout and the same names.
+
+    What is not found are names of the standard library, which is not there, and what follows from that.
+    """
+    distinct = {}
+    for file in files:
+        models = package(file).models.items()
+        distinct[tuple((path, NUMBER.sub("0", STRING.sub("0", text))) for path, text in models)] = file
     for number, file in enumerate(distinct.values()):
-        assert_names_are_known(file, tmp_path / str(number))
+        unknown = unknown_names(package(file).write(tmp_path / str(number)))
+        assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
 
 
-def assert_names_are_known(file: str, folder: Path) -> None:
-    """What is not found are names of the standard library, which is not there, and what follows from that."""
-    unknown = unknown_names(package(file).write(folder))
-    assert [name for name in unknown if not name.startswith("Modelica.")] == [], file
+def unknown_names(folder: Path) -> list[str]:
+    """Types, base classes and functions that robot and benches refer to, and that no file has.
 
-
-def unknown_names(folder: Path, robot: str = "Bot.Bot") -> list[str]:
-    """Types, base classes and functions that robot and benches refer to, and that no file has."""
-    components = "".join(f"  {robot}{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
-    message = complaint([folder, URDFSYNC], f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", "Probe_")
+    The compiler's session must go in the thread that made it, so no exception may stay that refers to it:
+    `pytest.raises` would.
+    """
+    components = "".join(f"  Bot.Bot{suffix} part{suffix};\n" for suffix in ("", "Run", "Test"))
+    source, message = f"model Probe_\n  import UrdfSync;\n{components}end Probe_;\n", ""
+    try:
+        rumoca.Session(roots=[str(folder), str(URDFSYNC)]).loads(source, model="Probe_", filename="P.mo")
+    except rumoca.CompileError as error:
+        message = str(error)
+    assert message, "it compiles"
     assert "Failed to load source root" not in message, message
     lines = [line for line in message.splitlines() if "unresolved" in line and "component reference" not in line]
     return [line.split("'")[1] for line in lines]
 
 
-def complaint(roots: Sequence[Path], source: str, model: str) -> str:
-    """What the compiler says of a model that it can't compile.
-
-    Its session must go in the thread that made it, so no exception may stay that refers to it: `pytest.raises` would.
-    """
-    try:
-        rumoca.Session(roots=list(map(str, roots))).loads(source, model=model, filename="P.mo")
-    except rumoca.CompileError as error:
-        return str(error)
-    raise AssertionError(f"{model} compiles")
-
-
-SMALL = generate(robot(link("arm")).encode(), BOT)
-
-
 def test_the_compiler_notices_a_wrong_layout(tmp_path: Path) -> None:
-    folder = SMALL.write(tmp_path)
+    folder = generate(robot(link("arm")).encode(), BOT).write(tmp_path)
     arm = folder / "Links" / "Arm.mo"
     arm.write_text(arm.read_text().replace("within Bot.Links;", "within Bot.Joints;"))
     with pytest.raises(AssertionError, match=r"PKG-010 .* expected `within Bot\.Links;`"):
@@ -218,16 +221,43 @@ def test_models_contain_no_number_of_the_urdf(files: Sequence[str], corpus: Path
             if made.roles[path] is not Role.RECORD:
                 assert other.texts[path] == text, path
         for suffix in ("Run", "Test"):
-            sequence = without_annotations(words(made.texts[f"Bot{suffix}.mo"]))
-            assert [word.text for word in sequence if word.kind == "number"] == []
+            assert NUMBER.findall(code(made.texts[f"Bot{suffix}.mo"])) == []
 
 
 # Names that break careless generators
 
 
+NASTY = (
+    *("world", "../../evil", 'a"b', "end", "Links", "frame_a", "base link", "Gelenk_ä", "L_arm", "l_arm", "both"),
+    *("_", "-", "7", "time", "parameters", "Nasty", "nastyRun", "x\\", "a</code></html>", "*/ //", "'q'", "phi_start"),
+    *("modelica", "${prefix}link", "rotationalAxis[1]", "m", "con", "a" * 120),
+)
+"""Links in a chain; each joint has the name of its child link."""
+MESH = 'it\'s "the" mesh.stl'
+FACET = "facet normal 0 0 1\nouter loop\nvertex 0 0 {z}\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+
+
 @pytest.fixture(scope="module")
 def nasty_package(tmp_path_factory: pytest.TempPathFactory) -> Package:
-    return generate(nasty.write(tmp_path_factory.mktemp("nasty")), nasty.TARGET)
+    """Joints of four types, some with losses, one that mimics."""
+    elements = []
+    for number, name in enumerate(NASTY):
+        quoted, box = quoteattr(name), '<geometry><box size="0.1 0.2 0.3"/></geometry>'
+        material = f'<material name={quoted}><color rgba="1 0.5 0 1"/></material>'
+        mesh = f"<visual name={quoted}><geometry><mesh filename={quoteattr(MESH)}/></geometry>{material}</visual>"
+        shapes = f"{mesh}<visual>{box}</visual><collision name={quoted}>{box}</collision>"
+        elements.append(link("", 1).replace('name=""', f"name={quoted}").replace("</link>", f"{shapes}</link>"))
+        if number:
+            kind = {1: "revolute", 2: "continuous", 3: "prismatic"}.get(number % 10, "fixed")
+            ends = f"<parent link={quoteattr(NASTY[number - 1])}/><child link={quoted}/>"
+            limits = limit(-1, 1) if kind in ("revolute", "prismatic") else ""
+            losses = dynamics(0.1, 0.2) if number in (3, 12) else ""
+            follows = f"<mimic joint={quoteattr(NASTY[1])}/>" if number == 11 else ""
+            elements.append(f'<joint name={quoted} type="{kind}">{ends}{limits}{losses}{follows}</joint>')
+    folder = tmp_path_factory.mktemp("nasty")
+    (folder / MESH).write_text(f"solid s\n{FACET.format(z=0)}{FACET.format(z=1)}endsolid s\n")
+    (folder / "nasty.urdf").write_text(robot(*elements, name="a&quot;b"), "utf-8")
+    return generate(folder / "nasty.urdf", Target("Plant.Nasty", "Nasty"))
 
 
 def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) -> None:
@@ -244,4 +274,12 @@ def test_every_nasty_name_is_in_its_record(nasty_package: Package) -> None:
         identifier = nasty_package.skeleton.names[kind, name]
         text = nasty_package.texts[f"{kind.capitalize()}s/{identifier.record}.mo"]
         literal = '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
-        assert Word("string", literal) in words(text)
+        assert literal in [token.text for token in lex(text)[0]]
+
+
+@pytest.mark.slow
+def test_nasty_names_compile(nasty_package: Package, modelica_library: Path, tmp_path: Path) -> None:
+    nasty_package.write(tmp_path)
+    (tmp_path / "Plant" / "package.mo").write_text("within;\npackage Plant\nend Plant;\n")
+    (outcome,) = execute(modelica_library, [tmp_path / "Plant"], [compile_task("Plant.Nasty.NastyTest")])
+    assert outcome.error == ""

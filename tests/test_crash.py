@@ -23,7 +23,7 @@ from support.networks import LADDER, configure, edit
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.state import file_operations
-from urdfsync.state.journal import FORMAT, JournalFolder, Phase
+from urdfsync.state.journal import FORMAT
 from urdfsync.state.record import Choice
 
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
@@ -48,10 +48,6 @@ def tally() -> Iterator[Tally]:
     counts = Tally()
     yield counts
     print(f"\n{dict(counts)}")  # noqa: T201
-
-
-def phase(project: Path) -> Phase | None:
-    return JournalFolder(project, project / ".urdfsync/journal").phase()
 
 
 @pytest.fixture
@@ -131,26 +127,23 @@ def every(project: Path, work: Path, names: Sequence[str] = crashes.NAMES) -> It
         yield operation, crashes.copy(project, work)
 
 
-def assert_healed(project: Path, wanted: Wanted, operation: Operation) -> None:
-    """The next build does all that there is to do, and leaves nothing behind."""
-    assert build(project) == wanted, operation
-
-
 # Kills
 
 
+def assert_finished(start: Path, work: Path, names: Sequence[str] = crashes.NAMES, *, half: bool = False) -> None:
+    """A build that is killed before an operation, or with `half` in the middle of it, is finished by the next one."""
+    wanted = expected(start, work / "clean")
+    for operation, project in every(start, work / "work", names):
+        assert killed(project, operation.number, half=half)
+        assert build(project) == wanted, operation
+
+
 def test_a_killed_build_is_finished_by_the_next(scenario: Path, tmp_path: Path) -> None:
-    wanted = expected(scenario, tmp_path / "clean")
-    for operation, project in every(scenario, tmp_path / "work"):
-        assert killed(project, operation.number)
-        assert_healed(project, wanted, operation)
+    assert_finished(scenario, tmp_path)
 
 
 def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed: Path, tmp_path: Path) -> None:
-    wanted = expected(changed, tmp_path / "clean")
-    for operation, project in every(changed, tmp_path / "work", ["write"]):
-        assert killed(project, operation.number, half=True)
-        assert_healed(project, wanted, operation)
+    assert_finished(changed, tmp_path, ["write"], half=True)
 
 
 @pytest.mark.parametrize("missing", ["links", "renames"])
@@ -161,10 +154,7 @@ def test_killed_builds_on_lesser_file_systems(
         error = PermissionError(errno.EPERM, os.strerror(errno.EPERM))
         monkeypatch.setattr(os, "link", mock.Mock(side_effect=error))
     monkeypatch.setattr(file_operations, "_rename", lambda path, target, flag: False)
-    wanted = expected(changed, tmp_path / "clean")
-    for operation, project in every(changed, tmp_path / "work", CHANGES):
-        assert killed(project, operation.number)
-        assert_healed(project, wanted, operation)
+    assert_finished(changed, tmp_path, CHANGES)
 
 
 def test_a_recovery_may_be_killed_too(changed: Path, tmp_path: Path) -> None:
@@ -174,7 +164,7 @@ def test_a_recovery_may_be_killed_too(changed: Path, tmp_path: Path) -> None:
     assert killed(crashed, found[len(found) // 2].number)
     for operation, project in every(crashed, tmp_path / "work"):
         killed(project, operation.number)
-        assert_healed(project, wanted, operation)
+        assert build(project) == wanted, operation
 
 
 def test_what_the_user_does_after_a_crash_is_kept(changed: Path, tmp_path: Path) -> None:
@@ -204,7 +194,7 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
     for operation, project in every(changed, tmp_path / "work", CHANGES):
         killed(project, operation.number)
         change(project)
-        assert_healed(project, wanted, operation)
+        assert build(project) == wanted, operation
 
 
 # Errors of the system
@@ -231,9 +221,9 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
         assert result.failed, operation
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
         assert result.unfinished or contents(project) == before, operation
-        assert lasting or not result.unfinished or phase(project), operation
+        assert lasting or not result.unfinished or crashes.phase(project), operation
         tally[f"{errno.errorcode[number]}"] += 1
-        assert_healed(project, wanted, operation)
+        assert build(project) == wanted, operation
 
 
 def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> None:
@@ -247,7 +237,7 @@ def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> Non
         with before_each(interrupt), pytest.raises(KeyboardInterrupt):
             run(project)
         assert contents(project) in (before, wanted[1]), operation
-        assert_healed(project, wanted, operation)
+        assert build(project) == wanted, operation
 
 
 # Saves in the instant of the change
@@ -392,7 +382,7 @@ def crashed(changed: Path, tmp_path: Path) -> Path:
     """The changed network after a build that was killed when half of its files were in place."""
     swaps = [op for op in recorded(crashes.copy(changed, tmp_path / "work")) if op.name == "exchange"]
     assert killed(changed, swaps[len(swaps) // 2].number)
-    assert phase(changed) == "apply"
+    assert crashes.phase(changed) == "apply"
     return changed
 
 
@@ -421,7 +411,7 @@ def test_another_robot_recovers_as_well(crashed: Path) -> None:
     result = run(crashed)
     assert {"recovered", "stray-state"} == {found.code for found in result.diagnostics}
     assert "R3" in (crashed / LADDER / "Elements/package.order").read_text()
-    assert phase(crashed) is None
+    assert crashes.phase(crashed) is None
 
 
 def rewrite(journal: Path, old: str = "", new: str = "") -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -74,3 +77,27 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
 def test_every_option_of_a_robot_is_documented() -> None:
     text = (REPOSITORY / "docs/configuration.md").read_text(encoding="utf-8")
     assert [name for name in Options.__struct_fields__ if f"| `{name}` |" not in text] == []
+
+
+@pytest.fixture
+def unit() -> str:
+    """The systemd unit of the page on the daemon."""
+    (found,) = re.findall(r"```ini\n(.*?)```", (REPOSITORY / "docs/watch.md").read_text("utf-8"), re.DOTALL)
+    return str(found)
+
+
+@pytest.mark.skipif(not shutil.which("systemd-analyze"), reason="systemd-analyze is not installed")
+def test_systemd_takes_the_unit(unit: str, tmp_path: Path) -> None:
+    program, file = tmp_path / "robots/.venv/bin/urdfsync", tmp_path / "urdfsync.service"
+    program.parent.mkdir(parents=True)
+    program.touch(mode=0o755)
+    file.write_text(unit, encoding="utf-8")
+    command = ["systemd-analyze", "verify", "--user", "--man=no", str(file)]
+    home = {"HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
+    found = subprocess.run(command, env=os.environ | home, capture_output=True, text=True, check=False)
+    assert (found.stdout, found.stderr, found.returncode) == ("", "", 0)
+
+
+def test_the_unit_starts_what_can_be_started_again(unit: str) -> None:
+    assert "ExecStart=%h/robots/.venv/bin/urdfsync watch\n" in unit
+    assert "RestartPreventExitStatus=2 4\n" in unit, "an error and a lock, see `urdfsync.engine.result.Exit`"

@@ -8,13 +8,15 @@ import itertools
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from support import workplace
 from support.commands import Execute
 from support.networks import LADDER, MANIFEST, RECORD, edit
 from support.networks import R1 as MODEL
+from support.workplace import Contents
 
 from urdfsync import cli
 from urdfsync.diagnostics import OutputError
@@ -24,16 +26,11 @@ from urdfsync.files import Tree
 MINE = "// mine\n"
 CAN_CHANGE_MODES = os.name == "posix"
 
-Contents = Mapping[str, bytes]
-
 
 def contents(folder: Path) -> Contents:
     """Every file below a folder but for the lock and kept bases; links count with where they lead to."""
-    files = [path for path in sorted(folder.rglob("*")) if path.is_symlink() or path.is_file()]
-    found = {
-        p.relative_to(folder).as_posix(): os.fsencode(p.readlink()) if p.is_symlink() else p.read_bytes() for p in files
-    }
-    return {name: content for name, content in found.items() if not re.search(r"\.urdfsync/(lock$|base/)", name)}
+    found = workplace.contents(folder).items()
+    return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/(lock$|base/)", n)}
 
 
 @pytest.fixture
@@ -65,10 +62,10 @@ def assert_error(execute: Execute, command: list[str], words: str) -> None:
 
 
 def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Path, execute: Execute) -> None:
-    before = contents(edited)
+    before, model = contents(edited), (edited / MODEL).read_bytes()
     shutil.rmtree(edited / LADDER)
     assert execute("build").out == "ladder: 14 restored because you deleted them\n"
-    generated = before[MODEL].removesuffix(MINE.encode())
+    generated = model.removesuffix(MINE.encode())
     assert {**before, MANIFEST: b""} == {**contents(edited), MODEL: before[MODEL], MANIFEST: b""}
     assert (edited / MODEL).read_bytes() == generated
     assert cli.main(["build", "--check"]) == Exit.IN_STEP

@@ -1,26 +1,95 @@
-"""The library's own links and joints are what the templates of generated ones say."""
+"""The library's own link and joint models: the templates of generated ones, with a record that can be replaced."""
 
-from pathlib import Path
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import pytest
-from support.library import library_artifacts
+from support.modelica import URDFSYNC
+from support.packages import RENDERER
 
-from urdfsync.domain import Artifact, Order
-from urdfsync.render import Renderer
+from urdfsync.domain import Artifact, Import, Order, Role
+from urdfsync.urdf.meshes.lookup import key
+from urdfsync.urdf.model.shapes import link_model, link_shapes
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import (
+    JOINT_KINDS,
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    JointType,
+    Link,
+    Mesh,
+    Sphere,
+    Visual,
+)
 
-REPOSITORY = Path(__file__).resolve().parents[1]
-LIBRARY = REPOSITORY / "modelica" / "UrdfSync"
+MESH = Mesh("robots/six_axis_arm/meshes/base_casting.stl")
+IMPORTS = {key(MESH): Import(f"Resources/{MESH.filename}", "", "", 0, {"bounds": ((0, 0, 0), (0, 0, 0)), "hull": ()})}
+SHAPES: tuple[Geometry, ...] = (
+    Box((0.1, 0.1, 0.1)),
+    Cylinder(radius=0.05, length=0.1),
+    Capsule(radius=0.05, length=0.1),
+    Sphere(radius=0.05),
+    MESH,
+)
+JOINT_NOTES: Mapping[JointType, str] = {
+    "fixed": "Two links that do not move relative to each other.",
+    "continuous": "Turns without end stops.",
+    "revolute": "Turns within limits.",
+    "prismatic": "Slides within limits.",
+    "planar": "Slides in a plane and turns about its normal. It has no flanges: its motion is free.",
+    "floating": "Moves freely.",
+}
+RECORD_NOTE = "The numbers are those of the record <code>parameters</code>, which can be redeclared."
+
+
+def library_artifacts() -> Iterator[Artifact | Order]:
+    """All files of `UrdfSync.Links` and `UrdfSync.Joints` but their `package.mo`."""
+    names = [f"{type(shape).__name__}Link" for shape in SHAPES]
+    yield Order("Links/package.order", ("Link", *(n for name in names for n in (name, f"{name}Parameters"))))
+    yield from link_files("Link", "UrdfSync.Records.Link", Link(""), "Rigid body without a shape.")
+    for name, shape in zip(names, SHAPES, strict=True):
+        link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
+        kind = type(shape).__name__.lower()
+        yield from link_files(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
+    yield Order("Joints/package.order", tuple(kind.capitalize() for kind in JOINT_KINDS))
+    for joint in JOINT_KINDS:
+        name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"
+        data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
+        data |= {"dynamics": JOINT_KINDS[joint].has_axis, "replaceable": True, "note": note}
+        yield Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{joint}.mo.jinja", data, name)
+
+
+def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifact]:
+    visuals, collisions = link_shapes(link, IMPORTS, "UrdfSync", Options())
+    named = named_data("Links", name, record)
+    if visuals:
+        data = {"name": link.name, "inertial": None, "visuals": visuals, "collisions": collisions}
+        yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)
+    data = link_model(visuals, collisions, Options()) | {"replaceable": True, "note": f"{note} {RECORD_NOTE}"}
+    yield Artifact(f"Links/{name}.mo", Role.MODEL, "link/model.mo.jinja", named | data, name)
+
+
+def named_data(package: str, name: str, record: str) -> dict[str, Any]:
+    word = package[:-1].lower()
+    kind = name.removesuffix("Link").lower()
+    title = f"{kind} {word}" if kind else word
+    return {"within": f"UrdfSync.{package}", "type": name, "record": record, "title": title}
 
 
 def text_of(artifact: Artifact | Order) -> str:
     if isinstance(artifact, Order):
         return "".join(f"{name}\n" for name in artifact.names)
-    return Renderer([REPOSITORY / "templates" / "urdf"]).render(artifact.template, artifact.data)
+    return RENDERER.render(artifact.template, artifact.data)
 
 
 @pytest.mark.parametrize("artifact", list(library_artifacts()), ids=lambda artifact: artifact.path)
 def test_library_file_is_in_step_with_the_templates(artifact: Artifact | Order) -> None:
-    file = LIBRARY / artifact.path
+    file = URDFSYNC / artifact.path
     assert file.read_text(encoding="utf-8") == text_of(artifact), (
         "a template has changed: run `python tests/test_library_templates.py` and review what it wrote"
     )
@@ -28,10 +97,10 @@ def test_library_file_is_in_step_with_the_templates(artifact: Artifact | Order) 
 
 def test_there_is_nothing_else_in_links_and_joints() -> None:
     written = {artifact.path for artifact in library_artifacts()} | {"Links/package.mo", "Joints/package.mo"}
-    found = {p.relative_to(LIBRARY).as_posix() for kind in ("Links", "Joints") for p in (LIBRARY / kind).iterdir()}
+    found = {p.relative_to(URDFSYNC).as_posix() for kind in ("Links", "Joints") for p in (URDFSYNC / kind).iterdir()}
     assert found == written
 
 
 if __name__ == "__main__":
     for each in library_artifacts():
-        (LIBRARY / each.path).write_text(text_of(each), encoding="utf-8", newline="\n")
+        (URDFSYNC / each.path).write_text(text_of(each), encoding="utf-8", newline="\n")

@@ -8,10 +8,9 @@ import subprocess
 import textwrap
 from pathlib import Path
 
-import numpy as np
 import pytest
 from support.corpus import REPOSITORY
-from support.modelica import Run, Task, execute
+from support.modelica import Run, Task, simulate
 
 from urdfsync import cli
 from urdfsync.engine.result import Exit
@@ -94,10 +93,7 @@ def test_the_sensor_measures_the_marker_where_the_extension_puts_it(marked: Path
     places = {"seen": "robot.seen.r", "link": "robot.forearm.frame_a.r_0"}
     values = [f"{place}[{i}]" for place in places.values() for i in (1, 2, 3)]
     turned = [f"robot.forearm.frame_a.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
-    (outcome,) = execute(modelica_library, [marked], [Task(source, "Tracked", [Run(1, 1)], [*values, *turned])])
-    assert outcome.error == ""
-    (series,) = outcome.runs
-    assert series.error == ""
-    at = {name: np.array([series.values[f"{place}[{i}]"][-1] for i in (1, 2, 3)]) for name, place in places.items()}
-    rotation = np.array([series.values[name][-1] for name in turned]).reshape(3, 3)
+    (series,) = simulate(modelica_library, [marked], [Task(source, "Tracked", [Run(1, 1)], [*values, *turned])])
+    at = {name: series.end(*(f"{place}[{i}]" for i in (1, 2, 3))) for name, place in places.items()}
+    rotation = series.end(*turned).reshape(3, 3)
     assert rotation @ (at["seen"] - at["link"]) == pytest.approx([0.1, 0.04, 0.05], abs=1e-9)

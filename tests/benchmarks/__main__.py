@@ -25,8 +25,6 @@ from pathlib import Path
 # not this folder: its names are those of other packages, too; and what is measured is the tree that it is part of
 sys.path[:1] = [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
 
-from rich.console import Console  # noqa: E402
-from rich.table import Table  # noqa: E402
 from support.corpus import REPOSITORY  # noqa: E402
 
 from benchmarks.measuring import Result, compare  # noqa: E402
@@ -38,26 +36,23 @@ _SCRIPTS = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main", "ur
 
 
 def main() -> None:
-    """Measure, and print one table."""
+    """Measure, and print one table, row by row; what does not meet its bar stands between asterisks."""
     options = _options()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))  # so that daemons end and folders are removed
-    status = Console(stderr=True)
     published = None
     if options.published:
         published = Published(options.python, options.published.absolute() / "urdf_to_package.py")
-        if missing := published.missing():
-            sys.exit(missing)
-    rows: list[tuple[str, ...]] = []
-    with tempfile.TemporaryDirectory() as name, status.status("preparing") as spinner:
+    processor, version = platform.processor() or platform.machine(), platform.python_version()
+    sys.stdout.write(f"{processor}, {os.cpu_count()} cores, Python {version}\n\n")
+    _print([_HEADINGS, tuple("---" for _ in _HEADINGS)])
+    with tempfile.TemporaryDirectory() as name:
         scripts = _install(Path(name) / "environment")
         for chosen in options.names or TABLES:
             title, pairs = TABLES[chosen]
             folder = Path(name) / chosen
             folder.mkdir()
             for pair in pairs(Tools(folder, scripts, published)):
-                spinner.update(f"{title}: {pair.what}")
-                rows += _rows(title, compare(pair, options.slow_rounds if pair.is_slow else options.rounds))
-    _print(rows, is_markdown=options.markdown)
+                _print(_rows(title, compare(pair, options.slow_rounds if pair.is_slow else options.rounds)))
 
 
 def _options() -> argparse.Namespace:
@@ -67,12 +62,9 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--slow-rounds", type=int, default=3, metavar="N", help="pairs that take minutes (default: 3)")
     parser.add_argument("--published", type=Path, metavar="FOLDER", help="the folder of urdf_to_package.py")
     parser.add_argument("--python", default=sys.executable, help="the Python that runs it (default: this one)")
-    parser.add_argument("--markdown", action="store_true", help="print a table to paste into a page")
     options = parser.parse_args()
     if unknown := set(options.names) - set(TABLES):
         parser.error(f"no such benchmark: {', '.join(sorted(unknown))}")
-    if min(options.rounds, options.slow_rounds) < 1:
-        parser.error("at least one round is needed")
     return options
 
 
@@ -127,19 +119,9 @@ def _rows(title: str, result: Result) -> list[tuple[str, ...]]:
     return lines
 
 
-def _print(rows: list[tuple[str, ...]], *, is_markdown: bool) -> None:
-    """Print the table; what does not meet its bar stands between asterisks."""
-    machine = (
-        f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
-    )
-    if is_markdown:
-        lines = [_HEADINGS, tuple("---" for _ in _HEADINGS), *rows]
-        sys.stdout.write(f"{machine}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines))
-        return
-    table = Table(*_HEADINGS, title=machine)
-    for row in rows:
-        table.add_row(*row)
-    Console(width=None if sys.stdout.isatty() else 200).print(table)
+def _print(rows: list[tuple[str, ...]]) -> None:
+    sys.stdout.write("".join(f"| {' | '.join(row)} |\n" for row in rows))
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":

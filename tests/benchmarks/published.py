@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-import subprocess
 from pathlib import Path
 
-from benchmarks.measuring import Cost, UnexpectedError, measure, variables
+from benchmarks.measuring import Cost, UnexpectedError, measure
 
 _PACKAGE = "P"  # the package in which the tool puts that of a robot
 
@@ -17,14 +16,6 @@ class Published:
 
     python: str
     script: Path
-
-    def missing(self) -> str | None:
-        """Return what is not there, in a sentence; None if the tool can run."""
-        if not self.script.is_file():
-            return f"there is no {self.script}"
-        if subprocess.run([self.python, "-c", "import urdf_parser_py"], check=False, env=variables()).returncode:
-            return f"{self.python} has no package urdf_parser_py"
-        return None
 
     def build(self, source: Path, folder: Path) -> Cost:
         """Build the package of a robot in a folder that does not exist yet."""

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
-import rumoca
-from support.modelica import CACHE, URDFSYNC, standard
+from support.modelica import GRAVITY, Array, Run, Series, Task, compile_task, simulate
+from support.packages import generate
+
+from urdfsync.domain import Target
 
 pytestmark = pytest.mark.slow
 
-GRAVITY = 9.80665  # of the standard library's World
 MASS = 5.0
 INERTIA = 0.02
 WEIGHT = MASS * GRAVITY
@@ -30,53 +29,48 @@ BALL = "Sphere(parameters(radius = 0.1))"
 BRICK = "Box(parameters(size = {0.2, 0.3, 0.4}))"
 
 Vector = tuple[float, float, float]
-Signal = npt.NDArray[np.float64]
 ZERO: Vector = (0.0, 0.0, 0.0)
 
 
-@pytest.fixture(scope="module")
-def session(modelica_library: Path) -> Iterator[Any]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(CACHE.folder))
-        patch.setenv("MODELICAPATH", "")  # the compiler looks there too
-        yield rumoca.Session(roots=[standard(modelica_library), str(URDFSYNC)])
+VALUES = [
+    f"{{body}}{name}"
+    for k in (1, 2, 3)
+    for name in (f".frame_a.r_0[{k}]", f".v_0[{k}]", f".w_a[{k}]", f".frame_a.R.T[{k},3]", f"Contact.f[{k}]")
+]
 
 
 @dataclass(frozen=True)
 class Motion:
     """What a simulation recorded of a body and of the contact at its frame, which has the body's name + 'Contact'."""
 
-    result: Any
+    result: Series
     body: str
 
-    @property
-    def time(self) -> Signal:
-        return np.asarray(self.result.time)
-
-    def position(self, axis: int) -> Signal:
+    def position(self, axis: int) -> Array:
         """Coordinate 1, 2 or 3 of the body's frame in the world, in m."""
-        return np.asarray(self.result[f"{self.body}.frame_a.r_0[{axis}]"])
+        return self.result.values[f"{self.body}.frame_a.r_0[{axis}]"]
 
     @property
-    def height(self) -> Signal:
+    def height(self) -> Array:
         return self.position(3)
 
-    def speed(self, axis: int) -> Signal:
+    def speed(self, axis: int) -> Array:
         """Velocity of the body's frame in the world, in m/s."""
-        return np.asarray(self.result[f"{self.body}.v_0[{axis}]"])
+        return self.result.values[f"{self.body}.v_0[{axis}]"]
 
-    def up(self, axis: int) -> Signal:
+    def up(self, axis: int) -> Array:
         """Share of an axis of the body that points upward."""
-        return np.asarray(self.result[f"{self.body}.frame_a.R.T[{axis},3]"])
+        return self.result.values[f"{self.body}.frame_a.R.T[{axis},3]"]
 
     @property
-    def upward_force(self) -> Signal:
+    def upward_force(self) -> Array:
         """Vertical force of the ground on the body, in N."""
-        force: Signal = sum(self.up(k) * np.asarray(self.result[f"{self.body}Contact.f[{k}]"]) for k in (1, 2, 3))
-        return force
+        values = self.result.values
+        parts: list[Array] = [self.up(k) * values[f"{self.body}Contact.f[{k}]"] for k in (1, 2, 3)]
+        return parts[0] + parts[1] + parts[2]
 
-    def settled(self, signal: Signal) -> Signal:
-        return signal[self.time >= SETTLED]
+    def settled(self, signal: Array) -> Array:
+        return signal[self.result.times >= SETTLED]
 
 
 def vector(values: Vector) -> str:
@@ -94,9 +88,9 @@ def body(name: str, contact: str, z: float, rpy: Vector = ZERO, v: Vector = ZERO
   UrdfSync.Contacts.{contact.replace("(", f" {name}Contact(", 1)};"""
 
 
-def scene(bodies: dict[str, str], ground: str = f"load = {MASS}*world.g") -> str:
-    """A model: a ground with its modifiers, and bodies (declarations by name) that do not feel each other."""
-    return f"""
+def run(library: Path, bodies: dict[str, str], seconds: float, ground: str = f"load = {MASS}*world.g") -> Series:
+    """Simulate a ground with its modifiers, and bodies (declarations by name) that do not feel each other."""
+    text = f"""
 model Case
   import Modelica;
   inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
@@ -106,11 +100,9 @@ equation
 {"".join(f"  connect({name}.frame_a, {name}Contact.frame_a);" for name in bodies)}
 end Case;
 """
-
-
-def simulate(session: Any, text: str, seconds: float = 1.0) -> Any:
-    settings = rumoca.SimConfig(rtol=1e-6, atol=1e-6, dt=0.01)
-    return session.loads(text, model="Case").simulate((0, seconds), config=settings)
+    values = [value.format(body=name) for name in bodies for value in VALUES]
+    (series,) = simulate(library, [], [Task(text, "Case", [Run(seconds, 0.01, tolerance=1e-6)], values)])
+    return series
 
 
 def mesh_wheel() -> str:
@@ -149,16 +141,16 @@ PILLAR = "Cylinder(parameters(radius = 0.1, length = 0.4))"
 
 
 @pytest.fixture(scope="module")
-def short(session: Any) -> Any:
+def short(modelica_library: Path) -> Series:
     """One second of shapes that are dropped from 5 mm, and of bodies that slide and fall."""
     bodies = {name: body(name, contact, z=height + 0.005) for name, (contact, height) in RESTING.items()}
     bodies["sliding"] = body("sliding", BALL, z=0.1, v=(1.0, 0.0, 0.0))
     bodies["dropped"] = body("dropped", BRICK, z=0.7)
-    return simulate(session, scene(bodies))
+    return run(modelica_library, bodies, 1)
 
 
 @pytest.fixture(scope="module")
-def long(session: Any) -> Any:
+def long(modelica_library: Path) -> Series:
     """Four seconds of boxes that land on each face, a little askew, and of bodies that are pushed, lean and tumble."""
     bodies = {
         name: body(name, BRICK, z=height + 0.03, rpy=(roll + 0.05, pitch + 0.03, 0.2))
@@ -171,11 +163,11 @@ def long(session: Any) -> Any:
     bodies["tumbling"] = body("tumbling", BRICK, z=0.6, rpy=(0.4, 0.5, 0.6), v=(1.0, 0.0, 0.0), w=(3.0, 0.0, 2.0))
     bodies["sunk"] = body("sunk", BRICK, z=0.15)
     bodies["rolling"] = body("rolling", WHEEL, **ROLLING)
-    return simulate(session, scene(bodies), seconds=4)
+    return run(modelica_library, bodies, 4)
 
 
 @pytest.mark.parametrize("name", RESTING)
-def test_rests_with_its_lowest_points_on_the_ground(short: Any, name: str) -> None:
+def test_rests_with_its_lowest_points_on_the_ground(short: Series, name: str) -> None:
     motion, height = Motion(short, name), RESTING[name][1]
     assert motion.height[0] == pytest.approx(height + 0.005)
     assert motion.height.min() > height - MILLIMETRE
@@ -183,10 +175,10 @@ def test_rests_with_its_lowest_points_on_the_ground(short: Any, name: str) -> No
     assert np.abs(motion.settled(motion.upward_force) / WEIGHT - 1).max() < 1e-3
 
 
-def test_the_ground_can_be_anywhere_and_one_point_sinks_in_by_the_penetration_of_the_load(session: Any) -> None:
+def test_one_point_sinks_in_by_the_penetration_of_the_load_wherever_the_ground_is(modelica_library: Path) -> None:
     """The numbers are those of the ground in the simulated model, not its defaults."""
     ground = f"height = 2, load = {2 * WEIGHT}, penetration = 1e-3"
-    motion = Motion(simulate(session, scene({"body": body("body", BALL, z=2.1)}, ground)), "body")
+    motion = Motion(run(modelica_library, {"body": body("body", BALL, z=2.1)}, 1, ground), "body")
     assert motion.height[-1] == pytest.approx(2.1 - 0.5e-3, abs=1e-6)
 
 
@@ -194,14 +186,14 @@ def test_the_ground_can_be_anywhere_and_one_point_sinks_in_by_the_penetration_of
 
 
 @pytest.mark.parametrize("name", FACES)
-def test_a_box_lands_and_stands_on_any_face(long: Any, name: str) -> None:
+def test_a_box_lands_and_stands_on_any_face(long: Series, name: str) -> None:
     motion, (_, _, axis, height) = Motion(long, name), FACES[name]
     assert motion.height[-1] == pytest.approx(height, abs=MILLIMETRE)
     assert motion.up(abs(axis))[-1] == pytest.approx(math.copysign(1, axis), abs=1e-4)
     assert motion.upward_force[-1] == pytest.approx(WEIGHT, rel=1e-3)
 
 
-def test_a_tumbling_box_comes_to_rest_on_a_face(long: Any) -> None:
+def test_a_tumbling_box_comes_to_rest_on_a_face(long: Series) -> None:
     motion, halves = Motion(long, "tumbling"), (0.1, 0.15, 0.2)
     face = max(range(3), key=lambda k: abs(motion.up(k + 1)[-1]))
     assert abs(motion.up(face + 1)[-1]) == pytest.approx(1, abs=1e-4)
@@ -209,27 +201,27 @@ def test_a_tumbling_box_comes_to_rest_on_a_face(long: Any) -> None:
 
 
 @pytest.mark.parametrize("name", PUSHED)
-def test_an_upright_cylinder_stands_when_it_is_pushed(long: Any, name: str) -> None:
+def test_an_upright_cylinder_stands_when_it_is_pushed(long: Series, name: str) -> None:
     motion = Motion(long, name)
     assert motion.height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
     assert motion.up(3)[-1] == pytest.approx(PUSHED[name], abs=1e-4)
     assert abs(motion.speed(3)[-1]) < 1e-5
 
 
-def test_a_cylinder_that_leans_too_far_falls_on_its_side(long: Any) -> None:
+def test_a_cylinder_that_leans_too_far_falls_on_its_side(long: Series) -> None:
     """It tips where the centre is past the rim: at atan(radius / half length), 27 degrees here."""
     assert Motion(long, "stands").height[-1] == pytest.approx(0.2, abs=MILLIMETRE)
     assert Motion(long, "falls").height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
 
 
-def test_the_ground_never_pulls_and_nothing_bounces(short: Any) -> None:
+def test_the_ground_never_pulls_and_nothing_bounces(short: Series) -> None:
     motion = Motion(short, "dropped")
-    landed = motion.time > 0.4  # after a fall of 0.5 m, which takes 0.32 s
+    landed = motion.result.times > 0.4  # after a fall of 0.5 m, which takes 0.32 s
     assert motion.upward_force.min() >= 0
     assert motion.height[landed].max() < 0.2 + MILLIMETRE
 
 
-def test_what_starts_below_the_ground_is_lifted_slowly(long: Any) -> None:
+def test_what_starts_below_the_ground_is_lifted_slowly(long: Series) -> None:
     motion = Motion(long, "sunk")
     assert 0 < motion.speed(3).max() < 0.03
     assert motion.height.max() < 0.2
@@ -239,7 +231,7 @@ def test_what_starts_below_the_ground_is_lifted_slowly(long: Any) -> None:
 # --- Rolling and sliding -----------------------------------------------------------------------------------------
 
 
-def test_a_rolling_wheel_stays_at_its_height_without_bumps(long: Any) -> None:
+def test_a_rolling_wheel_stays_at_its_height_without_bumps(long: Series) -> None:
     motion = Motion(long, "rolling")
     assert np.abs(motion.height - 0.1).max() < MILLIMETRE
     assert np.ptp(motion.settled(motion.height)) < 1e-6
@@ -247,10 +239,58 @@ def test_a_rolling_wheel_stays_at_its_height_without_bumps(long: Any) -> None:
     assert motion.position(2)[-1] == pytest.approx(0, abs=1e-6)
 
 
-def test_a_sliding_ball_ends_in_rolling(short: Any) -> None:
+def test_a_sliding_ball_ends_in_rolling(short: Series) -> None:
     """Friction acts at the lowest point, so the angular momentum about it stays: v = v0 / (1 + I / (m r²))."""
     motion = Motion(short, "sliding")
     rolling = 1 / (1 + INERTIA / (MASS * 0.1**2))
     assert motion.speed(1)[-1] == pytest.approx(rolling, rel=0.01)
-    assert motion.result["sliding.w_a[2]"][-1] * 0.1 == pytest.approx(motion.speed(1)[-1], rel=0.01)
+    assert motion.result.values["sliding.w_a[2]"][-1] * 0.1 == pytest.approx(motion.speed(1)[-1], rel=0.01)
     assert motion.height[-1] == pytest.approx(0.1, abs=MILLIMETRE)
+
+
+# --- A generated mobile robot: its wheels rest on their collision shapes, and stay there while they roll --------------
+
+RADIUS = 0.12
+
+INERTIAL = """<inertial><origin xyz="{at}"/><mass value="{mass}"/>
+  <inertia ixx="{i}" iyy="{i}" izz="{i}" ixy="0" ixz="0" iyz="0"/></inertial>"""
+
+WHEELS = f"""<link name="{{side}}">{INERTIAL.format(at="0 0 0", mass=1.5, i=0.01)}
+  <collision><origin rpy="1.5707963267948966 0 0"/>
+    <geometry><cylinder radius="{RADIUS}" length="0.05"/></geometry></collision></link>
+<joint name="drive_{{side}}" type="continuous"><parent link="chassis"/><child link="{{side}}"/>
+  <origin xyz="0.05 {{y}} 0"/><axis xyz="0 1 0"/></joint>"""
+
+CART = f"""<robot name="cart"><link name="chassis">{INERTIAL.format(at="0.03 0 0.05", mass=12, i=0.3)}
+  <collision><origin xyz="0 0 0.1"/><geometry><box size="0.5 0.3 0.1"/></geometry></collision></link>
+{WHEELS.format(side="left", y=0.2)}{WHEELS.format(side="right", y=-0.2)}
+<link name="ball"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+<joint name="ball_mount" type="fixed"><parent link="chassis"/><child link="ball"/><origin xyz="-0.2 0 -0.07"/></joint>
+</robot>"""
+
+HEIGHTS = {f"robot.{wheel}.frame_a.r_0[3]": RADIUS for wheel in ("left", "right")} | {"robot.ball.frame_a.r_0[3]": 0.05}
+
+TURNED = [f"robot.drive_{wheel}Axis.phi" for wheel in ("left", "right")]
+
+
+@pytest.fixture(scope="module")
+def rolling(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Series:
+    """Three seconds of the Test model: at rest in the beginning, then both wheels turn forwards."""
+    package = generate(CART.encode(), Target("Cart", "Cart"), base="floating")
+    folder = package.write(tmp_path_factory.mktemp("cart"))
+    values = [*HEIGHTS, "robot.chassis.frame_a.r_0[1]", *TURNED]
+    task = compile_task("Cart.CartTest", runs=[Run(3, 0.1)], values=values)
+    (series,) = simulate(modelica_library, [folder], [task])
+    return series
+
+
+@pytest.mark.parametrize("value", HEIGHTS)
+def test_wheels_and_ball_stand_on_their_shapes_all_the_time(rolling: Series, value: str) -> None:
+    assert np.abs(rolling.values[value] - HEIGHTS[value]).max() < MILLIMETRE
+
+
+def test_the_cart_goes_as_far_as_its_wheels_roll(rolling: Series) -> None:
+    turned = np.mean([rolling.values[name] for name in TURNED], axis=0)
+    gone = rolling.values["robot.chassis.frame_a.r_0[1]"]
+    assert turned[-1] > 0.5
+    assert gone[-1] == pytest.approx(RADIUS * turned[-1], rel=0.02)

@@ -10,28 +10,21 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from support.corpus import REPOSITORY
-from support.modelica import Run, Series, Task, compile_task, execute, simulate
+from support.modelica import GRAVITY, Run, Series, bench, compile_task, execute, simulate
 
 pytestmark = pytest.mark.slow
 
 URDF = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 PAGE = REPOSITORY / "docs/extending.md"
-GRAVITY = 9.80665
-"""Of the standard library's world."""
 
 STIFFNESS, MASS, LEVER = 2e4, 3.0, 0.4
-HELD = f"""
-model Held
-  import Modelica;
-  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}});
-  UrdfSync.Examples.CustomArm.ElasticElbow elbow(c = {STIFFNESS}, fixedStart = false);
+HELD = f"""UrdfSync.Examples.CustomArm.ElasticElbow elbow(c = {STIFFNESS}, fixedStart = false);
   Modelica.Mechanics.MultiBody.Parts.Body load(m = {MASS}, r_CM = {{{LEVER}, 0, 0}});
   Modelica.Mechanics.Rotational.Components.Fixed brake;
 equation
   connect(world.frame_b, elbow.frame_a);
   connect(elbow.frame_b, load.frame_a);
   connect(brake.flange, elbow.axis);
-end Held;
 """
 """The elbow with its motor held, and a load on the arm."""
 
@@ -39,11 +32,7 @@ RATIO, ROTOR, INERTIA, ACCELERATION = 80.0, 3e-4, 0.7, 2.0
 DAMPING, FRICTION = 12.0, 9.0
 """Of joint turret in the URDF."""
 PLACE = 0.5
-SPUN = f"""
-model Spun
-  import Modelica;
-  inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}});
-  UrdfSync.Examples.CustomArm.GearedTurret turret(ratio = {RATIO}, J_rotor = {ROTOR}, fixedStart = false);
+SPUN = f"""UrdfSync.Examples.CustomArm.GearedTurret turret(ratio = {RATIO}, J_rotor = {ROTOR}, fixedStart = false);
   UrdfSync.Examples.CustomArm.Imu imu(r = {{{PLACE}, 0, 0}});
   Modelica.Mechanics.MultiBody.Parts.Body load(m = 1, r_CM = {{0, 0, 0}}, I_33 = {INERTIA});
   Modelica.Mechanics.Rotational.Sources.Accelerate drive(phi(start = 0, fixed = true), w(start = 0, fixed = true));
@@ -54,7 +43,6 @@ equation
   connect(turret.frame_b, imu.frame_a);
   connect(acceleration.y, drive.a_ref);
   connect(drive.flange, turret.axis);
-end Spun;
 """
 """The turret speeds up evenly, with the sensor beside its axis."""
 
@@ -66,18 +54,13 @@ STIFF = {"robot.elbow.c": 1e6, "robot.elbow.d": 1e4}
 JOINTS = ("turret", "shoulder", "elbow", "forearm_roll", "wrist_pitch", "flange_roll")
 BRAKES = "".join(f"  Modelica.Mechanics.Rotational.Components.Fixed {name}Brake;\n" for name in JOINTS)
 BRAKED = "".join(f"  connect({name}Brake.flange, robot.{name}Axis);\n" for name in JOINTS)
-OUTSTRETCHED = f"""
-model Outstretched
-  import Modelica;
-  extends UrdfSync.Robots.PartialBench;
-  UrdfSync.Examples.CustomArm.CustomArm robot(fixedStart = false);
+OUTSTRETCHED = f"""UrdfSync.Examples.CustomArm.CustomArm robot(fixedStart = false);
 {BRAKES}
   Modelica.Mechanics.Translational.Components.Fixed gripperBrake(s0 = robot.gripper_stroke.s_start);
 equation
   connect(world.frame_b, robot.frame_a);
 {BRAKED}
   connect(gripperBrake.flange, robot.gripper_strokeAxis);
-end Outstretched;
 """
 """The whole robot, each motor held where it starts; the elbow alone can move, by its spring."""
 PAYLOAD, PAYLOAD_LEVER = 1.5, 0.15 + 0.08
@@ -96,8 +79,8 @@ def static_torque() -> float:
 def found(modelica_library: Path) -> Mapping[str, Series]:
     """What the elbow does, and the turret with the sensor."""
     tasks = [
-        Task(HELD, "Held", [Run(2, 0.5)], ["elbow.axis.tau", "elbow.phi_elastic", "elbow.joint.revolute.w"]),
-        Task(SPUN, "Spun", [Run(1, 0.25)], ["turret.axis.tau", "turret.tau_motor", "turret.rotor.w", *IMU]),
+        bench(HELD, [Run(2, 0.5)], ["elbow.axis.tau", "elbow.phi_elastic", "elbow.joint.revolute.w"], packages=()),
+        bench(SPUN, [Run(1, 0.25)], ["turret.axis.tau", "turret.tau_motor", "turret.rotor.w", *IMU], packages=()),
     ]
     return dict(zip(("Held", "Spun"), simulate(modelica_library, [], tasks), strict=True))
 
@@ -132,13 +115,13 @@ def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series])
 
 def test_the_whole_arm_holds_itself_and_its_payload(modelica_library: Path) -> None:
     """The torque is that of the plain robot, as Pinocchio has it, and that of the payload, by hand."""
-    task = Task(OUTSTRETCHED, "Outstretched", [Run(0.08, 0.04, STIFF)], ["robot.elbowAxis.tau", "robot.imu.f[3]"])
-    (run,) = simulate(modelica_library, [], [task])
-    values = run.values
+    runs, values = [Run(0.08, 0.04, STIFF)], ["robot.elbowAxis.tau", "robot.imu.f[3]"]
+    (series,) = simulate(modelica_library, [], [bench(OUTSTRETCHED, runs, values, packages=())])
     expected = static_torque() - PAYLOAD * GRAVITY * PAYLOAD_LEVER
-    assert values["robot.elbowAxis.tau"][0] == 0, "the spring is relaxed at the beginning"
-    assert values["robot.elbowAxis.tau"][-1] == pytest.approx(expected, rel=1e-4)
-    assert values["robot.imu.f[3]"][-1] == pytest.approx(GRAVITY, rel=1e-3)
+    assert series.values["robot.elbowAxis.tau"][0] == 0, "the spring is relaxed at the beginning"
+    torque, force = series.end(*values)
+    assert torque == pytest.approx(expected, rel=1e-4)
+    assert force == pytest.approx(GRAVITY, rel=1e-3)
 
 
 def test_the_example_and_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ hangs on an inner link. Pinocchio says by how much the torques of all axes diffe
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,13 +14,12 @@ import numpy as np
 import pinocchio
 import pytest
 from lxml import etree
-from numpy.typing import NDArray
 from support import replay
-from support.modelica import Run, Task, simulate
+from support.modelica import GRAVITY, Array, Run, Task, simulate
 from support.packages import read
 from support.replay import Project
 
-from urdfsync.domain import ElementKey, Target
+from urdfsync.domain import Target
 from urdfsync.engine.result import Result
 from urdfsync.urdf.domain import DOMAIN
 
@@ -117,7 +116,10 @@ def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
         else:
             (found_one,) = found
             assert "`payload" not in found_one
-            is_renamed = ("link", link) in renames(contents[number - 1], content)
+            old, new = read(contents[number - 1]).snapshot, read(content).snapshot
+            assert old is not None
+            assert new is not None
+            is_renamed = ("link", link) in DOMAIN.renames(old, new)
             assert (f"it is `{component(content, 'links', now)}` now" in found_one) == is_renamed
             assert ("adapt your text" in found_one) != is_renamed
             link = now
@@ -131,14 +133,6 @@ def component(content: bytes, kind: str, name: str) -> str:
     snapshot = read(content).snapshot
     assert snapshot is not None
     return DOMAIN.names(snapshot, Target("Bot", "Bot"))[kind][name]
-
-
-def renames(old: bytes, new: bytes) -> Mapping[ElementKey, str]:
-    """The elements that a step only gives another name."""
-    before, after = read(old).snapshot, read(new).snapshot
-    assert before is not None
-    assert after is not None
-    return DOMAIN.renames(before, after)
 
 
 def text_of(content: bytes, joint: str, link: str) -> str:
@@ -176,13 +170,10 @@ def compare(content: bytes, project: Project, library: Path, joint: str, link: s
     assert (np.abs(found).max(axis=0) > 1e-3).sum() > 1  # and so does the payload, at other axes
 
 
-def torques(
-    model: pinocchio.Model, q: NDArray[np.float64], w: NDArray[np.float64], a: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """What moves a robot so, without friction; gravity is that of the Modelica Standard Library's world."""
-    model.gravity.linear = np.array([0, 0, -9.80665])
-    where = pinocchio.neutral(model)
-    where = pinocchio.integrate(model, where, q)
+def torques(model: pinocchio.Model, q: Array, w: Array, a: Array) -> Array:
+    """What moves a robot so, without friction."""
+    model.gravity.linear = np.array([0, 0, -GRAVITY])
+    where = pinocchio.integrate(model, pinocchio.neutral(model), q)
     return np.array(pinocchio.rnea(model, model.createData(), where, w, a))
 
 
@@ -192,19 +183,12 @@ def stripped(content: bytes, link: str = "") -> str:
     for element in root.findall("link"):
         for shape in (*element.findall("visual"), *element.findall("collision")):
             element.remove(shape)
-    if link:
-        assert root.find(f"link[@name='{link}']") is not None
-        centre = " ".join(map(str, CENTRE))
-        ixx, iyy, izz = INERTIA
-        root.append(
-            etree.fromstring(
-                f'<link name="payload"><inertial><origin xyz="{centre}"/><mass value="{MASS}"/>'
-                f'<inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" ixz="0" iyz="0"/></inertial></link>'
-            )
-        )
-        root.append(
-            etree.fromstring(
-                f'<joint name="payload" type="fixed"><parent link="{link}"/><child link="payload"/></joint>'
-            )
-        )
-    return str(etree.tostring(root, encoding="unicode"))
+    text = str(etree.tostring(root, encoding="unicode"))
+    if not link:
+        return text
+    assert root.find(f"link[@name='{link}']") is not None
+    centre, (ixx, iyy, izz) = " ".join(map(str, CENTRE)), INERTIA
+    inertia = f'<inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" ixz="0" iyz="0"/>'
+    payload = f'<inertial><origin xyz="{centre}"/><mass value="{MASS}"/>{inertia}</inertial>'
+    joint = f'<joint name="payload" type="fixed"><parent link="{link}"/><child link="payload"/></joint>'
+    return text.replace("</robot>", f'<link name="payload">{payload}</link>{joint}</robot>')

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from support.modelica import Array, Run, Series, Task, simulate
+from support.modelica import GRAVITY, Array, Run, Series, Task, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, link, links, robot
 
@@ -20,8 +20,6 @@ from urdfsync.urdf.physics.reference import SLIDING_STEEPNESS, TURNING_STEEPNESS
 
 pytestmark = pytest.mark.slow
 
-GRAVITY = 9.80665
-"""Of the standard library's world."""
 AXES = {"shoulder": ("revolute", "phi", "w", "tau"), "elbow": ("revolute", "phi", "w", "tau")} | {
     "slide": ("prismatic", "s", "v", "f")
 }

@@ -1,60 +1,96 @@
-"""The library's examples: those made by hand simulate, those made by urdfsync compile."""
+"""The library's examples: controllers follow, and generated packages are what their robots are."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from support import modelica
-from support.modelica import Run, Series, Task
+from support import physics
+from support.modelica import GRAVITY, URDFSYNC, Array, Run, Series, compile_task, execute, simulate
+
+from urdfsync.modelica.names import class_name
 
 pytestmark = pytest.mark.slow
 
-GENERATED = ("WheeledRobot", "PlanarPlatform", "FloatingBuoy")
-"""Without the six-axis arm: what extends it is compiled with the page on models of your own."""
-
-
-def test_the_quick_checks_of_generated_examples_compile(modelica_library: Path) -> None:
-    probes = [modelica.compile_task(f"UrdfSync.Examples.{name}.{name}Test") for name in GENERATED]
-    outcomes = modelica.execute(modelica_library, [], probes)
-    assert dict(zip(GENERATED, [outcome.error for outcome in outcomes], strict=True)) == dict.fromkeys(GENERATED, "")
-
-
+BASES = {"six_axis_arm": "fixed", "wheeled_robot": "floating", "planar_platform": "fixed", "floating_buoy": "fixed"}
 ANGLES = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", "elbow.revolute.w"]
 SWING = "robot.boom_swing.revolute.phi"
 
 
-@pytest.fixture(scope="module")
-def by_hand(modelica_library: Path) -> list[Series]:
-    """The pendulum, and the bench that holds an axis."""
-    pendulum, bench = (
-        modelica.compile_task(f"UrdfSync.Examples.{name}") for name in ("DoublePendulum", "HoldingTorque")
-    )
-    tasks = [
-        Task(pendulum.source, pendulum.model, [Run(2, 0.05)], ANGLES),
-        Task(bench.source, bench.model, [Run(0.5, 0.1)], [SWING]),
+@pytest.mark.parametrize("names", [["six_axis_arm"], ["wheeled_robot"], ["planar_platform", "floating_buoy"]])
+def test_generated_examples_move_as_pinocchio_says(
+    names: Sequence[str], modelica_library: Path, tmp_path: Path
+) -> None:
+    """A mobile robot, a planar and a floating joint among them."""
+    sources = [URDFSYNC / "Resources" / "robots" / name / f"{name}.urdf" for name in names]
+    cases = [
+        physics.prepare(source.read_bytes(), class_name(source.stem), base=BASES[source.stem]) for source in sources
     ]
-    return modelica.simulate(modelica_library, [], tasks)
+    assert [physics.fault(found) for found in physics.compare(modelica_library, tmp_path, cases)] == [None] * len(cases)
+    assert [case.experiment.notes for case in cases] == [()] * len(cases)
 
 
-def test_a_double_pendulum_loses_energy_by_friction_alone(by_hand: list[Series]) -> None:
-    series, _ = by_hand
-    energy = pendulum_energy(*(series.values[name] for name in ANGLES))
+def test_the_quick_checks_of_generated_examples_compile(modelica_library: Path) -> None:
+    """Without the six-axis arm: what extends it is compiled with the page on models of your own."""
+    names = ("WheeledRobot", "PlanarPlatform", "FloatingBuoy")
+    found = execute(modelica_library, [], [compile_task(f"UrdfSync.Examples.{name}.{name}Test") for name in names])
+    assert [outcome.error for outcome in found] == [""] * len(names)
+
+
+def test_examples_made_by_hand(modelica_library: Path) -> None:
+    """A double pendulum loses energy by friction alone, and a bench holds the axis that it names."""
+    tasks = [
+        compile_task("UrdfSync.Examples.DoublePendulum", runs=[Run(2, 0.05)], values=ANGLES),
+        compile_task("UrdfSync.Examples.HoldingTorque", runs=[Run(0.5, 0.1)], values=[SWING]),
+    ]
+    pendulum, bench = simulate(modelica_library, [], tasks)
+    energy = pendulum_energy(*(pendulum.values[name] for name in ANGLES))
     assert (np.diff(energy) < 1e-6).all()
     assert energy[-1] < energy[0] - 0.1
+    assert np.abs(bench.values[SWING]).max() < 1e-6
 
 
-def pendulum_energy(phi: modelica.Array, w: modelica.Array, psi: modelica.Array, v: modelica.Array) -> modelica.Array:
+def pendulum_energy(phi: Array, w: Array, psi: Array, v: Array) -> Array:
     """Kinetic and potential energy of the example, from its masses, lengths and inertias; both axes lie along y."""
     heights = [-0.25 * np.cos(phi), -0.5 * np.cos(phi) - 0.3 * np.cos(phi + psi)]
     along = 0.5 * w * np.cos(phi) + 0.3 * (w + v) * np.cos(phi + psi)
     across = 0.5 * w * np.sin(phi) + 0.3 * (w + v) * np.sin(phi + psi)
     kinetic = 0.5 * (1.2 * (0.25 * w) ** 2 + 0.025 * w**2 + 0.6 * (along**2 + across**2) + 0.0006 * (w + v) ** 2)
-    potential = 9.80665 * (1.2 * heights[0] + 0.6 * heights[1])
-    return np.asarray(kinetic + potential)
+    return np.asarray(kinetic + GRAVITY * (1.2 * heights[0] + 0.6 * heights[1]))
 
 
-def test_a_bench_by_hand_holds_the_axis_that_it_names(by_hand: list[Series]) -> None:
-    _, series = by_hand
-    assert np.abs(series.values[SWING]).max() < 1e-6
+WAY = {"phi[1]": 0.8, "phi[2]": 0.7, "phi[3]": 0.2, "phi[6]": -0.6}
+"""Where some axes of the arm are to be after the motion."""
+
+
+def example(library: Path, model: str, stop: float, values: list[str]) -> Series:
+    """An example as it stands, with results every 10 ms."""
+    task = compile_task(f"UrdfSync.Examples.{model}", runs=[Run(stop, 0.01, tolerance=1e-6)], values=values)
+    (series,) = simulate(library, [], [task])
+    return series
+
+
+@pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
+def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
+    """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
+    errors = [f"controller.error[{i}]" for i in range(1, 7)]
+    series = example(modelica_library, model, 0.62, [*errors, *WAY, "controller.tau[2]"])
+    assert 0 < max(np.abs(series.values[name]).max() for name in errors) < 1e-4
+    assert series.end(*WAY) == pytest.approx(list(WAY.values()), abs=1e-4)
+    assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
+
+
+@pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
+def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
+    """The first part of it, nearly a radius to the side."""
+    tool = [f"r_tool[{i}]" for i in (1, 2, 3)]
+    errors = [f"controller.error[{i}]" for i in (1, 2, 3)]
+    series = example(modelica_library, model, 0.6, [*errors, *tool, "controller.angle"])
+    assert 0 < np.abs([series.values[name] for name in errors]).max() < 0.004
+    way = np.array([series.values[name] - series.values[name][0] for name in tool])
+    angle = series.values["controller.angle"]
+    assert way[1][-1] > 0.07
+    expected = 0.1 * np.array([0 * angle, np.sin(angle), 1 - np.cos(angle)])
+    assert np.abs(way - expected).max() < 0.004

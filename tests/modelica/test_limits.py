@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
-from support.modelica import Run, Series, Task, execute
+from support.modelica import Run, Series, Task, bench, simulate_all
 from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
@@ -46,27 +46,8 @@ ROBOT = robot(
 )
 """Four drives of which three have close limits; grip follows lid, and is at its end where lid is at -0.2 rad."""
 
-CHECK = f"""
-package Check_
-  import Modelica;
-  import UrdfSync;
-{DRIVES}
-  model Check
-    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
-    Bot.Bot robot(fixedStart = false, checkLimits = %s);
-    RotationalDrive elbow;
-    RotationalDrive lid;
-    RotationalDrive roll;
-    TranslationalDrive rail;
-  equation
-    connect(world.frame_b, robot.frame_a);
-    connect(elbow.flange, robot.my_elbowAxis);
-    connect(lid.flange, robot.lidAxis);
-    connect(roll.flange, robot.rollAxis);
-    connect(rail.flange, robot.railAxis);
-  end Check;
-end Check_;
-"""
+AXES = {"elbow": "my_elbowAxis", "lid": "lidAxis", "roll": "rollAxis", "rail": "railAxis"}
+"""Each drive, and the flange of the robot that it moves."""
 
 PASSING = {
     "lower": ({"elbow.a1": -1.0}, -LOWER, "my_elbow (joint my elbow) is below its lower position limit"),
@@ -101,6 +82,14 @@ EVERYTHING = {"elbow.a1": 1.0, "roll.a2": 4.0, "rail.a2": 100.0, "lid.a1": -1.0}
 """A motion that passes limits of all kinds."""
 
 
+def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: str = "Bot", classes: str = "") -> Task:
+    """A bench with a robot, of this type and with these modifiers, and with a drive at each of its axes."""
+    drives = (f"{'Translational' if name == 'rail' else 'Rotational'}Drive {name};" for name in axes)
+    connections = (f"connect({name}.flange, robot.{axis});" for name, axis in axes.items())
+    body = [robot, *drives, "equation", "connect(world.frame_b, robot.frame_a);", *connections]
+    return bench("\n    ".join(body), runs, packages=[package], classes=DRIVES + classes)
+
+
 MILD = "passed with warnings"
 OFF = "passed with limits off"
 
@@ -116,15 +105,13 @@ def series(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> 
     motions = {name: Run(1.0, 0.1, motion) for name, (motion, _, _) in PASSING.items()}
     motions |= {name: Run(stop, stop / 10, motion) for name, (motion, stop) in INSIDE.items()}
     everything = [Run(1.0, 0.1, EVERYTHING)]
+    robot = "{}.Bot robot(fixedStart = false, checkLimits = {});"
     tasks = [
-        Task(CHECK % "true", "Check_.Check", list(motions.values())),
-        Task(CHECK.replace("Bot.Bot", "Mild.Bot") % "true", "Check_.Check", everything),
-        Task(CHECK % "false", "Check_.Check", everything),
+        driven(robot.format("Bot", "true"), AXES, list(motions.values())),
+        driven(robot.format("Mild", "true"), AXES, everything, "Mild"),
+        driven(robot.format("Bot", "false"), AXES, everything),
     ]
-    outcomes = execute(modelica_library, packages, tasks)
-    assert [outcome.error for outcome in outcomes] == ["", "", ""]
-    found = [run for outcome in outcomes for run in outcome.runs]
-    return dict(zip([*motions, MILD, OFF], found, strict=True))
+    return dict(zip([*motions, MILD, OFF], simulate_all(modelica_library, packages, tasks), strict=True))
 
 
 def test_a_limit_that_is_passed_is_named(series: Mapping[str, Series]) -> None:
@@ -133,7 +120,7 @@ def test_a_limit_that_is_passed_is_named(series: Mapping[str, Series]) -> None:
         found = re.search(r"assert failed at t=([\d.]+): (.*)", error)
         assert found, error or f"{limit_name}: the simulation ran to its end"
         assert float(found[1]) == pytest.approx(time, rel=1e-3), limit_name
-        assert found[2].strip() == f"Check.robot.{message}"
+        assert found[2].strip() == f"Bench.robot.{message}"
 
 
 def test_nothing_is_said_inside_the_limits(series: Mapping[str, Series]) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.modelica import Run, Series, Task, simulate
+from support.modelica import Run, Series, bench, simulate
 from support.packages import generate
 from support.urdfs import joint, limit, link, mimic, robot
 
@@ -87,9 +87,9 @@ def position(name: str) -> str:
     return f"robot.{name}.{'prismatic.s' if JOINTS[name][0] == 'prismatic' else 'revolute.phi'}"
 
 
-def bench() -> str:
+def ways() -> str:
     """Each leader goes from its start to the turning point of a sweep; what is known of each joint is a variable."""
-    parts, connections = [], []
+    parts, connections = ["Bot.Bot robot(fixedStart = false, checkLimits = false);"], []
     for name in JOINTS:
         kind, q, v = names(name)
         known = [f"robot.{name}.{part}" for part in (f"{q}_min", f"{q}_max", f"{v}_max", f"{q}_start")]
@@ -103,28 +103,13 @@ def bench() -> str:
     return "\n    ".join([*parts, "equation", "connect(world.frame_b, robot.frame_a);", *connections])
 
 
-SOURCE = f"""
-package Told_
-  import Modelica;
-  import UrdfSync;
-  import Bot;
-{DRIVES}
-  model Told
-    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, enableAnimation = false);
-    Bot.Bot robot(fixedStart = false, checkLimits = false);
-    {bench()}
-  end Told;
-end Told_;
-"""
-
-
 @pytest.fixture(scope="module")
 def series(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Series:
     """The way from the start to the turning point."""
     folder = generate(ROBOT.encode(), Target("Bot", "Bot")).write(tmp_path_factory.mktemp("mimic"))
     values = [f"{name}_range[{k}]" for name in JOINTS for k in (1, 2, 3, 4)]
     values += [position(name) for name in JOINTS]
-    (run,) = simulate(modelica_library, [folder], [Task(SOURCE, "Told_.Told", [Run(STOP, STOP / 4)], values)])
+    (run,) = simulate(modelica_library, [folder], [bench(ways(), [Run(STOP, STOP / 4)], values, classes=DRIVES)])
     return run
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from urdfsync.merge.tokens import tokens
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.syntax import Class, Component, Declared, Extends, ImportClause, Modifier, Name, declared
+from urdfsync.modelica.syntax import Class, Declared, Extends, Modifier, Name, declared
 
 LIBRARY = Path(__file__).parents[2] / "modelica"
 STANDARD = Path.home() / ".openmodelica" / "libraries"
@@ -132,35 +132,6 @@ def test_a_text_may_say_that_it_is_in_no_package() -> None:
     assert parse("model A\nend A;\n").within is None
 
 
-def test_modifiers_are_nested_values() -> None:
-    found = class_in("extends Arm(redeclare My.Elbow elbow(c = k), lower(inertial(mass = 3*m)));")
-    inner = Modifier(name("mass", 2), uses=(name("m", 2),))
-    assert tuple(found.extends) == (
-        Extends(
-            name("Arm", 2),
-            (
-                Modifier(
-                    name("elbow", 2),
-                    (Modifier(name("c", 2), uses=(name("k", 2),)),),
-                    is_redeclared=True,
-                    type=Extends(name("My.Elbow", 2)),
-                ),
-                Modifier(name("lower", 2), (Modifier(name("inertial", 2), (inner,)),)),
-            ),
-        ),
-    )
-
-
-def test_a_component_may_be_replaceable() -> None:
-    found = class_in("inner replaceable .P.Link up[n], low = x if b\n  constrainedby P.Partial(final m = 2);")
-    constraint = Extends(name("P.Partial", 3), (Modifier(name("m", 3)),))
-    prefixes = frozenset({"inner", "replaceable"})
-    assert tuple(found.components) == (
-        Component(name("up", 2), name(".P.Link", 2), prefixes, (), (name("n", 2),), constraint),
-        Component(name("low", 2), name(".P.Link", 2), prefixes, (), (name("x", 2), name("b", 2)), constraint),
-    )
-
-
 def test_classes_come_in_several_forms() -> None:
     found = class_in(
         "type T = Real(min = a);\n type E = enumeration(one, two);\n replaceable package M = B constrainedby C;\n"
@@ -178,25 +149,6 @@ def test_classes_come_in_several_forms() -> None:
     assert short.alias == Extends(name("Real", 2), (Modifier(name("min", 2), uses=(name("a", 2),)),))
     assert (medium.constraint, medium.prefixes) == (Extends(name("C", 4)), frozenset({"replaceable"}))
     assert (extension.arguments, extension.prefixes) == ((Modifier(name("k", 5)),), frozenset({"redeclare"}))
-
-
-def test_imports() -> None:
-    found = class_in("import A.B;\n import C = A.D;\n import A.*;\n import A.{x, y = z};")
-    assert tuple(found.imports) == (
-        ImportClause(name(".A.B", 2), {"B": name(".A.B", 2)}),
-        ImportClause(name(".A.D", 3), {"C": name(".A.D", 3)}),
-        ImportClause(name(".A", 4)),
-        ImportClause(name(".A", 5), {"x": name(".A.x", 5), "y": name(".A.z", 5)}),
-    )
-
-
-def test_names_in_equations_without_indices_of_loops() -> None:
-    found = class_in(
-        "equation\n  connect(a.b[i].c, .d);\n  for i in 1:n loop\n    x[i] = F.g(i, k = y) + i;\n  end for;\n"
-        "  z = sum(j*q for j in p) + time;\n  annotation (Icon(extent = nowhere));\n"
-    )
-    expected = ["i", "a.b.c", "d", "n", "x", "F.g()", "y", "z", "sum()", "q", "p", "time"]
-    assert sorted(uses(found.uses)) == sorted(expected)
 
 
 def test_names_in_statements_and_external_functions() -> None:

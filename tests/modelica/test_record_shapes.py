@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import urdfs
-from support.modelica import Run, Series, Task, execute
+from support.modelica import Run, bench, execute
 from support.packages import generate
 
 from urdfsync.domain import Target
@@ -52,14 +52,8 @@ PAIRS = {
     7: "arm.visual5.shape",
 }
 """Entry of the table, and what the package approach draws."""
-SOURCE = """
-package Use_
-  import Modelica;
-  import UrdfSync;
-  import Bot;
-  model Beside
-    inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1});
-    Bot.Bot robot(fixedStart = false);
+BESIDE = """\
+Bot.Bot robot(fixedStart = false);
     UrdfSync.Robots.GenericRobot generic(fixedStart = false, redeclare parameter Bot.BotParameters data);
     Modelica.Mechanics.Rotational.Sources.Position turn[2](each exact = true);
     Modelica.Mechanics.Translational.Sources.Position move[2](each exact = true);
@@ -73,16 +67,11 @@ package Use_
     for k in 1:2 loop
       turn[k].phi_ref = 0.3 + 100*time^2;
       move[k].s_ref = 0.1 + 100*time^2;
-    end for;
-  end Beside;
-  model Unseen
-    inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1});
-    UrdfSync.Robots.GenericRobot generic(animation = false, redeclare parameter Bot.BotParameters data);
+    end for;"""
+UNSEEN = """\
+UrdfSync.Robots.GenericRobot generic(animation = false, redeclare parameter Bot.BotParameters data);
   equation
-    connect(world.frame_b, generic.frame_a);
-  end Unseen;
-end Use_;
-"""
+    connect(world.frame_b, generic.frame_a);"""
 VECTORS = ("r", "r_shape", "lengthDirection")
 NUMBERS = ("length", "width", "height", "color[1]", "color[2]", "color[3]")
 
@@ -102,8 +91,8 @@ def test_all_shapes_are_where_the_package_approach_has_them(modelica_library: Pa
     pairs = [(f"generic.shape[{k}]", f"robot.{name}") for k, name in PAIRS.items()]
     wanted = [value for pair in pairs for shape in pair for value in values(shape)]
     tasks = [
-        Task(SOURCE, "Use_.Beside", [Run()], wanted),
-        Task(SOURCE, "Use_.Unseen", [Run()], ["generic.shape[1].r[1]"]),
+        bench(BESIDE, [Run()], wanted, is_animated=True),
+        bench(UNSEEN, [Run()], ["generic.shape[1].r[1]"], is_animated=True),
     ]
     seen, unseen = execute(modelica_library, [package.write(tmp_path / "package")], tasks)
     assert (seen.error, unseen.error) == ("", "")
@@ -112,13 +101,9 @@ def test_all_shapes_are_where_the_package_approach_has_them(modelica_library: Pa
     assert "unknown variable" in unseen.runs[0].error, "nothing is drawn"
     for ours, theirs in pairs:
         for one, other in zip(values(ours), values(theirs), strict=True):
-            assert difference(series, one, other) < 1e-12, (one, other)
+            assert np.abs(series.values[one] - series.values[other]).max() < 1e-12, (one, other)
     moved = series.values["generic.shape[2].r[1]"]
     assert abs(moved[-1] - moved[0]) > 1e-3
     parts = package.texts["BotParameters.mo"]
     assert parts.count("armVisual5.uri") == 1
     assert "armVisual1" not in parts
-
-
-def difference(series: Series, one: str, other: str) -> float:
-    return float(np.abs(series.values[one] - series.values[other]).max())

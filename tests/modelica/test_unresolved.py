@@ -152,6 +152,14 @@ MISSING = {
     "value": ("Plant.Crane c(g = grav);\nparameter Real grave;", "2: Mine grav [grav] grave"),
     "in a reduction": ("parameter Real[:] num;\nReal x[size(num, 1)] = {nun[i] for i in 1:2};",
         "3: Mine nun [nun] num"),
+    "range of a reduction": ("Real x = sum(k for k in nope);", "2: Mine nope [nope]"),
+    "range of a loop": ("equation\nfor k in 1:nope loop\nend for;", "3: Mine nope [nope]"),
+    "condition": ("Real x if nope;", "2: Mine nope [nope]"),
+    "size of a type": ("Real[nope] x;", "2: Mine nope [nope]"),
+    "size": ("Real x[nope];", "2: Mine nope [nope]"),
+    "subscript": ("Real x[3];\nReal y = x[nope];", "3: Mine nope [nope]"),
+    "from the top": ("Real Plant;\n.Plant.Crane c(gg = 1);", "3: Crane gg [gg] g"),
+    "imported by another name": ("import Plant.Parts.{P = Pin};\nP p;\nReal y = p.v;", "4: Pin p.v [v]"),
 }  # fmt: skip
 
 

@@ -23,21 +23,12 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
+from urdfsync.state.journal import JournalFolder, Phase
 from urdfsync.state.store import Store
 
 NAMES = (
-    *(
-        "make_folder",
-        "remove_folder",
-        "write",
-        "append",
-        "write_bound",
-        "exchange",
-        "complete_exchange",
-        "replace",
-        "place",
-    ),
-    *("remove", "sync"),
+    *("make_folder", "remove_folder", "write", "append", "write_bound", "exchange", "complete_exchange"),
+    *("replace", "place", "remove", "sync"),
 )
 WRITES = ("write", "append", "write_bound")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
@@ -174,6 +165,11 @@ def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
     for name in renamed[1:]:
         elements += [link(f"{name}new", mass), joint(f"{name}j", "fixed", "base", f"{name}new")]
     (project / "bot.urdf").write_text(robot(*elements))
+
+
+def phase(project: Path) -> Phase | None:
+    """How far the last build has come, if it was interrupted."""
+    return JournalFolder(project, project / ".urdfsync/journal").phase()
 
 
 def copy(project: Path, to: Path) -> Path:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from support.modelica import Array, Run, Task
+from support.modelica import Array, Run, Task, bench
 from support.packages import Package, generate
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
@@ -24,23 +24,18 @@ from urdfsync.urdf.physics.reference import Configuration, Reference
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""
 
-_FREE = """package Free_
-  import Modelica;
-  import UrdfSync;
-  import {package};
-  model Free
-    inner Modelica.Mechanics.MultiBody.World world(n = {{0, 0, -1}}, g = {g!r}, enableAnimation = false);
-    {robot}
-    {base}
-  end Free;
-end Free_;
-"""
 _FIXED = "equation connect(world.frame_b, robot.frame_a);"
-_FLOATING = """UrdfSync.Robots.FreeBase base(
-      r_start = {place}, rpy_start = {rpy}, v_start = {velocity}, w_start = {turning});
+_FLOATING = """UrdfSync.Robots.FreeBase base({start});
   equation
     connect(world.frame_b, base.frame_a);
     connect(base.frame_b, robot.frame_a);"""
+_BASE = {
+    "r_start": (0.3, -0.2, 1.5),
+    "rpy_start": (0.4, -0.3, 0.9),
+    "v_start": (0.5, -0.3, 0.8),
+    "w_start": (0.7, -1.1, 0.6),
+}
+"""How a free base sets out: velocity and angular velocity are resolved in the world."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,19 +51,9 @@ class Robot:
         return self.package.skeleton
 
 
-@dataclasses.dataclass(frozen=True)
-class Base:
-    """How a free base sets out: velocity and angular velocity are resolved in the world."""
-
-    place: tuple[float, float, float] = (0.3, -0.2, 1.5)
-    rpy: tuple[float, float, float] = (0.4, -0.3, 0.9)
-    velocity: tuple[float, float, float] = (0.5, -0.3, 0.8)
-    turning: tuple[float, float, float] = (0.7, -1.1, 0.6)
-
-
-def prepare(content: bytes, name: str = "Bot", *, approach: Sequence[str] = ("record",)) -> Robot:
+def prepare(content: bytes, name: str = "Bot") -> Robot:
     """A robot that Pinocchio can read."""
-    package = generate(content, Target(name, name), approach=tuple(approach))
+    package = generate(content, Target(name, name), approach=("record",))
     axes = [joint.name for joint in motion.driven_axes(package.skeleton)]
     return Robot(package, Reference(read(content, "robot.urdf"), axes, []))
 
@@ -78,43 +63,34 @@ def free_task(
     form: str,
     start: Sequence[Course],
     stop: float,
-    tolerances: Sequence[float | None] = (None,),
-    base: Base | None = None,
+    tolerance: float | None = None,
+    is_floating: bool = False,
 ) -> Task:
-    """Free motion, once per tolerance, on a fixed base or a free one.
+    """Free motion on a fixed base or a free one.
 
-    `form` is one of `FORMS`, or "package" for the robot model of the package.
+    The values are the positions of the driven axes, in the order of `motion.driven_axes`; of a free base also place
+    and rotation matrix of the root link, the latter by rows.
     """
-    name = robot.package.target.name
-    model = f"{name}.{name} robot(animation = false, "
-    if form != "package":
-        model = f"UrdfSync.Robots.{form} robot(redeclare parameter {name}.{name}Parameters data, "
-    model += f"{_starts(start, len(robot.skeleton.axes('rotational')))}checkLimits = false);"
-    numbers = {key: vector(value) for key, value in dataclasses.asdict(base).items()} if base else {}
-    connected = _FLOATING.format(**numbers) if base else _FIXED
-    text = _FREE.format(package=name, g=motion.GRAVITY, robot=model, base=connected)
-    runs = [Run(stop, stop, tolerance=tolerance) for tolerance in tolerances]
-    return Task(text, "Free_.Free", runs, [*axis_values(robot), *(ROOT if base else ())])
+    name, parts, values = robot.package.target.name, [], []
+    for kind, q, v in (("rotational", "phi", "w"), ("translational", "s", "v")):
+        count = len(robot.skeleton.axes(kind))  # type: ignore[arg-type]
+        own, start = start[:count], start[count:]
+        if own:
+            positions, speeds = vector([one.position for one in own]), vector([one.speed for one in own])
+            parts.append(f"{q}_start = {positions}, {v}_start = {speeds}, ")
+        values += [f"robot.{kind}Axis[{number}].{q}" for number in range(1, count + 1)]
+    model = f"UrdfSync.Robots.{form} robot(redeclare parameter {name}.{name}Parameters data, "
+    model += f"{''.join(parts)}checkLimits = false);"
+    connected = _FIXED
+    if is_floating:
+        connected = _FLOATING.format(start=", ".join(f"{key} = {vector(value)}" for key, value in _BASE.items()))
+        values += [f"robot.frame_a.r_0[{i}]" for i in (1, 2, 3)]
+        values += [f"robot.frame_a.R.T[{j},{i}]" for i in (1, 2, 3) for j in (1, 2, 3)]
+    runs = [Run(stop, stop, tolerance=tolerance)]
+    return bench(f"{model}\n    {connected}", runs, values, packages=[name], gravity=motion.GRAVITY)
 
 
-ROOT = (
-    *(f"robot.frame_a.r_0[{i}]" for i in (1, 2, 3)),
-    *(f"robot.frame_a.R.T[{j},{i}]" for i in (1, 2, 3) for j in (1, 2, 3)),
-)
-"""Variables with place and rotation matrix of the root link, the latter by rows."""
-
-
-def axis_values(robot: Robot) -> list[str]:
-    """Variables with the positions of the driven axes, in the order of `motion.driven_axes`."""
-    kinds = (("rotational", "phi"), ("translational", "s"))
-    return [
-        f"robot.{kind}Axis[{number}].{position}"
-        for kind, position in kinds
-        for number, _ in enumerate(robot.skeleton.axes(kind), 1)  # type: ignore[arg-type]
-    ]
-
-
-def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, base: Base | None = None) -> Array:
+def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, is_floating: bool = False) -> Array:
     """What the values of `free_task` are after `stop` s of free motion from positions and speeds of `start`.
 
     On the way the acceleration is that of (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives.
@@ -123,10 +99,11 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
     p, speeds, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
     state = at_rest(robot, p, speeds)
     q, v, free = state.q, state.v, reference.projection
-    if base:
-        axes = pin.rpy.rpyToMatrix(*base.rpy)
-        q[:3], q[3:7] = base.place, pin.Quaternion(axes).coeffs()
-        v[:3], v[3:6] = axes.T @ base.velocity, axes.T @ base.turning
+    if is_floating:
+        place, rpy, velocity, turning = map(np.array, _BASE.values())
+        axes = pin.rpy.rpyToMatrix(*rpy)
+        q[:3], q[3:7] = place, pin.Quaternion(axes).coeffs()
+        v[:3], v[3:6] = axes.T @ velocity, axes.T @ turning
         free = np.hstack([np.eye(model.nv, 6), free])
 
     def acceleration(q: Array, v: Array) -> Array:
@@ -146,7 +123,7 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
         q, v = pin.integrate(model, q, way), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
         p = p + np.linalg.pinv(reference.projection) @ way
     turned = pin.Quaternion(q[3:7]).toRotationMatrix()
-    return np.concatenate([p, q[:3], turned.ravel()]) if base else np.asarray(p)
+    return np.concatenate([p, q[:3], turned.ravel()]) if is_floating else np.asarray(p)
 
 
 def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
@@ -175,13 +152,3 @@ def link_place(robot: Robot, p: Array, link: str) -> Array:
     data = model.createData()
     pin.framesForwardKinematics(model, data, at_rest(robot, p, np.zeros(len(p))).q)
     return np.array(data.oMf[model.getFrameId(link, pin.BODY)].translation)
-
-
-def _starts(start: Sequence[Course], turning: int) -> str:
-    parts = (("phi_start", "w_start", start[:turning]), ("s_start", "v_start", start[turning:]))
-    return "".join(
-        f"{position} = {vector([course.position for course in courses])}, "
-        f"{speed} = {vector([course.speed for course in courses])}, "
-        for position, speed, courses in parts
-        if courses
-    )

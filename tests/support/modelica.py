@@ -14,13 +14,15 @@ from support.corpus import REPOSITORY
 from urdfsync.check import libraries as modelica_libraries
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import compiler, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileResult, CompileTask, Simulation
+from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation
 
 Array = NDArray[np.float64]
 
 URDFSYNC = REPOSITORY / "modelica" / "UrdfSync"
 CACHE = UserCache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "urdfsync-tests")
 """Stays from run to run, since the compiler's first look at a library takes seconds; may be deleted."""
+GRAVITY = 9.80665
+"""Of the standard library's world."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,18 +56,42 @@ class Series:
     times: Array
     values: Mapping[str, Array]
 
+    def end(self, *names: str) -> Array:
+        """The last number of each of these values."""
+        return np.array([self.values[name][-1] for name in names])
+
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
     """What became of a task; a model that is not balanced does not compile, and says so in `error`."""
 
     error: str
-    unknowns: int
-    runs: tuple[Series, ...]
-    seconds: float
-    """CPU time."""
-    compiling: float
-    """The part of it before the first run."""
+    runs: tuple[Series, ...] = ()
+
+
+def bench(
+    body: str,
+    runs: Sequence[Run],
+    values: Sequence[str] = (),
+    *,
+    packages: Sequence[str] = ("Bot",),
+    classes: str = "",
+    gravity: float = GRAVITY,
+    is_animated: bool = False,
+) -> Task:
+    """A model `Bench` with a world, in a package with other `classes`."""
+    # rumoca loads no package that the text does not import
+    imports = "".join(f"  import {name};\n" for name in ("Modelica", "UrdfSync", *packages))
+    modifiers = f"n = {{0, 0, -1}}, g = {gravity!r}, enableAnimation = {str(is_animated).lower()}"
+    world = f"inner Modelica.Mechanics.MultiBody.World world({modifiers});"
+    model = f"  model Bench\n    {world}\n    {body}\n  end Bench;\n"
+    return Task(f"package Bench_\n{imports}{classes}{model}end Bench_;\n", "Bench_.Bench", runs, values)
+
+
+def compile_task(model: str, *libraries: str, runs: Sequence[Run] = (), values: Sequence[str] = ()) -> Task:
+    """Compile a model of a package by its full name; `libraries` are what it needs beside those of all packages."""
+    task = compiler.compile_task(model, ("Modelica", "UrdfSync", *libraries))
+    return Task(task.source, task.model, runs, values)
 
 
 def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Outcome]:
@@ -73,44 +99,36 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
 
     A child that dies gives outcomes with its last words as the error.
     """
-    roots = (standard(library), str(URDFSYNC), *map(str, packages))
+    found = modelica_libraries.find_standard_library(os.environ, library)
+    standard = modelica_libraries.standard_library_copy(found.parts, (), CACHE)  # the part of it that robots need
+    roots, tasks = tuple(map(str, (standard, URDFSYNC, *packages))), []
+    for task in todo:
+        runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
+        tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values)))
     CACHE.trim()
     try:
-        results = run_job("rumoca", CompileJob(roots, tuple(map(_task, todo))), CACHE)
+        results = run_job("rumoca", CompileJob(roots, tuple(tasks)), CACHE)
     except CompilerError as error:
-        return [Outcome(str(error), 0, (), 0, 0) for _ in todo]
-    return [_outcome(result) for result in results]
+        return [Outcome(str(error)) for _ in todo]
+    outcomes = []
+    for result in results:
+        series = []
+        for run in result.runs:
+            values = {name: np.array(numbers) for name, numbers in run.values.items()}
+            series.append(Series(run.problem, values.pop("time", np.array([])), values))
+        outcomes.append(Outcome(result.problem, tuple(series)))
+    return outcomes
+
+
+def simulate_all(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Series]:
+    """Execute tasks that compile; returns all their runs, those that came to no end among them."""
+    outcomes = execute(library, packages, todo)
+    assert [outcome.error for outcome in outcomes] == [""] * len(todo)
+    return [run for outcome in outcomes for run in outcome.runs]
 
 
 def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Series]:
     """Execute tasks that compile, and whose runs all come to their end; returns these runs."""
-    outcomes = execute(library, packages, todo)
-    assert [outcome.error for outcome in outcomes] == [""] * len(todo)
-    runs = [run for outcome in outcomes for run in outcome.runs]
+    runs = simulate_all(library, packages, todo)
     assert [run.error for run in runs] == [""] * len(runs)
     return runs
-
-
-def standard(library: Path) -> str:
-    """The folder with the part of the standard library in the folder `library` that robots need."""
-    found = modelica_libraries.find_standard_library(os.environ, library)
-    return str(modelica_libraries.standard_library_copy(found.parts, (), CACHE))
-
-
-def compile_task(model: str, *libraries: str) -> Task:
-    """Compile a model of a package by its full name; `libraries` are what it needs beside those of all packages."""
-    task = compiler.compile_task(model, ("Modelica", "UrdfSync", *libraries))
-    return Task(task.source, task.model)
-
-
-def _task(task: Task) -> CompileTask:
-    runs = tuple(Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
-    return CompileTask(task.model, task.source, runs, tuple(task.values))
-
-
-def _outcome(result: CompileResult) -> Outcome:
-    runs = []
-    for run in result.runs:
-        values = {name: np.array(series) for name, series in run.values.items()}
-        runs.append(Series(run.problem, values.pop("time", np.array([])), values))
-    return Outcome(result.problem, result.unknowns, tuple(runs), result.seconds, result.compiling)

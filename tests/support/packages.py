@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,12 +12,16 @@ from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Lookup, Order, Reading, Role, Snapshot, Target
 from urdfsync.render import Renderer
+from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
+_EXTENDS = re.compile(r"  extends UrdfSync\.Records\.Robot\(\n(.*?)\);\n\n", re.DOTALL)
+_MODIFIER = re.compile(r"^    (?=\w)", re.MULTILINE)
+_COMPONENT = re.compile(r"^  UrdfSync\.Records\.(\w+) (\w+)\((.*?)\)\n    \"", re.DOTALL | re.MULTILINE)
 RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
 
 
@@ -122,3 +127,22 @@ def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, 
 
 def _texts(diagnostics: tuple[Diagnostic, ...]) -> list[str]:
     return [str(diagnostic) for diagnostic in diagnostics]
+
+
+def record_text(of: KinematicTree | Robot) -> str:
+    """The record of a robot."""
+    artifact = record(Robot("r", of.links, of.joints), Target("", "RParameters"), Options(approach=("record",)))
+    return RENDERER.render(artifact.template, artifact.data)
+
+
+def record_tables(of: KinematicTree | Robot) -> list[str]:
+    """The modifiers of `UrdfSync.Records.Robot` by which it is this robot, name and index matrices left out."""
+    found = _EXTENDS.search(record_text(of))
+    assert found is not None
+    modifiers = [modifier.rstrip().rstrip(",") for modifier in _MODIFIER.split(found[1])[1:]]
+    return [modifier for modifier in modifiers if not modifier.startswith(("name", "connectionM", "moveableJ"))]
+
+
+def record_components(of: KinematicTree | Robot) -> dict[str, tuple[str, str]]:
+    """Class and modifiers of each component of a class of `UrdfSync.Records`, the modifiers on one line."""
+    return {name: (kind, " ".join(text.split())) for kind, name, text in _COMPONENT.findall(record_text(of))}

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from support import urdfs
-from support.modelica import Run, Task, execute
+from support.modelica import Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.check.results import agrees, largest
 from urdfsync.domain import Deviation, Experiment, Quantity, Target
@@ -28,22 +28,6 @@ class Case:
     package: Package
 
 
-@dataclasses.dataclass(frozen=True)
-class Deviations:
-    """How far a package is from the reference, element by element."""
-
-    deviations: tuple[Deviation, ...]
-
-    @property
-    def agrees(self) -> bool:
-        """Whether all differences are within the tolerance."""
-        return all(map(agrees, self.deviations))
-
-    def worst(self, quantities: Sequence[Quantity] = tuple(Quantity)) -> Deviation | None:
-        """The one that is greatest against its kind; None if nothing of these quantities was compared."""
-        return largest(self.deviations, quantities)
-
-
 def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, **options: Any) -> Case:
     """The experiment with a URDF, and the package that follows from it; meshes are imported beside a file only."""
     content = source if isinstance(source, bytes) else source.read_bytes()
@@ -55,36 +39,21 @@ def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, *
     return Case(experiment, generate(source, target, **options))
 
 
-def changed(case: Case, path: str, change: Callable[[str], str]) -> Case:
-    """The same with another text in one file of the package."""
-    texts = {**case.package.texts, path: change(case.package.texts[path])}
-    return Case(case.experiment, dataclasses.replace(case.package, texts=texts))
-
-
-def replaced(old: str, new: str) -> Callable[[str], str]:
-    """A change of one place in a text."""
-
-    def change(text: str) -> str:
-        assert text.count(old) == 1, f"{old!r} is not once in:\n{text}"
-        return text.replace(old, new)
-
-    return change
-
-
-def compare(library: Path, folder: Path, cases: Iterable[Case]) -> list[Deviations]:
-    """Simulate the probes of packages with names of their own, below `folder`, and compare."""
-    cases = list(cases)
+def compare(library: Path, folder: Path, cases: Sequence[Case]) -> list[tuple[Deviation, ...]]:
+    """Simulate the probes of packages with names of their own, below `folder`: how far each is from the reference."""
     folders = [case.package.write(folder) for case in cases]
     probes = [case.experiment.probe for case in cases]
     tasks = [Task(p.source, p.model, [Run(p.stop, p.step)], p.values) for p in probes]
     results = []
-    for case, outcome in zip(cases, execute(library, folders, tasks), strict=True):
-        assert not outcome.error, outcome.error
-        (run,) = outcome.runs
-        assert not run.error, run.error
+    for case, run in zip(cases, simulate(library, folders, tasks), strict=True):
         series = {"time": run.times.tolist()} | {name: values.tolist() for name, values in run.values.items()}
-        results.append(Deviations(tuple(case.experiment.compare(series))))
+        results.append(tuple(case.experiment.compare(series)))
     return results
+
+
+def fault(deviations: Sequence[Deviation]) -> Deviation | None:
+    """The difference that is greatest against its kind, if one is beyond the tolerance."""
+    return None if all(map(agrees, deviations)) else largest(deviations, tuple(Quantity))
 
 
 def pinocchio_series(urdf: str) -> dict[str, list[float]]:

@@ -22,9 +22,9 @@ if __name__ == "__main__":
 from support import urdfs
 from support.modelica import compile_task, execute
 from support.packages import RENDERER, Package, generate
-from support.words import unbalanced, words
 
 from urdfsync.domain import Artifact, Order, Role, Target
+from urdfsync.modelica.parser import parse
 from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
@@ -100,7 +100,7 @@ def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
     rumoca = pytest.importorskip("rumoca")
     folder = golden(variant).write(tmp_path)
     assert {path.name: found for path in folder.rglob("*.mo") if (found := rumoca.validate(str(path)))} == {}
-    assert [path for path, text in golden(variant).models.items() if unbalanced(words(text))] == []
+    assert [path for path, text in golden(variant).models.items() if parse(text).faults] == []
 
 
 @pytest.mark.slow

@@ -20,10 +20,8 @@ class UnresolvedKind(enum.Enum):
 
     CLASS = "class"
     """It is used as a class, and there is none."""
-    FUNCTION = "function"
-    """It is called, and there is no function or record of this name."""
     ELEMENT = "element"
-    """A class has no element of this name."""
+    """A class has no component or function of this name."""
     NESTED_REDECLARE = "nested-redeclare"
     """Legal: it redeclares an element inside of an element."""
     DOTTED_MODIFIER = "dotted-modifier"
@@ -90,8 +88,7 @@ class _Walk:
 
     def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
         for name in names:
-            kind = UnresolvedKind.FUNCTION if name.is_called else UnresolvedKind.ELEMENT
-            yield from self._missing(name, self._scopes.lookup(name, scope), scope, kind)
+            yield from self._missing(name, self._scopes.lookup(name, scope), scope, UnresolvedKind.ELEMENT)
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
@@ -131,8 +128,6 @@ class _Walk:
     ) -> Iterator[Unresolved]:
         if isinstance(found, Element) or not (found.is_certain or found.part in self._doubtful):
             return
-        if kind is UnresolvedKind.FUNCTION and len(name.parts) > 1 and found.part != name.parts[-1]:
-            kind = UnresolvedKind.ELEMENT  # a component on the way to the function
         owner = str(found.types[0] if found.types else scope or "")
         known = self._scopes.names_in(found.types) if found.types else self._scopes.names_around(scope)
         candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS}

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from hypothesis import given
-from support.records import record_components, record_text
+from support.packages import record_components, record_text
 from support.robots import robots, tree
 
 from urdfsync.domain import Target

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from hypothesis import given, settings
-from support.records import record_components, record_tables
+from support.packages import record_components, record_tables
 from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
