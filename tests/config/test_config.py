@@ -113,7 +113,7 @@ OTHER_MISTAKES = {
     robot().replace("work", "wok"): '4 there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
     robot().replace('package = "Arm"', ""): "1 robot `arm` has no `package`; add a line `package = …` [missing-key]",
     "[default]\n" + robot(): "1 unknown key `default` in the configuration; did you mean `defaults`? [unknown-key]",
-    "[defaults]\nsource = 'a'\n" + robot(): "2 unknown key `source` in `[defaults]`; known keys are create_parents, ",
+    "[defaults]\nsource = 'a'\n" + robot(): "2 `source` can't have a default: every robot has its own",
     "[defaults]\nprefx = 'a'\n" + robot(): "2 unknown key `prefx` in `[defaults]`; did you mean `prefix`? "
     "[unknown-key]",
     "check = true\n" + robot(): "1 `check` must be a table [wrong-value]",

@@ -141,7 +141,12 @@ class _Reader:
             known |= _names_of(domain.options)
             if (robot := self._robot(name, values, defaults, domain)) is not None:
                 yield robot
-        self._refuse_unknown(self._table("`[defaults]`", defaults, "defaults"), known.difference(OWN_KEYS))
+        table = self._table("`[defaults]`", defaults, "defaults")
+        for key in OWN_KEYS:
+            if key in defaults:
+                message = f"`{key}` can't have a default: every robot has its own"
+                self._report("unknown-key", table.lines[key], message)
+        self._refuse_unknown(table, known)
 
     def check(self) -> CheckConfig:
         """The table `[check]`."""
