@@ -485,3 +485,16 @@ def test_the_record_of_a_renamed_element_waits_although_a_text_mentions_it(proje
     assert tomllib.loads(state.decode())["files"]["Elements/R1Parameters.mo"]["state"] == "waiting"
     run()
     assert Path(MANIFEST).read_bytes() == state
+
+
+def test_a_record_that_is_needed_stays_when_its_element_gets_another_name_later(project: Path) -> None:
+    run()
+    bench, record = Path("modelica/Bench.mo"), Path(C1.replace(".mo", "Parameters.mo"))
+    bench.write_text("model Bench\n  parameter Ladder.Elements.C1Parameters numbers;\nend Bench;\n")
+    network = Path("ladder.json").read_text()
+    drop("C1")
+    run()
+    Path("ladder.json").write_text(network)
+    rename("C1", "Tank")
+    run()
+    assert record.exists()

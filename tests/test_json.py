@@ -224,7 +224,7 @@ def checked() -> CheckResult:
         compiled=(CompiledModel("Arm", 0, 0), CompiledModel("ArmRun", 412, 2)),
         deviations=(hand, exact),
         effects=(EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
-        notes=('link "tip" has made-up inertias, because the file gives no mass at all',),
+        notes=('link "tip" has made-up inertias, because it moves without any mass',),
         unchecked=("limits (they change no motion) are not compared",),
         gaps=("`Spring` was not compiled by itself, because its file does not parse",),
         diagnostics=(Diagnostic(Severity.WARNING, "mesh-not-found", "mesh not found; left out", "arm.urdf", 4),),

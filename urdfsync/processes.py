@@ -48,6 +48,8 @@ def end_with_parent() -> None:
 
 def exit_cause(code: int) -> str:
     """Return the exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
+    if code >= 0xC0000000:  # Windows
+        return f"exception 0x{code:08X}"
     if code >= 0:
         return f"exit code {code}"
     names = {one.value: f" ({one.name})" for one in signal.Signals}

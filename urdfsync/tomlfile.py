@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -85,10 +86,7 @@ def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> It
 
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:
-    """The line, counted from 1, at which each key or table first stands, by its full path.
-
-    Escapes in quoted keys are not resolved: such a key is not found, and the table above it is named instead.
-    """
+    """The line, counted from 1, at which each key or table first stands, by its full path."""
     found: dict[tuple[str, ...], int] = {}
     header: tuple[str, ...] = ()
     for number, line in enumerate(text.split("\n"), start=1):
@@ -97,6 +95,9 @@ def key_lines(text: str) -> dict[tuple[str, ...], int]:
         keys: tuple[str, ...] = ()
         while more and (part := _PART.match(line, end)):
             quoted, literal, bare, more = part.groups()
+            if quoted and "\\" in quoted:
+                with contextlib.suppress(tomli.TOMLDecodeError):
+                    (quoted,) = tomli.loads(f'"{quoted}" = 0')
             keys, end = (*keys, quoted or literal or bare or ""), part.end()
         if more or line[end : end + 1] not in ("=", "]"):
             keys = ()  # the line neither sets a key nor opens a table

@@ -6,6 +6,7 @@ import codecs
 import errno
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -77,16 +78,25 @@ def test_what_is_no_regular_file_is_left_out(odd: Path, plant: Config) -> None:
     assert files.package_texts(plant.root / "absent") == {}
 
 
-def test_what_can_not_be_read_is_named_as_people_see_it(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> bytes:
-        raise PermissionError(errno.EACCES, "Permission denied", path)
+@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
+def test_what_can_not_be_read_is_named_as_people_see_it(
+    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: str, *rest: Any) -> Any:
+        if os.fspath(path).endswith(name):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path, *rest)
 
+    owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
+    genuine = getattr(owner, method)
     monkeypatch.chdir(plant.root)
-    monkeypatch.setattr(Path, "read_bytes", refuse)
-    with pytest.raises(OutputError) as caught:
-        files.package_texts(plant.root / "modelica" / "Other")
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, method, refuse)
+        with pytest.raises(OutputError) as caught:
+            files.package_texts(plant.root / "modelica" / "Plant")
     (found,) = caught.value.diagnostics
-    assert (found.file, found.message) == ("modelica/Other/package.mo", "it can't be read: Permission denied")
+    assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
+    assert found.hint
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:

@@ -186,6 +186,8 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
     edits = {f"{name}/package.mo": f"{within}\npackage X\nend X;\n", f"{name}/Inner/Y.mo": "nonsense"}
     message = f"`{name}` can't be the name of a package; rename the folder, or move it elsewhere"
     assert findings(edits) == [f"{name}: error: {message} [wrong-name]"]
+    order = f"{arm.text('package.order')}{name}\n"
+    assert findings({**edits, "package.order": order}) == [f"{name}: error: {message} [wrong-name]"]
 
 
 def test_the_order_names_what_is_there_once() -> None:

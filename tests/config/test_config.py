@@ -200,7 +200,7 @@ def test_outputs_beside_the_state_folder(output: str) -> None:
 )
 def test_control_characters_are_refused_wherever_they_are(line: str) -> None:
     (message,) = failures(robot(line))
-    assert ": error: there is a control character in '" in message
+    assert message.startswith("urdfsync.toml:5: error: there is a control character in '")
     assert message.isprintable()
 
 

@@ -103,7 +103,8 @@ def test_order_of_entries_does_not_matter() -> None:
 def failure(text: str) -> str:
     with pytest.raises(StateError) as caught:
         loads(text, "arm.toml")
-    return str(caught.value)
+    (diagnostic,) = caught.value.diagnostics
+    return str(diagnostic)
 
 
 ORIGIN = "modelica/Plant/Arm/Links/Old.mo"
@@ -111,27 +112,39 @@ WAITS = FileRecord(
     "link new", Role.MODEL, "ab", State.CONFLICT, origin=ORIGIN, choice=Choice.TAKE, chosen_for="de", replaced_hash="fa"
 )
 WAITING = msgspec.structs.replace(MANIFEST, files={**MANIFEST.files, "modelica/Plant/Arm/Links/New.mo": WAITS})
-NO_STATE = ": error: this is no state of urdfsync: "
 MARKERS = '<<<<<<< HEAD\nhash = "5a"\n=======\nhash = "6a"\n>>>>>>> feature'
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("old", "new", "line", "words"),
     [
-        ('hash = "5a"', MARKERS, ":11: error: unresolved merge markers; restore it from version control"),
-        ("[generator]", "[generator", ":14:11: error: expected ']' at the end of a table declaration; restore it from"),
-        ("format = 1", "format = 99", ": error: a newer urdfsync wrote this state (format 99"),
-        ('path = "cad/', 'path = "cad/\\u0000', ": error: the recorded path 'cad/\\x00arm.urdf' does not belong"),
-        ('choice = "take"', 'choice = "guess"', NO_STATE + "Invalid enum value 'guess' - at `$.files[...].choice`"),
-        ("revision = 3", 'revision = "3"', NO_STATE),
-        ('owner = "joint left"', "", NO_STATE),
-        ('"Arm",', "5,", NO_STATE),
-        ('package = "Plant.Arm"', "", NO_STATE),
-        ('folder = "modelica/Plant/Arm"', "folder = [1]", NO_STATE),
+        ('hash = "5a"', MARKERS, "<<<<<<< HEAD", "unresolved merge markers; restore it from version control"),
+        ("format = 1", "format = 99", "format =", "a newer urdfsync wrote this state (format 99"),
+        ("format = 1", "format = 0", "format =", "this is no state of urdfsync: there is no format 0"),
+        ("format = 1", "format = -1", "format =", "this is no state of urdfsync: there is no format -1"),
+        ('choice = "take"', 'choice = "guess"', "choice =", "this is no state of urdfsync: invalid enum value 'guess'"),
+        ('path = "cad/', 'path = "cad/\\u0000', "path =", "the recorded path 'cad/\\x00arm.urdf' does not belong"),
+        *(
+            (old, new, line, "restore it from version control")
+            for old, new, line in (
+                ("revision = 3", 'revision = "3"', "revision ="),
+                ('role = "record"', 'role = "recrod"', 'role = "recrod"'),
+                ('owner = "joint left"', "", '[files."Joints/Left.mo"]'),
+                ('"Arm",', "5,", '"../package.order"'),
+                ('hash = "5a"', "", "[source]"),
+                ('package = "Plant.Arm"', "", ""),
+                ('folder = "modelica/Plant/Arm"', "folder = [1]", "folder ="),
+                ("[generator]", "[generator", "[generator"),
+            )
+        ),
     ],
 )
-def test_garbage_is_refused(old: str, new: str, message: str) -> None:
-    assert failure(dumps(WAITING).replace(old, new)).startswith(f"arm.toml{message}")
+def test_garbage_is_refused_with_its_line(old: str, new: str, line: str, words: str) -> None:
+    text = dumps(WAITING).replace(old, new)
+    message = failure(text)
+    place = next((n for n, found in enumerate(text.splitlines(), 1) if line and found.startswith(line)), 0)
+    assert message.startswith(f"arm.toml:{place}:" if place else "arm.toml: ")
+    assert words in message
 
 
 def test_a_file_that_waits_has_its_origin_below_the_package_in_the_text() -> None:
@@ -146,20 +159,36 @@ PLACES = [
     *"../../victim.txt ../package.mo .. . /etc/passwd C:/victim.txt Links/../../victim.txt Links/../Arm.mo".split(),
     *("./Arm.mo", "Links//Arm.mo", "Links/", "Links\\..\\..\\victim.txt", "", "a\0b.mo", "a\nb.mo", "a\x1b[2J.mo"),
 ]
+
+
+def quoted(text: str) -> str:
+    return "".join(char if char.isprintable() and char != "\\" else f"\\u{ord(char):04x}" for char in text)
+
+
 SPOTS = {
-    "Links/Base_link.mo": ["a.txt", "Resources/a.stl", ".git/x.mo", "Links/.hidden/A.mo"],
-    "Links/Old.mo": ["Links/Old.txt", ".git/Old.mo"],
-    "../package.order": ["../../package.order", "Links/Arm.mo", ".git/package.order"],
-    "Resources/lost.stl": ["Links/Arm.mo", "arm.stl", "Resources/.ssh/a"],
-    "modelica/Plant/Arm": ["modelica/Plant", "a/../Plant/Arm", "XPlant/Arm"],
+    "file": (
+        "Links/Base_link.mo",
+        "Links/Base_link.mo",
+        ["a.txt", "Resources/a.stl", ".git/x.mo", "Links/.hidden/A.mo"],
+    ),
+    "origin": ("Links/Old.mo", "Links/Old.mo", ["Links/Old.txt", ".git/Old.mo"]),
+    "order": ("../package.order", "../package.order", ["../../package.order", "Links/Arm.mo", ".git/package.order"]),
+    "dependency": ("Resources/lost.stl", "Resources/lost.stl", ["Links/Arm.mo", "arm.stl", "Resources/.ssh/a"]),
+    "folder": (
+        'folder = "modelica/Plant/Arm"',
+        "modelica/Plant/Arm",
+        ["modelica/Plant", "a/../Plant/Arm", "XPlant/Arm"],
+    ),
 }
-"""Paths of a file, an origin, an order, a dependency and the folder, with others that are wrong there alone."""
+"""Texts of a manifest that hold a path, the path, and others that are wrong there alone."""
 
 
-@pytest.mark.parametrize(("path", "place"), [(path, place) for path in SPOTS for place in PLACES + SPOTS[path]])
-def test_a_path_that_no_build_writes_is_refused(path: str, place: str) -> None:
-    quoted = "".join(char if char.isprintable() and char != "\\" else f"\\u{ord(char):04x}" for char in place)
-    message = failure(dumps(WAITING).replace(path, quoted, 1))
-    assert message.startswith(f"arm.toml: error: the recorded path {place!r} does not belong to the package")
+@pytest.mark.parametrize(("spot", "place"), [(spot, place) for spot in SPOTS for place in PLACES + SPOTS[spot][2]])
+def test_a_path_that_no_build_writes_is_refused_with_its_line(spot: str, place: str) -> None:
+    text, (found, path, _) = dumps(WAITING if spot == "origin" else MANIFEST), SPOTS[spot]
+    begin = text.index(found)
+    line = text[:begin].count("\n") + 1
+    message = failure(text[:begin] + text[begin:].replace(path, quoted(place), 1))
+    assert message.startswith(f"arm.toml:{line}: error: the recorded path {place!r} does not belong to the package")
     assert "`Plant.Arm`; restore the state from version control, or delete it" in message
     assert message.isprintable()

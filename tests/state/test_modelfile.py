@@ -42,9 +42,11 @@ DEEP = '{"snapshot": {"a":' + "[" * 100_000 + "]" * 100_000 + '}, "imports": {}}
 EMPTY = '{{"snapshot": {{}}, "imports": {{}}, {}}}'.format
 BASES = [EMPTY(f'"bases": {bases}') for bases in ("[]", '{"a": 1}', '{"a": "\\ud800"}')]
 
+FORMATS = [EMPTY(f'"format": {number}') for number in (0, -1)]
+
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", '{"snapshot": 1}', "<<<<<<< HEAD\n{}\n", DEEP, *BASES], ids=lambda text: text[:50]
+    "text", ["", "[]", '{"snapshot": 1}', "<<<<<<< HEAD\n{}\n", DEEP, *BASES, *FORMATS], ids=lambda text: text[:50]
 )
 def test_a_broken_model_is_refused(text: str) -> None:
     with pytest.raises(StateError, match=r"arm\.json.*restore it"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shutil
@@ -167,9 +168,11 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 def library_state(path: Path) -> str:
     """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
     found = []
-    for file in [path] if path.is_file() else stored_files(path):
-        status = file.stat()
-        found.append((str(file), status.st_size, status.st_mtime_ns))
+    with contextlib.suppress(PermissionError):  # the compiler says more of what can't be read
+        for file in [path] if path.is_file() else stored_files(path):
+            with contextlib.suppress(FileNotFoundError):  # somebody replaces it at this moment
+                status = file.stat()
+                found.append((str(file), status.st_size, status.st_mtime_ns))
     return fingerprint(sorted(found))
 
 

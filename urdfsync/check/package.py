@@ -7,6 +7,7 @@ are left out, unless they are mentioned.
 from __future__ import annotations
 
 import codecs
+import contextlib
 import os
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
@@ -194,25 +195,31 @@ def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], 
 
 
 def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes]:
-    """The texts of `stored_files`. Raises OutputError for one that can't be read."""
+    """The texts of `stored_files`. Raises OutputError for a file or a folder that can't be read."""
     found: dict[Path, bytes] = {}
-    for path in stored_files(folder, without):
-        try:
-            found[path] = path.read_bytes()
-        except FileNotFoundError:
-            continue  # somebody deletes it at this moment
-        except OSError as error:
-            message, hint = f"it can't be read: {error.strerror}", "check the permissions of it and of its folder"
-            raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, shown(path), hint=hint)) from error
+    try:
+        for path in stored_files(folder, without):
+            with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                found[path] = path.read_bytes()
+    except OSError as error:
+        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
+        file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
+        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
     return found
 
 
 def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
     """The Modelica files of a package and of those in it, but for the folders in `without`.
 
-    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles.
+    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
+    OSError for a folder that can't be read.
     """
-    for place, folders, names in os.walk(folder):
+
+    def refuse(error: OSError) -> None:
+        if not isinstance(error, FileNotFoundError | NotADirectoryError):
+            raise error
+
+    for place, folders, names in os.walk(folder, onerror=refuse):
         visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
         folders[:] = [name for name in visible if Path(place, name) not in without]
         for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some

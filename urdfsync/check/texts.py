@@ -41,6 +41,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
     """
     found: list[Diagnostic] = []
     stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
+    misnamed: dict[PurePosixPath, set[str]] = {}  # by folder, names in it that no class can have
     declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
     for path in sorted(PurePosixPath(name) for name in package.texts if name.endswith(".mo")):
         if culprit := _misnamed_part(path):
@@ -49,6 +50,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             message = f"`{name}` can't be the name of a {'class' if is_file else 'package'}"
             hint = f"rename the {'file' if is_file else 'folder'}, or move it elsewhere"
             found.append(package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint))
+            misnamed.setdefault(culprit.parent, set()).update((name, culprit.name))
             continue
         place = class_path(path)
         stored.setdefault(path.parent, set())
@@ -80,7 +82,8 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
                 other = "rename one: file systems that ignore case do not hold both"
                 found.append(package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=other))
         if str(folder / _ORDER) in package.texts:
-            found += _check_order(package, folder, stored[folder] | lines.keys(), is_complete=folder in declarations)
+            others = misnamed.get(folder, set()) if folder in declarations else None
+            found += _check_order(package, folder, stored[folder] | lines.keys(), others)
     return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
 
 
@@ -146,11 +149,11 @@ def check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText 
 
 
 def _check_order(
-    package: PackageTexts, folder: PurePosixPath, present: set[str], *, is_complete: bool
+    package: PackageTexts, folder: PurePosixPath, present: set[str], others: set[str] | None
 ) -> Iterator[Diagnostic]:
     """Check whether a `package.order` names what is `present` in the folder, each once.
 
-    It may name anything else unless that `is_complete`: a `package.mo` that can't be read may declare it.
+    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
     """
     path = str(folder / _ORDER)
     text = _decoded(package, path)
@@ -168,7 +171,7 @@ def _check_order(
         if name and first != number:
             message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
             yield package.diagnostic(_WARNING, "order-twice", message, path, number, hint=hint)
-        elif name and is_complete and name not in present:
+        elif name and others is not None and name not in present | others:
             near = nearest(name, lacking)
             message = f"`{name}` is named, but is no class and no constant of the package"
             hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"

@@ -215,7 +215,7 @@ class _Reader:
         for field in msgspec.structs.fields(struct):
             key = field.encode_name
             try:
-                if key in _PATHS and table.values.get(key) == "":
+                if key in _PATHS and table.values.get(key) == "" and struct in (Keys, CheckKeys):
                     hint = 'give a path; "." is the folder of the configuration'
                     self._report("wrong-value", table.lines[key], f"`{key}` is empty", hint)
                 elif key in table.values:
@@ -229,7 +229,7 @@ class _Reader:
                 self._report("wrong-value", table.lines[key], message)
         try:
             return struct(**values) if len(self.problems) == before else None
-        except ValueError as error:  # options that do not go together
+        except (TypeError, ValueError) as error:  # options that do not go together
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
 

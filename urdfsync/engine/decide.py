@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -82,7 +82,8 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         conflicts = {action.path: _conflict(generation, names, action) for action in disputed}
         choices = {**remembered_choices(records, actions), **inputs.options.choices}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, generation, actions, moves, merged))
+    left = {*moves.values(), *(_waiting_records(generation, records) if generation else ())}
+    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
 
     old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
     _refuse_markers(inputs, actions, old_orders)
@@ -127,22 +128,23 @@ def _conflict(generation: Generation, names: DanglingNames | None, action: Actio
     return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
 
 
+def _waiting_records(generation: Generation, records: Mapping[str, FileRecord]) -> list[str]:
+    """Return the records of elements renamed by an earlier build, which wait to be deleted."""
+    waiting = [path for path, one in records.items() if one.state is RecordState.WAITING and one.role is Role.RECORD]
+    changes = generation.changes_since_complete if waiting else None
+    renamed = {f"{kind} {name}" for kind, name in changes.renames} if changes else set()
+    return [path for path in waiting if records[path].owner in renamed]
+
+
 def _mentioned_records(
-    inputs: Inputs,
-    generation: Generation | None,
-    actions: Sequence[Action],
-    moves: Mapping[str, str],
-    merged: Mapping[str, str],
+    inputs: Inputs, actions: Sequence[Action], left: Collection[str], merged: Mapping[str, str]
 ) -> frozenset[str]:
     """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
 
-    The record of a renamed element is not needed, also while it waits to be deleted: the user is told the new name.
+    Those that a renamed element `left` are not needed: the user is told the new name.
     """
-    files, moved = inputs.files, set(moves.values())
-    leaving = [a for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in moved]
-    if leaving and generation and generation.changes_since_complete:
-        renamed = {f"{kind} {name}" for kind, name in generation.changes_since_complete.renames}
-        leaving = [action for action in leaving if action.owner not in renamed]
+    files = inputs.files
+    leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in left]
     if not leaving:
         return frozenset()
     from urdfsync.engine.dangling import class_of, code_words
@@ -152,7 +154,7 @@ def _mentioned_records(
     around = files.users_files({inputs.folder, inputs.old_folder})
     texts += [content.decode(errors="replace") for content in around.values()]
     used = {word for text in texts for word in code_words(text)}
-    return frozenset(action.path for action in leaving if class_of(action.path) in used)
+    return frozenset(path for path in leaving if class_of(path) in used)
 
 
 def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:

@@ -49,7 +49,9 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not rest:
         return
     message = f"the package moved from {shown(old)} to {shown(new)}"
-    if is_inside and inputs.old_folder not in inputs.own_folders:
+    if not is_inside:
+        message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
+    elif inputs.old_folder not in inputs.own_folders:
         message += "; the old folder was not built in this checkout, so it stays as it is"
         hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
     else:

@@ -147,6 +147,8 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
     if isinstance(problem, jinja2.TemplateSyntaxError):
         message = str(problem.message).rstrip(".")
         file, line = problem.filename or problem.name or artifact.template, problem.lineno
+    elif isinstance(problem, jinja2.TemplatesNotFound):
+        message = reason
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
     elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template

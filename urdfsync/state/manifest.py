@@ -132,21 +132,24 @@ def _table(data: bytes) -> str:
 def loads(text: str, file: str) -> Manifest:
     """The manifest in `text`, which errors call `file`.
 
-    Raises StateError for text that is no manifest, that names files outside of its package, or that a newer urdfsync
-    wrote.
+    Raises StateError with file and line for text that is no manifest, that names files outside of its package, or
+    that a newer urdfsync wrote.
     """
     data = tomlfile.parse(text, file, StateError, REPAIR)
-    check_format(data.get("format"), file)
+    check_format(data.get("format"), file, text)
     try:
         manifest = msgspec.convert(data, Manifest)
     except msgspec.ValidationError as error:
-        message = f"this is no state of urdfsync: {error}"
-        raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, hint=REPAIR)) from None
-    for is_own, path in _paths(manifest):
+        message, _, place = str(error).partition(" - at `$")
+        line = tomlfile.nearest(tomlfile.key_lines(text), *_wrong_keys(data, place))
+        message = f"this is no state of urdfsync: {message[0].lower()}{message[1:]}"
+        raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR)) from None
+    for is_own, path, keys in _paths(manifest):
         if not is_own:
+            line = tomlfile.nearest(tomlfile.key_lines(text), *keys)
             message = f"the recorded path {path!r} does not belong to the package `{manifest.package}`"
             hint = "restore the state from version control, or delete it: a build then adopts what is as it would be"
-            raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, hint=hint))
+            raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=hint))
     folder, files = manifest.folder, {}
     for path, record in sorted(manifest.files.items()):
         origin = record.origin and f"{folder}/{record.origin}"
@@ -164,27 +167,44 @@ def option_values(options: msgspec.Struct) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def check_format(value: object, file: str) -> None:
-    """Refuse a newer format. Raises StateError."""
-    if isinstance(value, int) and value > FORMAT:
+def check_format(value: object, file: str, text: str = "") -> None:
+    """Refuse a format that this program does not know; `text` is the TOML that it is in. Raises StateError."""
+    if not isinstance(value, int) or 1 <= value <= FORMAT:
+        return
+    line = tomlfile.nearest(tomlfile.key_lines(text), "format")
+    if value > FORMAT:
         message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
-        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
+        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
+    message = f"this is no state of urdfsync: there is no format {value}"
+    raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR))
 
 
-def _paths(manifest: Manifest) -> Iterator[tuple[bool, str]]:
-    """Every path in the text, and before it whether a build writes such a file of the package."""
+def _wrong_keys(data: Mapping[str, Any], place: str) -> list[str]:
+    """The keys to a wrong value, whose place msgspec names without the key of its entry: `.files[...].role`."""
+    keys = re.findall(r"\w+", place)
+    if "[...]" in place:
+        for key, entry in data[keys[0]].items():
+            try:
+                msgspec.convert({**data, keys[0]: {key: entry}}, Manifest)
+            except msgspec.ValidationError:
+                return [keys[0], key, *keys[1:]]
+    return keys
+
+
+def _paths(manifest: Manifest) -> Iterator[tuple[bool, str, tuple[str, ...]]]:
+    """Every path in the text: whether a build writes such a file of the package, the path, and the keys to it."""
     folder, package = manifest.folder, manifest.package.split(".")
-    yield _is_normal(folder) and folder.split("/")[-len(package) :] == package, folder
-    yield _is_text(manifest.source.path), manifest.source.path
+    yield _is_normal(folder) and folder.split("/")[-len(package) :] == package, folder, ("folder",)
+    yield _is_text(manifest.source.path), manifest.source.path, ("source", "path")
     for path, record in manifest.files.items():
-        yield _is_of_role(path, record.role), path
+        yield _is_of_role(path, record.role), path, ("files", path)
         if record.origin is not None:
-            yield _is_of_role(record.origin, record.role), record.origin
+            yield _is_of_role(record.origin, record.role), record.origin, ("files", path, "origin")
     for path, names in manifest.orders.items():
         is_own = set(names) <= {package[-1]} if path == _PARENT else _is_inside(path)
-        yield is_own and posixpath.basename(path) == _ORDER, path
-    for dependency in manifest.dependencies.values():
-        yield _is_of_role(dependency.target, Role.IMPORT), dependency.target
+        yield is_own and posixpath.basename(path) == _ORDER, path, ("orders", path)
+    for key, dependency in manifest.dependencies.items():
+        yield _is_of_role(dependency.target, Role.IMPORT), dependency.target, ("dependencies", key, "target")
 
 
 def _is_text(path: str) -> bool:

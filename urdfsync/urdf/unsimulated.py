@@ -14,8 +14,8 @@ from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 _HINTS = {
     "planar": "write it as two prismatic joints and a continuous one, or use the package approach",
-    "floating": "write it as three prismatic joints and three continuous ones, leave it out with its parent link and "
-    'let the base float (`base = "floating"` in a project), or use the package approach',
+    "floating": "write it as three prismatic joints and three continuous ones, leave it out with a root link that "
+    'has no other joint and let the base float (`base = "floating"` in a project), or use the package approach',
 }
 
 

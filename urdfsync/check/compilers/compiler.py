@@ -49,10 +49,6 @@ class CompileResult(msgspec.Struct, frozen=True):
     states: int = 0
     """Scalar states, as the compiler counts them before it reduces the index."""
     runs: tuple[SimulationResult, ...] = ()
-    seconds: float = 0.0
-    """CPU time of the task; 0 if the compiler does not say."""
-    compiling: float = 0.0
-    """The part of it before the first run."""
 
 
 class CompileJob(msgspec.Struct, frozen=True):

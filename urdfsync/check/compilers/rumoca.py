@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import re
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -93,16 +92,12 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
 def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
     import rumoca
 
-    started = time.process_time()
     try:
         model = session.loads(task.source, model=task.model, filename=_FILE)
     except rumoca.RumocaError as error:
-        return CompileResult(_words(error), seconds=time.process_time() - started)
+        return CompileResult(_words(error))
     unknowns, states = _counts(model)
-    compiling = time.process_time() - started
-    runs = tuple(_simulate(model, run, task.values) for run in task.runs)
-    seconds = time.process_time() - started
-    return CompileResult("", unknowns, states, runs, seconds, compiling)
+    return CompileResult("", unknowns, states, tuple(_simulate(model, run, task.values) for run in task.runs))
 
 
 class _Type(msgspec.Struct):

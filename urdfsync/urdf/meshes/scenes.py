@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import trimesh
@@ -21,11 +21,17 @@ _ANNOUNCED = {
 """How many faces a file announces."""
 
 
-class _NoOtherFiles(dict[str, bytes]):
+class _NoOtherFiles(Mapping[str, bytes]):
     """What trimesh may read besides: nothing, since only the mesh file itself is watched for changes."""
 
-    def __missing__(self, name: str) -> bytes:
+    def __getitem__(self, name: str) -> bytes:
         raise MeshError(f"it needs another file, {name}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(())
+
+    def __len__(self) -> int:
+        return 0
 
 
 def read_scene(suffix: str, content: bytes) -> Triangles:
