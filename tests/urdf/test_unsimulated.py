@@ -70,7 +70,8 @@ WARNINGS = [
     (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
     (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
      "'drift'; write it as three prismatic joints and three continuous ones, leave it out with a "
-     "root link that has no other joint and let the base float (`base = \"floating\"` in a project), or use the package approach"),
+     "root link that has no other joint and let the base float (`base = \"floating\"` in a project), or use the "
+     "package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
