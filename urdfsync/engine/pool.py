@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import weakref
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, wait
@@ -158,11 +159,13 @@ def connect_cluster(address: str) -> Executor:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
     try:
-        executor: Executor = Client(address, timeout=_PATIENCE, set_as_default=False).get_executor()
+        client = Client(address, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
         hint = "start one with `dask scheduler`, or go without `--executor`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+    executor: Executor = client.get_executor()
+    weakref.finalize(executor, client.close)  # its own end does not close it: it would try to connect again for seconds
     return executor
 
 
