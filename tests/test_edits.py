@@ -49,6 +49,15 @@ def merging() -> None:
     configure('on_conflict = "merge"\n')
 
 
+def own_model(declarations: str) -> None:
+    """Let the models of all elements declare something."""
+    template = Path("own/element/model.mo.jinja")
+    template.parent.mkdir(parents=True)
+    text = Path(__file__).with_name("rcnetwork").joinpath("templates/element/model.mo.jinja").read_text()
+    template.write_text(text.replace("\nequation\n", f"\n{declarations}\nequation\n"))
+    configure('templates = "own"\n')
+
+
 def drop(*names: str) -> None:
     """Take elements out of the source."""
     network = json.loads(Path("ladder.json").read_text())
@@ -325,6 +334,7 @@ def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, s
 
 # Names that the package has no more
 
+POWER = "  Real power = v*i;\n"
 GONE = "is used here, but the package has no `C1` any more; adapt your text to what the package is now"
 USER = {
     "MyLadder.mo": """\
@@ -374,6 +384,70 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
         assert found.merge.text is None
         line = found.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
         assert found.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
+
+
+@pytest.mark.parametrize("adopted", [False, True], ids=["by hand", "as generated"])
+def test_a_merge_stays_rejected_where_the_user_follows_the_source_in_another_file(project: Path, adopted: bool) -> None:
+    """R1 loses its power, which Ladder mentions; the user has taken it out of R1, too."""
+    own_model(f"<% if kind == 'resistor' %>\n{POWER}<% endif %>\n")
+    merging()
+    run()
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = elementR1.power;\n\nequation")
+    as_rc_pair()
+    rename("C1", "Tank")
+    for old, new in ((POWER, ""), ("Resistor", "Capacitor"), ("v = parameters.R*i", "i = parameters.C*der(v)")):
+        edit(R1, old, new)
+    if not adopted:
+        edit(R1, "equation", SENSOR)
+    for _ in range(2):
+        (found,) = run().conflict_texts
+        assert found.rejected.startswith("the merge mentions `power`, which the package has no more")
+
+
+def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(project: Path) -> None:
+    own_model(f"<% if element.name == 'R1' %>\n{POWER}<% endif %>\n")
+    run()
+    edit(R1, "equation", "  Real energy = 2*power;\n\nequation")
+    rename("R1", "Shunt")
+    for _ in range(2):
+        (found,) = run().conflict_texts
+        assert found.rejected.startswith("the merge mentions `power`, which the package has no more")
+
+
+def test_a_merge_that_mentions_what_the_user_deleted_and_the_source_has_no_more_is_a_conflict(project: Path) -> None:
+    merging()
+    run()
+    Path(C1).unlink()
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Elements.C1 other;\n\nequation")
+    drop("C1")
+    for _ in range(2):
+        (found,) = run().conflict_texts
+        assert found.rejected.startswith("the merge mentions `C1`, which the package has no more")
+
+
+@pytest.mark.parametrize("used", ["C1", "C1Parameters"], ids=["edited model", "record"])
+def test_a_merge_may_mention_what_stays(project: Path, used: str) -> None:
+    merging()
+    run()
+    if used == "C1":
+        edit(C1, "equation", SENSOR)
+    edit(f"{LADDER}/Ladder.mo", "equation", f"  Elements.{used} other;\n\nequation")
+    drop("C1")
+    result = run()
+    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
+    assert not result.diagnostics
+    assert Path(LADDER, f"Elements/{used}.mo").exists()
+    assert run().in_step
+
+
+def test_a_class_of_which_the_user_made_a_folder_finds_the_record_that_stays_for_it(project: Path) -> None:
+    run()
+    mine = Path(C1).with_suffix("") / "package.mo"
+    mine.parent.mkdir()
+    Path(C1).rename(mine)
+    drop("C1")
+    assert not run().diagnostics
+    assert Path(C1.replace(".mo", "Parameters.mo")).exists()
 
 
 def test_own_classes_in_the_package_that_use_what_is_gone_are_named(project: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
 from urdfsync.config import find_own_library, shown
@@ -36,28 +36,46 @@ class DanglingNames:
         self._package = self._inputs.robot.target.package
 
     @functools.cached_property
-    def lost(self) -> dict[str, str]:
-        """The names that the package loses, with their new names; empty if there is none.
-
-        A name is lost if an old text declares it, and no new one, also not in the class around it.
-        """
+    def _declared_now(self) -> set[ClassName]:
+        """What the texts declare that may differ from the last complete build's."""
         generation, inputs = self._generation, self._inputs
-        before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
         states = {inputs.old_path(key): record.state for key, record in self._last.files.items()}
         now = {
             path: generation.content(inputs.key(path)).decode()
             for path in generation.package.artifacts
             if path in generation.changed or states.get(path) in (None, RecordState.WAITING, RecordState.CONFLICT)
         }
-        new = _declared(now)
+        return _declared(now)
+
+    @functools.cached_property
+    def gone(self) -> set[ClassName]:
+        """What texts of the last build declare, and no new one; also what went since the last complete build.
+
+        The parts of a class that is gone are left out. Those that a renamed class loses have its new name.
+        """
+        generation, inputs = self._generation, self._inputs
+        before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
+        declared = _declared(before)
+        moves = {
+            _class_path(inputs.old_path(old)): _class_path(inputs.path(new))
+            for new, old in generation.renamed_files().items()
+        }
+        for count in {len(path) for path in moves}:
+            declared |= {(*moves[path[:count]], *path[count:]) for path in declared if path[:count] in moves}
+        model = inputs.state.model if inputs.state else None
+        declared |= {tuple(path.split(".")) for path in model.gone or ()} if model else set()
         gone = set()
-        for path in _declared(before) - new:  # a name that the class inherits now is not gone
+        for path in declared - self._declared_now:  # a name that the class inherits now is not gone
             node = self._generated.node((*self._package.split("."), *path[:-1]))
             if node is None or not isinstance(self._generated.part((Type(node),), path[-1]), Element):
                 gone.add(path)
-        names = {path[-1] for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
-        known, renamed = {path[-1] for path in new}, self._renamed_identifiers()
-        found = {name: _new_name(name, renamed, known) for name in sorted(names)}
+        return {path for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
+
+    @functools.cached_property
+    def lost(self) -> dict[str, str]:
+        """The names that the package loses, with their new names; empty if there is none."""
+        known, renamed = {path[-1] for path in self._declared_now}, self._renamed_identifiers()
+        found = {name: _new_name(name, renamed, known) for name in sorted({path[-1] for path in self.gone})}
         if self._last.package != self._package:
             found[self._last.package.rpartition(".")[2]] = self._package
         return found
@@ -86,11 +104,15 @@ class DanglingNames:
         """The package as it is generated, without edits."""
         return Scopes(self._planned({}, {}))
 
-    def first_use(self, key: str, text: str) -> Unresolved | None:
-        """Return the first use of a lost name in a text for a file of the package; None if there is none."""
+    def first_use(self, key: str, text: str, staying: Collection[str]) -> Unresolved | None:
+        """Return the first use of a lost name in a text for a file of the package; None if there is none.
+
+        `staying` are the keys of files that are no longer generated, and stay.
+        """
         if self.lost.keys().isdisjoint(code_words(text)):
             return None
-        uses = self._uses(self._class_name(key), text, Scopes(self._planned({key: text}, {})), self.lost)
+        scopes = Scopes(self._planned({**self._texts(staying), key: text}, {}))
+        uses = self._uses(self._class_name(key), text, scopes, self.lost.keys() - set(map(class_of, staying)))
         return uses[0] if uses else None
 
     def find(self, actions: Actions, written: Mapping[str, str]) -> list[Diagnostic]:
@@ -106,8 +128,7 @@ class DanglingNames:
         found = self._left_out(actions, {**{files.path(key): text for key, text in mine.items()}, **others})
         if not self.lost or not (mine or around):
             return found
-        left = (action.path for action in actions if action.kind in (Kind.NEEDED, Kind.ORPHAN))
-        staying = {path: files.any_text(path) for path in left}
+        staying = self._texts(action.path for action in actions if action.kind in (Kind.NEEDED, Kind.ORPHAN))
         doubtful = self.lost.keys() - set(map(class_of, staying))
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
@@ -167,13 +188,16 @@ class DanglingNames:
         return sorted((one for one in found if one.name not in fine), key=lambda one: one.line)
 
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
-        """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's."""
+        """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's.
+
+        Files that are no longer generated are there only as far as they are among the texts.
+        """
         inputs, last, robot = self._inputs, self._last, self._inputs.robot
         generated = {inputs.key(path): path for path in self._generation.package.artifacts}
-        recorded = {key for key, record in last.files.items() if record.state is not RecordState.ORPHAN}
         found = {path: self._generation.content(key) for key, path in generated.items()}
         own = {
-            key: self._files.any_text(key) for key in self._files.classes(inputs.folder) - recorded - generated.keys()
+            key: self._files.any_text(key)
+            for key in self._files.classes(inputs.folder) - last.files.keys() - generated.keys()
         }
         for key, text in {**own, **texts}.items():
             found[inputs.path(key)] = text.encode(errors="replace")
@@ -187,9 +211,18 @@ class DanglingNames:
         gone = last.package if last.package != self._package else ""
         return StoredClasses(self._package, robot.folder, found, others, find, gone)
 
+    def _texts(self, keys: Iterable[str]) -> dict[str, str]:
+        """Return the texts of files that are there; the user may have made a folder of a class."""
+        return {key: text for key in keys if (text := self._files.any_text(key))}
+
     def _class_name(self, key: str) -> ClassName:
-        *folders, file = self._inputs.path(key).removesuffix(".mo").split("/")
-        return (*self._package.split("."), *folders, *([] if file == "package" else [file]))
+        return (*self._package.split("."), *_class_path(self._inputs.path(key)))
+
+
+def _class_path(path: str) -> ClassName:
+    """Return the name below the package of the class that a file is for, by its path there."""
+    *folders, file = path.removesuffix(".mo").split("/")
+    return (*folders, *([] if file == "package" else [file]))
 
 
 def class_of(path: str) -> str:

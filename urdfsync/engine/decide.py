@@ -43,6 +43,8 @@ class Decision(msgspec.Struct, frozen=True):
     """The texts of the files in conflict."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
+    gone: tuple[str, ...] = ()
+    """If something waits: what the package loses until nothing does, by dotted names below it."""
 
 
 @profiling.stage("deciding")
@@ -77,12 +79,14 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
 
     conflicts: dict[str, Conflict] = {}
     merged: dict[str, str] = {}
+    left = {*moves.values(), *(_waiting_records(generation, records) if generation else ())}
     if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
         disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
-        conflicts = {action.path: _conflict(generation, names, action) for action in disputed}
+        # a merge may mention these: a record that it mentions is kept
+        staying = [a.path for a in actions if a.kind is Kind.ORPHAN or _is_leaving_record(a, left)]
+        conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
         choices = {**remembered_choices(records, actions), **inputs.options.choices}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-    left = {*moves.values(), *(_waiting_records(generation, records) if generation else ())}
     actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
 
     old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
@@ -98,6 +102,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
                     renumbered.add(action.path)
     held = hold((*actions, *order_actions), renumbered)
     waiting = {action.path for action in held if action.held}
+    waits = bool(waiting) or any(action.kind in CONFLICTS for action in held)
     orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
     return Decision(
         Actions(held),
@@ -106,11 +111,17 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         {key: names for key, names in orders.items() if names},
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
+        tuple(".".join(path) for path in names.gone) if names and waits else (),
     )
 
 
-def _conflict(generation: Generation, names: DanglingNames | None, action: Action) -> Conflict:
-    """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
+def _conflict(
+    generation: Generation, names: DanglingNames | None, action: Action, staying: Collection[str]
+) -> Conflict:
+    """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`.
+
+    `staying` are files that are no longer generated, and stay.
+    """
     key, files = action.origin or action.path, generation.inputs.files
     mine = files.text(key)
     base = generation.base(key, action.base) if action.base else None
@@ -121,7 +132,7 @@ def _conflict(generation: Generation, names: DanglingNames | None, action: Actio
         return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)
     conflict = find_conflict(action, base, mine, generated)
     merged = conflict.merge.text if conflict.merge and action.path.endswith(".mo") else None
-    use = names.first_use(action.path, merged) if names and merged is not None and merged != mine else None
+    use = names.first_use(action.path, merged, staying) if names and merged is not None and merged != mine else None
     if use is None or conflict.merge is None:
         return conflict
     reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
@@ -136,6 +147,11 @@ def _waiting_records(generation: Generation, records: Mapping[str, FileRecord]) 
     return [path for path in waiting if records[path].owner in renamed]
 
 
+def _is_leaving_record(action: Action, left: Collection[str]) -> bool:
+    """Whether a record is no longer generated, and not because a renamed element `left` it."""
+    return action.kind is Kind.DELETE and action.role is Role.RECORD and action.path not in left
+
+
 def _mentioned_records(
     inputs: Inputs, actions: Sequence[Action], left: Collection[str], merged: Mapping[str, str]
 ) -> frozenset[str]:
@@ -144,7 +160,7 @@ def _mentioned_records(
     Those that a renamed element `left` are not needed: the user is told the new name.
     """
     files = inputs.files
-    leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in left]
+    leaving = [action.path for action in actions if _is_leaving_record(action, left)]
     if not leaving:
         return frozenset()
     from urdfsync.engine.dangling import class_of, code_words

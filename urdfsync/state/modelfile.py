@@ -6,7 +6,7 @@ be rendered again. What is recorded of a robot otherwise is in the manifest.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import msgspec
@@ -45,6 +45,8 @@ class Model(msgspec.Struct, frozen=True):
     """The model of the last build after which nothing waited; None if nothing waits now."""
     since_revision: int | msgspec.UnsetType = msgspec.UNSET
     """The domain's revision in that build, if it is another one now."""
+    gone: list[str] | msgspec.UnsetType = msgspec.UNSET
+    """What the package lost since then, by dotted names below it, if anything: no merge may mention it."""
     format: int = FORMAT
 
 
@@ -54,6 +56,7 @@ def of(
     bases: Mapping[str, str] | None = None,
     since: Snapshot | None = None,
     since_revision: int | msgspec.UnsetType = msgspec.UNSET,
+    gone: Iterable[str] = (),
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
     facts = {}
@@ -61,7 +64,8 @@ def of(
         plain = msgspec.json.decode(msgspec.json.encode(imported.facts, order="sorted"))
         facts[key] = ConversionFacts(imported.source_hash, imported.converter, plain)
     texts = dict(sorted((bases or {}).items()))
-    return Model(dict(snapshot), facts, texts, None if since is None else dict(since), since_revision)
+    complete = None if since is None else dict(since)
+    return Model(dict(snapshot), facts, texts, complete, since_revision, sorted(gone) or msgspec.UNSET)
 
 
 def dumps(model: Model) -> str:
