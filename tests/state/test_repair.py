@@ -148,6 +148,7 @@ def test_whatever_git_makes_of_two_states_a_file_of_either_is_untouched(tmp_path
         pytest.param(dumps(OURS).replace('folder = "Arm"', "folder = 1"), id="no manifest"),
         pytest.param(dumps(OURS).replace("Links/Gripper.mo", "../../evil.mo"), id="a path outside of the package"),
         pytest.param(dumps(OURS)[:-20] + "\n", id="cut off"),
+        pytest.param(dumps(OURS).replace("format = 1", "format = 0"), id="a format that never was"),
     ],
 )
 def test_a_side_that_can_not_be_used_is_left_out(broken: str) -> None:
@@ -158,9 +159,9 @@ def test_a_side_that_can_not_be_used_is_left_out(broken: str) -> None:
 @pytest.mark.parametrize(
     ("toml", "json", "file"),
     [
-        (conflict(dumps(OURS), dumps(THEIRS).replace("format = 1", "format = 99")), None, "arm.toml"),
-        ("format = 99\nnot for us\n", None, "arm.toml"),
-        (dumps(OURS), '{\n "format": 99,\n "snapshot": []\n}\n', "arm.json"),
+        (conflict(dumps(OURS), dumps(THEIRS).replace("format = 1", "format = 99")), None, r"arm.toml:\d+"),
+        ("# all of it\nformat = 99\nnot for us\n", None, "arm.toml:2"),
+        (dumps(OURS), '{\n "format": 99,\n "snapshot": []\n}\n', "arm.json:2"),
         (dumps(OURS), '{"format":99,"snapshot":{},"imports":{}}', "arm.json"),
     ],
     ids=["manifest", "a manifest that can't be read", "a model of another structure", "a model on one line"],

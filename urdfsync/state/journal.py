@@ -13,10 +13,9 @@ from typing import NoReturn
 
 import msgspec
 
-from urdfsync.config import shown
 from urdfsync.dependencies import list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree
+from urdfsync.files import TEMPORARY, Tree, shown
 from urdfsync.state import file_operations
 
 FORMAT = 4

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Self
 
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.files import failure
+from urdfsync.files import failure, shown
 
 _PAUSE = 0.05
 """Seconds between two attempts."""

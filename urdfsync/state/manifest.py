@@ -173,10 +173,15 @@ def check_format(value: object, file: str, text: str = "") -> None:
         return
     line = tomlfile.nearest(tomlfile.key_lines(text), "format")
     if value > FORMAT:
-        message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
-        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
+        raise newer_state(value, file, line)
     message = f"this is no state of urdfsync: there is no format {value}"
     raise StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=REPAIR))
+
+
+def newer_state(value: int, file: str, line: int) -> StateError:
+    """Return the error of a state whose format only a newer urdfsync knows."""
+    message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
+    return StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, line, hint="update urdfsync"))
 
 
 def _wrong_keys(data: Mapping[str, Any], place: str) -> list[str]:

@@ -78,8 +78,9 @@ def recover(toml: str | None, json: str | None, file: str, beside: str) -> Recov
     names files outside of its package, or is no model, is left out.
     """
     for text, name in ((toml, file), (json, beside)):
-        for number in re.findall(_FORMAT, text or ""):  # a side of a newer urdfsync may be no manifest for this one
-            manifest.check_format(int(number), name)
+        for match in re.finditer(_FORMAT, text or ""):  # a side of a newer urdfsync may be no manifest for this one
+            if int(match[1]) > manifest.FORMAT:
+                raise manifest.newer_state(int(match[1]), name, match.string.count("\n", 0, match.start()) + 1)
     tables = (re.split(r"(?m)^(?=\[)", side) for side in sides(toml or ""))
     # a merge by lines may have put in a table twice: the last one counts
     once = ("\n".join({table.partition("\n")[0]: table for table in side}.values()) for side in tables)

@@ -8,10 +8,10 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.config import STATE_FOLDER, is_robot_name, shown
+from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure, text_digest
+from urdfsync.files import TEMPORARY, Tree, digest, failure, shown, text_digest
 from urdfsync.state import file_operations, manifest, modelfile
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest

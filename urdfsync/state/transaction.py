@@ -28,9 +28,8 @@ from typing import NoReturn
 import msgspec
 
 from urdfsync import profiling
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure, placed
+from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
 from urdfsync.state.journal import REPAIR, Journal, JournalFolder, Phase, Step
 
