@@ -19,6 +19,7 @@ from urdfsync import cli, config
 from urdfsync.__main__ import main as program
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
+from urdfsync.files import shown
 from urdfsync.output.console import Console
 
 Capture = pytest.CaptureFixture[str]
@@ -178,7 +179,7 @@ def test_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_working_folder_that_is_gone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError(2, "No such file or directory")))
-    assert config.shown(project) == str(project)
+    assert shown(project) == str(project)
     for command in ("build", "init"):
         message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"
         assert execute(command, code=2).err == message

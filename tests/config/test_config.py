@@ -13,6 +13,7 @@ from urdfsync import config
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Target
+from urdfsync.files import shown
 
 pytestmark = pytest.mark.usefixtures("rc_domain")
 
@@ -269,4 +270,4 @@ def test_paths_are_shown_as_they_are_seen_from_the_working_folder(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     inside, beside = tmp_path / "cad" / "arm.urdf", tmp_path.with_name(f"{tmp_path.name}-2") / "arm.urdf"
-    assert [config.shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]
+    assert [shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]

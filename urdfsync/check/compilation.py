@@ -35,9 +35,9 @@ from urdfsync.check.results import (
     agrees,
     listed,
 )
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Deviation, Experiment
+from urdfsync.files import shown
 from urdfsync.output.phrases import counted
 
 _MOST_DIAGNOSTICS = 5

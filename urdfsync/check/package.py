@@ -14,13 +14,13 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
-from urdfsync.files import normalised
+from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import files_that_use, has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within

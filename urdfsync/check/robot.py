@@ -18,9 +18,10 @@ from urdfsync.check.compilation import CheckProgress, Compilation, findings_of
 from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStep, from_text, listed, to_text
 from urdfsync.check.run import RobotOrder
-from urdfsync.config import Config, RobotConfig, find_own_library, load, shown
+from urdfsync.config import Config, RobotConfig, find_own_library, load
 from urdfsync.diagnostics import Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
+from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 
 

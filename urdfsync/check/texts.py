@@ -14,9 +14,9 @@ from pathlib import Path, PurePosixPath
 from urdfsync.check import libraries
 from urdfsync.check.package import CheckedPackage, PackageTexts, class_path
 from urdfsync.check.results import listed
-from urdfsync.config import find_own_library, shown
+from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.files import normalised
+from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.names import is_identifier, within

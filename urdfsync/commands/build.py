@@ -9,10 +9,11 @@ from pathlib import Path
 
 from urdfsync import dependencies
 from urdfsync.commands import arguments
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
 

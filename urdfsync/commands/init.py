@@ -15,13 +15,12 @@ import tomli_w
 
 from urdfsync import config, registry
 from urdfsync.commands import arguments
-from urdfsync.config import shown
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.engine import source as source_files
 from urdfsync.engine.result import Exit
-from urdfsync.files import put
+from urdfsync.files import put, shown
 from urdfsync.modelica.names import class_name
 from urdfsync.output.console import Console, StyledLine, line
 

@@ -10,14 +10,13 @@ import msgspec
 
 from urdfsync import config, registry
 from urdfsync.commands import arguments
-from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Target
 from urdfsync.engine import source as sources
 from urdfsync.engine.generate import Package
 from urdfsync.engine.result import Exit
-from urdfsync.files import kind_of, normalised, put
+from urdfsync.files import kind_of, normalised, put, shown
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.output.console import Console, line
 

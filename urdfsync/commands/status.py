@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from urdfsync.commands import arguments
-from urdfsync.config import shown
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.json_values import action_values, result_values

@@ -16,4 +16,3 @@ from urdfsync.config.settings import CheckConfig as CheckConfig
 from urdfsync.config.settings import Config as Config
 from urdfsync.config.settings import Keys as Keys
 from urdfsync.config.settings import RobotConfig as RobotConfig
-from urdfsync.files import shown as shown

@@ -17,7 +17,7 @@ import msgspec
 
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
-from urdfsync.config import Config, RobotConfig, read_source, shown
+from urdfsync.config import Config, RobotConfig, read_source
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
@@ -30,6 +30,7 @@ from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result
 from urdfsync.engine.result import exit_code as exit_code_of
+from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
 from urdfsync.state.modelfile import ConversionFacts
 

@@ -13,11 +13,10 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import shown
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Dependency
-from urdfsync.files import digest
+from urdfsync.files import digest, shown
 
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)

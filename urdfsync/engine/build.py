@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync import dependencies, machine, profiling
-from urdfsync.config import STATE_FOLDER, Config, RobotConfig, shown
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.engine.actions import DELETES, Actions, Kind
@@ -24,6 +24,7 @@ from urdfsync.engine.package_files import PackageFiles, key_of
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan, partly_done
+from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError
@@ -104,9 +105,8 @@ class _Builder:
                     return plan
                 continue
             told = _joined(first, plan) if first else plan
-            noted = Store(self._config.root).written_folders(robot.name)
-            is_noted = key_of(robot.folder, self._config.root) in noted
-            if plan.writes or plan.bases or not is_noted or any(action.writes for action in plan.actions):
+            writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
+            if writes or not self._is_noted(robot):
                 dependencies.mark_incomplete()  # what was read is about to change
                 with profiling.stage("waiting"):
                     self._lock.acquire(waiting=self._wait)
@@ -119,6 +119,10 @@ class _Builder:
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+
+    def _is_noted(self, robot: RobotConfig) -> bool:
+        """Return whether it is recorded that a build in this checkout wrote the package's folder."""
+        return key_of(robot.folder, self._config.root) in Store(self._config.root).written_folders(robot.name)
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""

@@ -7,12 +7,13 @@ import itertools
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 
-from urdfsync.config import find_own_library, shown
+from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Target
 from urdfsync.engine.actions import Actions, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
+from urdfsync.files import shown
 from urdfsync.modelica.classes import Type
 from urdfsync.modelica.files import ClassName, StoredClasses
 from urdfsync.modelica.lexer import lex

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync import profiling
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action, Actions, Kind
@@ -18,6 +17,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
+from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state import repair
 from urdfsync.state.record import FileRecord, RecordState

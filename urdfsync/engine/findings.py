@@ -5,13 +5,14 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator
 
-from urdfsync.config import Config, shown
+from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
+from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.record import Choice
 from urdfsync.state.store import Store

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync import profiling
-from urdfsync.config import shown
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
-from urdfsync.files import text_digest
+from urdfsync.files import shown, text_digest
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer

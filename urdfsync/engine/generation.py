@@ -13,7 +13,6 @@ import msgspec
 
 from urdfsync import changes, profiling
 from urdfsync.changes import Changes
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Role, Target, Version
 from urdfsync.engine import imports, source
@@ -21,7 +20,7 @@ from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.rules import DesiredFile, renamed_files
-from urdfsync.files import digest, normalised, text_digest
+from urdfsync.files import digest, normalised, shown, text_digest
 from urdfsync.state.record import RecordState
 
 
@@ -49,8 +48,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if path in self.changed or self.inputs.recorded is None:
             return None
         record = self.inputs.recorded.files.get(self.inputs.old_key(path))
-        is_last = record is not None and record.state in (RecordState.GENERATED, RecordState.EDITED)
-        return record.base if record and is_last else None  # in other states the base may be older
+        if record is None or record.state not in (RecordState.GENERATED, RecordState.EDITED):
+            return None  # in other states the base may be older
+        return record.base
 
     def hash(self, path: str) -> str:
         """Return the hash of what would be written, by the path below the package."""

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
@@ -18,7 +18,7 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
-from urdfsync.files import digest, text_digest
+from urdfsync.files import digest, shown, text_digest
 from urdfsync.state import manifest, repair
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Generator, Manifest

@@ -13,11 +13,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.package_files import PackageFiles, encode
-from urdfsync.files import digest
+from urdfsync.files import digest, shown
 from urdfsync.modelica.names import LIBRARY, within
 from urdfsync.state.transaction import FileChange
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import msgspec
 
 from urdfsync import dependencies, profiling, uptodate
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.engine import imports
 from urdfsync.engine.actions import CONFLICTS
 from urdfsync.engine.decide import decide_package
@@ -18,6 +18,7 @@ from urdfsync.engine.inputs import NO_MODEL, Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import FileState
 from urdfsync.engine.stage import Plan, stage
+from urdfsync.files import shown
 from urdfsync.state import manifest
 from urdfsync.state.record import RecordState
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.domain import Import, Snapshot
 from urdfsync.engine import source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.files import shown
 
 
 class Rendering:

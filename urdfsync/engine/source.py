@@ -10,12 +10,12 @@ from typing import Any
 import msgspec
 
 from urdfsync import profiling
-from urdfsync.config import Config, RobotConfig, shown, templates_folder
+from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.dependencies import is_folder, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.engine.cache import Cache
-from urdfsync.files import kind_of, templates_digest
+from urdfsync.files import kind_of, shown, templates_digest
 
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""

@@ -9,7 +9,6 @@ import msgspec
 
 from urdfsync import profiling
 from urdfsync.changes import Changes
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Actions
@@ -18,7 +17,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.parents import SharedFile
-from urdfsync.files import text_digest
+from urdfsync.files import shown, text_digest
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.record import FileRecord, RecordState
 from urdfsync.state.store import State, Store, Witness

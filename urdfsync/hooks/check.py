@@ -13,13 +13,14 @@ import msgspec
 
 from urdfsync import config as configuration
 from urdfsync import precommit, uptodate
-from urdfsync.config import FILE_NAME, Config, RobotConfig, shown
+from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import IN_STEP, Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import shown
 from urdfsync.hooks.answers import STATES, answer_key, find_configurations
 from urdfsync.hooks.checkout import plan_index
 from urdfsync.hooks.index import Index

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.result import Result
+from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted, reason
 from urdfsync.state.record import Choice

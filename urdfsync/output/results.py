@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 
-from urdfsync.config import shown
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.result import Checked, Result
+from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
 from urdfsync.output.json_values import result_values

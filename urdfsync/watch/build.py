@@ -7,7 +7,7 @@ import importlib
 from collections.abc import Iterator, Sequence
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, shown
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
 from urdfsync.engine import source
 from urdfsync.engine.build import build
@@ -15,6 +15,7 @@ from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
+from urdfsync.files import shown
 from urdfsync.watch.robot import WatchedRobot
 
 _MANY = 3

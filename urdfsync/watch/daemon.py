@@ -20,11 +20,12 @@ from queue import Empty, SimpleQueue
 import msgspec
 
 from urdfsync import config, precommit
-from urdfsync.config import STATE_FOLDER, Config, shown, warnings
+from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
+from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.watch import build, events
 from urdfsync.watch.checks import CheckEnded, CheckQueue

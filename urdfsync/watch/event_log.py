@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import CONFLICTS, Actions, Kind
 from urdfsync.engine.result import Checked, Result
+from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line
 from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary

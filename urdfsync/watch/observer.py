@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from watchdog import events, observers
 
-from urdfsync.config import shown
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.files import shown
 from urdfsync.watch.paths import WatchedPaths
 
 if TYPE_CHECKING:
