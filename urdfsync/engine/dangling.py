@@ -37,50 +37,50 @@ class DanglingNames:
         self._package = self._inputs.robot.target.package
 
     @functools.cached_property
-    def _declared_now(self) -> set[ClassName]:
-        """What the texts declare that may differ from the last complete build's."""
-        generation, inputs = self._generation, self._inputs
-        states = {inputs.old_path(key): record.state for key, record in self._last.files.items()}
-        now = {
-            path: generation.content(inputs.key(path)).decode()
-            for path in generation.package.artifacts
-            if path in generation.changed or states.get(path) in (None, RecordState.WAITING, RecordState.CONFLICT)
-        }
-        return _declared(now)
-
-    @functools.cached_property
     def gone(self) -> set[ClassName]:
-        """What texts of the last build declare, and no new one; also what went since the last complete build.
+        """What texts of the last build declare and the package has no more; also what went since the last complete one.
 
         The parts of a class that is gone are left out. Those that a renamed class loses have its new name.
         """
         generation, inputs = self._generation, self._inputs
-        before = {path: generation.base(inputs.old_key(path), one) or "" for path, one in generation.rewritten.items()}
-        declared = _declared(before)
-        moves = {
-            _class_path(inputs.old_path(old)): _class_path(inputs.path(new))
-            for new, old in generation.renamed_files().items()
-        }
-        for count in {len(path) for path in moves}:
-            declared |= {(*moves[path[:count]], *path[count:]) for path in declared if path[:count] in moves}
-        model = inputs.state.model if inputs.state else None
+        before = ((path, generation.base(inputs.old_key(path), one) or "") for path, one in generation.rewritten)
+        declared, model = _declared(before), inputs.state.model if inputs.state else None
+        around = {path[:count] for path in declared for count in range(1, len(path))}
+        renamed = {path: (*path[:-1], new) for path in around if (new := self._new_name(path))}
+        declared |= {(*renamed[path[:-1]], path[-1]) for path in declared if path[:-1] in renamed}
         declared |= {tuple(path.split(".")) for path in model.gone or ()} if model else set()
-        gone = set()
-        for path in declared - self._declared_now:  # a name that the class inherits now is not gone
-            node = self._generated.node((*self._package.split("."), *path[:-1]))
-            if node is None or not isinstance(self._generated.part((Type(node),), path[-1]), Element):
-                gone.add(path)
+        gone = {path for path in declared if not self._exists(path)}
         return {path for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
 
     @functools.cached_property
     def lost(self) -> dict[str, str]:
         """The names that the package loses, with their new names; empty if there is none."""
-        known, renamed = {path[-1] for path in self._declared_now}, self._renamed_identifiers()
-        found = {name: _new_name(name, renamed, known) for name in sorted({path[-1] for path in self.gone})}
+        found: dict[str, str] = {}
+        for path in sorted(self.gone):
+            found[path[-1]] = found.get(path[-1]) or self._new_name(path)
         if self._last.package != self._package:
             found[self._last.package.rpartition(".")[2]] = self._package
         return found
 
+    def _exists(self, path: ClassName) -> bool:
+        """Whether the package has a class or component of this name now, its own or inherited, without edits."""
+        node = self._generated.node((*self._package.split("."), *path[:-1]))
+        return node is not None and isinstance(self._generated.part((Type(node),), path[-1]), Element)
+
+    def _new_name(self, path: ClassName) -> str:
+        """Return the name at the same place that begins with the new identifier where this one begins with the old one.
+
+        Empty if there is none.
+        """
+        name = path[-1]
+        for old, new in self._renamed_identifiers.items():
+            if name.lower().startswith(old.lower()):
+                first = new[:1].upper() if name[:1].isupper() else new[:1].lower()
+                candidates = (f"{first}{new[1:]}{name[len(old) :]}", f"{new}{name[len(old) :]}")
+                return next((candidate for candidate in candidates if self._exists((*path[:-1], candidate))), "")
+        return ""
+
+    @functools.cached_property
     def _renamed_identifiers(self) -> dict[str, str]:
         """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
         inputs, changes, old = self._inputs, self._generation.changes_since_complete, self._last.names
@@ -103,7 +103,7 @@ class DanglingNames:
     @functools.cached_property
     def _generated(self) -> Scopes:
         """The package as it is generated, without edits."""
-        return Scopes(self._planned({}, {}))
+        return Scopes(self._with_texts({}, {}))
 
     def first_use(self, key: str, text: str, staying: Collection[str]) -> Unresolved | None:
         """Return the first use of a lost name in a text for a file of the package; None if there is none.
@@ -153,7 +153,9 @@ class DanglingNames:
         """Return warnings about files that an option leaves out now, where the user edited or uses them."""
         inputs, target, found = self._inputs, Target(self._last.package, self._last.class_), []
         orphans = {action.path for action in actions if action.kind is Kind.ORPHAN}
-        for path in sorted(self._generation.rewritten.keys() - self._generation.package.artifacts.keys()):
+        orphaned = {inputs.old_path(key) for key, one in self._last.files.items() if one.state is RecordState.ORPHAN}
+        rewritten = {path for path, _ in self._generation.rewritten}
+        for path in sorted(rewritten - self._generation.package.artifacts.keys() - orphaned):
             option = inputs.domain.option_for(path, target, inputs.robot.options)
             if not option:
                 continue
@@ -193,15 +195,17 @@ class DanglingNames:
 
         Files that are no longer generated are there only as far as they are among the texts.
         """
-        inputs, last, robot = self._inputs, self._last, self._inputs.robot
-        generated = {inputs.key(path): path for path in self._generation.package.artifacts}
-        found = {path: self._generation.content(key) for key, path in generated.items()}
-        own = {
-            key: self._files.any_text(key)
-            for key in self._files.classes(inputs.folder) - last.files.keys() - generated.keys()
-        }
-        for key, text in {**own, **texts}.items():
-            found[inputs.path(key)] = text.encode(errors="replace")
+        inputs = self._inputs
+        generated = {inputs.key(path) for path in self._generation.package.artifacts}
+        own = self._files.classes(inputs.folder) - self._last.files.keys() - generated
+        return self._with_texts({**{key: self._files.any_text(key) for key in own}, **texts}, others)
+
+    def _with_texts(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
+        """The generated classes, with `texts` of the package in their place or beside them, and others' files."""
+        inputs, robot = self._inputs, self._inputs.robot
+        former = self._last.package if self._last.package != self._package else ""
+        found = {path: self._generation.content(inputs.key(path)) for path in self._generation.package.artifacts}
+        found |= {inputs.path(key): text.encode(errors="replace") for key, text in texts.items()}
 
         def find(name: str) -> Path | None:
             if own := find_own_library(name, self._package):
@@ -209,8 +213,7 @@ class DanglingNames:
             places = (robot.output / name, robot.output / f"{name}.mo")
             return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
 
-        gone = last.package if last.package != self._package else ""
-        return StoredClasses(self._package, robot.folder, found, others, find, gone)
+        return StoredClasses(self._package, robot.folder, found, others, find, former)
 
     def _texts(self, keys: Iterable[str]) -> dict[str, str]:
         """Return the texts of files that are there; the user may have made a folder of a class."""
@@ -231,24 +234,14 @@ def class_of(path: str) -> str:
     return path.rpartition("/")[2].removesuffix(".mo")
 
 
-def _declared(texts: Mapping[str, str]) -> set[ClassName]:
-    """Return the full names, below the package, of all that texts declare; texts by their paths below it."""
+def _declared(texts: Iterable[tuple[str, str]]) -> set[ClassName]:
+    """Return the full names, below the package, of all that texts declare, by their paths below it."""
     found: set[ClassName] = set()
-    for path, text in texts.items():
-        folder = tuple(path.split("/")[:-1])
-        around = folder[:-1] if path.endswith("/package.mo") else folder
-        found.update(one.path for one in declared(parse(text).classes, around))
+    for path, text in texts:
+        name = _class_path(path)
+        paths = (one.path for one in declared(parse(text).classes, name[:-1]))
+        found.update(paths if name else (path[1:] for path in paths if path[1:]))  # the package itself is no part
     return found
-
-
-def _new_name(name: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
-    """Return the known name that begins with the new identifier where `name` begins with the old one; else nothing."""
-    for old, new in renamed.items():
-        if name.lower().startswith(old.lower()):
-            first = new[:1].upper() if name[:1].isupper() else new[:1].lower()
-            candidates = (f"{first}{new[1:]}{name[len(old) :]}", f"{new}{name[len(old) :]}")
-            return next((candidate for candidate in candidates if candidate in known), "")
-    return ""
 
 
 def code_words(text: str) -> set[str]:

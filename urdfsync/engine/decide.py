@@ -45,6 +45,8 @@ class Decision(msgspec.Struct, frozen=True):
     """What to do with files around the package."""
     gone: tuple[str, ...] = ()
     """If something waits: what the package loses until nothing does, by dotted names below it."""
+    left: tuple[str, ...] = ()
+    """Files that renamed elements left, and that wait to be deleted, by paths below the package."""
 
 
 @profiling.stage("deciding")
@@ -79,7 +81,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
 
     conflicts: dict[str, Conflict] = {}
     merged: dict[str, str] = {}
-    left = {*moves.values(), *(_waiting_records(generation, records) if generation else ())}
+    left = {*moves.values(), *_left_before(inputs, records)}
     if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
         disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
         # a merge may mention these: a record that it mentions is kept
@@ -94,7 +96,8 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     removable = _removable_lines(owned, actions)
     order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
     renumbered: set[str] = set()
-    if generation is not None and any(action.kind in CONFLICTS for action in actions):  # else nothing waits
+    waits = any(action.kind in CONFLICTS for action in actions)
+    if generation is not None and waits:
         for action in actions:
             if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
                 text = merged.get(action.path) or generation.content(action.path).decode()
@@ -102,7 +105,6 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
                     renumbered.add(action.path)
     held = hold((*actions, *order_actions), renumbered)
     waiting = {action.path for action in held if action.held}
-    waits = bool(waiting) or any(action.kind in CONFLICTS for action in held)
     orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
     return Decision(
         Actions(held),
@@ -112,6 +114,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(".".join(path) for path in names.gone) if names and waits else (),
+        tuple(inputs.path(a.path) for a in held if a.held and a.kind is Kind.DELETE and a.path in left),
     )
 
 
@@ -139,12 +142,11 @@ def _conflict(
     return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
 
 
-def _waiting_records(generation: Generation, records: Mapping[str, FileRecord]) -> list[str]:
-    """Return the records of elements renamed by an earlier build, which wait to be deleted."""
-    waiting = [path for path, one in records.items() if one.state is RecordState.WAITING and one.role is Role.RECORD]
-    changes = generation.changes_since_complete if waiting else None
-    renamed = {f"{kind} {name}" for kind, name in changes.renames} if changes else set()
-    return [path for path in waiting if records[path].owner in renamed]
+def _left_before(inputs: Inputs, records: Mapping[str, FileRecord]) -> list[str]:
+    """Return the files that renamed elements left in earlier builds, and that still wait to be deleted."""
+    model = inputs.state.model if inputs.state else None
+    left = map(inputs.old_key, model.left or ()) if model else ()
+    return [key for key in left if key in records and records[key].state is RecordState.WAITING]
 
 
 def _is_leaving_record(action: Action, left: Collection[str]) -> bool:

@@ -107,20 +107,21 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return orders
 
     @cached_property
-    def rewritten(self) -> dict[str, str]:
-        """Hashes of the last texts of files that get another text or none, by path; of records, only those that go."""
-        found: dict[str, str] = {}
+    def rewritten(self) -> frozenset[tuple[str, str]]:
+        """Path and hash of the last texts of files that get another text or none; of records, only those that go."""
+        found: set[tuple[str, str | None]] = set()
         recorded, now = self.inputs.recorded, self.package.artifacts
         if recorded is None or self.inputs.recovered is not None:
-            return found
+            return frozenset()
         for key, record in recorded.files.items():
             path = self.inputs.old_path(key)
             may_differ = path in self.changed or record.state in (RecordState.WAITING, RecordState.CONFLICT)
             stays = path in now and (record.role is Role.RECORD or not may_differ)
-            is_text = record.role in (Role.MODEL, Role.RECORD, Role.PACKAGE)
-            if not stays and is_text and record.state is not RecordState.ORPHAN and record.base:
-                found[path] = record.base
-        return found
+            if not stays and record.role is not Role.IMPORT:
+                found.add((path, record.written_hash))
+                if record.origin:
+                    found.add((self.inputs.old_path(record.origin), record.base))
+        return frozenset((path, sha256) for path, sha256 in found if sha256)
 
     @cached_property
     def changes(self) -> Changes | None:

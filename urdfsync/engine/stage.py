@@ -179,7 +179,7 @@ def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, st
     below = inputs.key("")
     older = {k: r for k, r in decision.files.items() if r.state in _OLDER_BASE and k.startswith(below)}
     bases = {inputs.path(key): text for key, _, text in _base_texts(generation, older)}
-    model = modelfile.of(snapshot, generation.imported.imports, bases, since, revision, decision.gone)
+    model = modelfile.of(snapshot, generation.imported.imports, bases, since, revision, decision.gone, decision.left)
     model_text = modelfile.dumps(model)
     whole = msgspec.structs.replace(
         inputs.heading(text_digest(model_text.encode())),
