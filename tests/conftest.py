@@ -13,11 +13,11 @@ import pytest
 from hypothesis import settings
 from support import audit
 from support.commands import Execute, Printed
+from support.networks import RC_FOLDER
 
 from urdfsync.check.libraries import LibraryError, find_standard_library
 
 REPOSITORY = Path(__file__).parents[1]
-RC_FOLDER = Path(__file__).parent / "rcnetwork"
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 

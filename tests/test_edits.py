@@ -19,6 +19,7 @@ from support.networks import (
     LADDER,
     MANIFEST,
     R1,
+    RC_FOLDER,
     RECORD,
     configure,
     edit,
@@ -53,7 +54,7 @@ def own_model(declarations: str) -> None:
     """Let the models of all elements declare something."""
     template = Path("own/element/model.mo.jinja")
     template.parent.mkdir(parents=True)
-    text = Path(__file__).with_name("rcnetwork").joinpath("templates/element/model.mo.jinja").read_text()
+    text = (RC_FOLDER / "templates/element/model.mo.jinja").read_text()
     template.write_text(text.replace("\nequation\n", f"\n{declarations}\nequation\n"))
     configure('templates = "own"\n')
 

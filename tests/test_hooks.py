@@ -15,12 +15,11 @@ from pathlib import Path
 import pytest
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, RECORD, edit, resistor
+from support.networks import MANIFEST, RC_FOLDER, RECORD, edit, resistor
 
 from urdfsync import cli
 
 REPOSITORY = Path(__file__).parents[1]
-RC_FOLDER = Path(__file__).parent / "rcnetwork"
 PRE_COMMIT = Path(sys.executable).parent / "pre-commit"
 
 pytestmark = [

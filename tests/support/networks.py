@@ -16,6 +16,7 @@ from urdfsync.engine.result import Exit, Result, exit_code
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 """The fixture `snapshot_of`."""
 
+RC_FOLDER = Path(__file__).parents[1] / "rcnetwork"
 LADDER = "modelica/Ladder"
 R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
 RECORD = f"{LADDER}/Elements/R1Parameters.mo"

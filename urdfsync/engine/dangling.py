@@ -193,11 +193,12 @@ class DanglingNames:
     def _planned(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
         """The classes as they will be after the build: `texts` of the package by their keys, `others` of the user's.
 
-        Files that are no longer generated are there only as far as they are among the texts.
+        Files that urdfsync wrote and are no longer generated are there only as far as they are among the texts.
         """
         inputs = self._inputs
         generated = {inputs.key(path) for path in self._generation.package.artifacts}
-        own = self._files.classes(inputs.folder) - self._last.files.keys() - generated
+        written = {key for key, record in self._last.files.items() if record.written_hash}
+        own = self._files.classes(inputs.folder) - written - generated
         return self._with_texts({**{key: self._files.any_text(key) for key in own}, **texts}, others)
 
     def _with_texts(self, texts: Mapping[str, str], others: Mapping[Path, bytes]) -> StoredClasses:
