@@ -451,6 +451,23 @@ def test_a_class_of_which_the_user_made_a_folder_finds_the_record_that_stays_for
     assert Path(C1.replace(".mo", "Parameters.mo")).exists()
 
 
+def test_the_line_of_an_orphan_that_the_user_deletes_goes_once_nothing_waits(project: Path) -> None:
+    run()
+    edit(C1, "equation", SENSOR)
+    drop("C1")
+    run()
+    order = Path(LADDER, "Elements/package.order")
+    assert "C1" in order.read_text().split()
+    Path(C1).unlink()
+    edit(R1, "end R1;", "  annotation (Documentation);\nend R1;")
+    as_rc_pair()
+    for _ in range(2):
+        assert conflicts() == [R1]
+        assert "C1" in order.read_text().split()
+    run(choices={R1: Choice.TAKE})
+    assert "C1" not in order.read_text().split()
+
+
 def test_own_classes_in_the_package_that_use_what_is_gone_are_named(project: Path) -> None:
     run()
     mine = Path(f"{LADDER}/Elements/Mine.mo")

@@ -185,14 +185,19 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
 
 
 def records_after(actions: Iterable[Action]) -> dict[str, FileRecord]:
-    """Return the manifest's entry of each file once the actions are done; `package.order` files have none."""
-    records = {}
-    for action in actions:
+    """Return the manifest's entry of each file once the actions are done; `package.order` files have none.
+
+    While something waits, files that are gone are recorded still: their lines in `package.order` wait, too.
+    """
+    every, records = tuple(actions), dict[str, FileRecord]()
+    waits = any(action.held or action.kind in CONFLICTS for action in every)
+    for action in every:
         base, state = action.generated, RecordState.GENERATED
         if action.role is Role.ORDER:
             continue
-        if action.held or action.kind in CONFLICTS:
-            state = RecordState.WAITING if action.held else RecordState.CONFLICT
+        is_left = waits and action.kind is Kind.FORGET and not action.released
+        if action.held or is_left or action.kind in CONFLICTS:
+            state = RecordState.CONFLICT if action.kind in CONFLICTS else RecordState.WAITING
             chosen_for = sides_hash(action.mine, action.generated) if action.choice else None
             waits = action.origin, action.replaced_hash, action.choice, chosen_for
             records[action.path] = FileRecord(action.owner, action.role, action.base, state, *waits)
