@@ -19,6 +19,7 @@ from support.networks import (
     LADDER,
     MANIFEST,
     R1,
+    R2,
     RC_FOLDER,
     RECORD,
     configure,
@@ -426,6 +427,54 @@ def test_a_merge_that_mentions_what_the_user_deleted_and_the_source_has_no_more_
         assert found.rejected.startswith("the merge mentions `C1`, which the package has no more")
 
 
+def test_a_merge_that_mentions_what_is_gone_is_a_conflict_if_its_model_gets_another_name(project: Path) -> None:
+    run()
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Real mine = elementR1.v;\n\nequation")
+    drop("R1")
+    configure('class = "Net"\n')
+    for _ in range(2):
+        (found,) = run().conflict_texts
+        assert found.rejected.startswith("the merge mentions `elementR1`, which the package has no more")
+
+
+def test_a_merge_that_mentions_what_the_user_gives_up_is_a_conflict(project: Path) -> None:
+    run()
+    edit(C1, "equation", SENSOR)
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Elements.C1 other;\n\nequation")
+    drop("C1")
+    (found,) = run().conflict_texts
+    assert not found.rejected
+    (found,) = run(choices={C1: Choice.TAKE, found.path: Choice.MERGE}).conflict_texts
+    assert found.rejected.startswith("the merge mentions `C1`, which the package has no more")
+    assert Path(C1).exists(), "nothing goes while something waits"
+
+
+def test_what_the_user_keeps_may_be_mentioned(project: Path) -> None:
+    """A class that is no longer generated, and one that is generated without what it has."""
+    own_model(f"<% if kind == 'resistor' %>\n{POWER}<% endif %>\n")
+    merging()
+    run()
+    Path("modelica/Bench.mo").write_text("model Bench\n  Ladder.Elements.C1 one;\nend Bench;\n")
+    edit(C1, "equation", SENSOR)
+    edit(R1, "v = parameters.R*i", "v = 2*parameters.R*i")
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = elementR1.power;\n\nequation")
+    drop("C1")
+    as_rc_pair()
+    assert set(conflicts()) == {R1, f"{LADDER}/Ladder.mo"}
+    result = run(choices={C1: Choice.KEEP, R1: Choice.KEEP})
+    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
+    assert not result.diagnostics
+    assert run().in_step
+
+
+def test_edits_move_into_a_parent_package_that_is_made_for_them(project: Path) -> None:
+    run()
+    edit(R1, "equation", SENSOR)
+    edit("urdfsync.toml", 'package = "Ladder"', 'package = "Plant.Ladder"')
+    configure("create_parents = true\n")
+    assert kinds(run())["modelica/Plant/Ladder/Elements/R1.mo"] is Kind.MOVE
+
+
 @pytest.mark.parametrize("used", ["C1", "C1Parameters"], ids=["edited model", "record"])
 def test_a_merge_may_mention_what_stays(project: Path, used: str) -> None:
     merging()
@@ -577,6 +626,21 @@ def test_the_record_of_a_renamed_element_waits_although_a_text_mentions_it(proje
     assert tomllib.loads(state.decode())["files"]["Elements/R1Parameters.mo"]["state"] == "waiting"
     run()
     assert Path(MANIFEST).read_bytes() == state
+
+
+def test_the_record_of_an_element_that_is_renamed_and_then_goes_is_kept_where_it_is_mentioned(project: Path) -> None:
+    run()
+    record = Path(RECORD)
+    Path("modelica/Bench.mo").write_text("model Bench\n  Ladder.Elements.R1Parameters numbers;\nend Bench;\n")
+    other = R2.replace(".mo", "Parameters.mo")
+    edit(other, "220.5", "220.5 + 1")
+    source('"ohm": 220.5', '"ohm": 300')
+    rename("R1", "Shunt")
+    assert conflicts() == [other]
+    drop("Shunt")
+    run()
+    run(choices={other: Choice.TAKE})
+    assert record.exists()
 
 
 def test_a_record_that_is_needed_stays_when_its_element_gets_another_name_later(project: Path) -> None:

@@ -25,6 +25,8 @@ from urdfsync.state.record import RecordState
 
 _EDITED = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE})
 """What happens to files that are as the user wants them."""
+_DEEPEST = 30
+"""No recorded name has so many parts: it may be a stranger's, and each of its beginnings is looked for."""
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 
 
@@ -47,8 +49,10 @@ class DanglingNames:
         declared, model = _declared(before), inputs.state.model if inputs.state else None
         around = {path[:count] for path in declared for count in range(1, len(path))}
         renamed = {path: (*path[:-1], new) for path in around if (new := self._new_name(path))}
+        if self._last.class_ != inputs.robot.target.name:
+            renamed[(self._last.class_,)] = (inputs.robot.target.name,)
+        declared |= {tuple(path.split(".", _DEEPEST)) for path in model.gone or ()} if model else set()
         declared |= {(*renamed[path[:-1]], path[-1]) for path in declared if path[:-1] in renamed}
-        declared |= {tuple(path.split(".")) for path in model.gone or ()} if model else set()
         gone = {path for path in declared if not self._exists(path)}
         return {path for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
 
@@ -108,7 +112,7 @@ class DanglingNames:
     def first_use(self, key: str, text: str, staying: Collection[str]) -> Unresolved | None:
         """Return the first use of a lost name in a text for a file of the package; None if there is none.
 
-        `staying` are the keys of files that are no longer generated, and stay.
+        `staying` are the keys of files that stay the user's, or because he needs them.
         """
         if self.lost.keys().isdisjoint(code_words(text)):
             return None
@@ -129,7 +133,7 @@ class DanglingNames:
         found = self._left_out(actions, {**{files.path(key): text for key, text in mine.items()}, **others})
         if not self.lost or not (mine or around):
             return found
-        staying = self._texts(action.path for action in actions if action.kind in (Kind.NEEDED, Kind.ORPHAN))
+        staying = self._texts(a.path for a in actions if a.kind in (Kind.NEEDED, Kind.ORPHAN) or a.released)
         doubtful = self.lost.keys() - set(map(class_of, staying))
         sources = self._planned({**mine, **staying}, around)
         scopes = Scopes(sources)
@@ -181,7 +185,7 @@ class DanglingNames:
         """
         node = scopes.node(name)
         if node is None:
-            tokens = (token for token in lex(text)[0] if token.text in self.lost)
+            tokens = (token for token in lex(text)[0] if token.text in doubtful)
             return [Unresolved(UnresolvedKind.ELEMENT, token.text, token.text, "", token.line) for token in tokens]
         legal = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
         found = [one for one in unresolved(node, scopes, doubtful) if one.part in self.lost and one.kind not in legal]
@@ -207,6 +211,7 @@ class DanglingNames:
         former = self._last.package if self._last.package != self._package else ""
         found = {path: self._generation.content(inputs.key(path)) for path in self._generation.package.artifacts}
         found |= {inputs.path(key): text.encode(errors="replace") for key, text in texts.items()}
+        others = {**others, **{one.path: one.content for one in inputs.parents.shared if one.content is not None}}
 
         def find(name: str) -> Path | None:
             if own := find_own_library(name, self._package):
@@ -232,7 +237,7 @@ def _class_path(path: str) -> ClassName:
 
 def class_of(path: str) -> str:
     """Return the name of the class that a file is for, by its key or path."""
-    return path.rpartition("/")[2].removesuffix(".mo")
+    return path.removesuffix("/package.mo").rpartition("/")[2].removesuffix(".mo")
 
 
 def _declared(texts: Iterable[tuple[str, str]]) -> set[ClassName]:

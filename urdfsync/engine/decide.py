@@ -45,8 +45,8 @@ class Decision(msgspec.Struct, frozen=True):
     """What to do with files around the package."""
     gone: tuple[str, ...] = ()
     """If something waits: what the package loses until nothing does, by dotted names below it."""
-    left: tuple[str, ...] = ()
-    """Files that renamed elements left, and that wait to be deleted, by paths below the package."""
+    left: Mapping[str, str] = {}
+    """Files that renamed elements left, and that wait to be deleted, with their files now; paths below the package."""
 
 
 @profiling.stage("deciding")
@@ -81,13 +81,15 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
 
     conflicts: dict[str, Conflict] = {}
     merged: dict[str, str] = {}
-    left = {*moves.values(), *_left_before(inputs, records)}
+    left = _left_files(inputs, records, moves, desired)
     if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
         disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
-        # a merge may mention these: a record that it mentions is kept
-        staying = [a.path for a in actions if a.kind is Kind.ORPHAN or _is_leaving_record(a, left)]
-        conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
         choices = {**remembered_choices(records, actions), **inputs.options.choices}
+        # a merge may mention what stays the user's; a record that it mentions is kept
+        leaving = {a.path for a in actions if _is_leaving_record(a, left)}
+        likely = keep_needed(resolve(actions, {}, choices, merging=False)[0], files.has_classes, leaving)
+        staying = [a.path for a in likely if a.kind in (Kind.KEEP, Kind.ORPHAN, Kind.NEEDED) or a.released]
+        conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
 
@@ -114,7 +116,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(".".join(path) for path in names.gone) if names and waits else (),
-        tuple(inputs.path(a.path) for a in held if a.held and a.kind is Kind.DELETE and a.path in left),
+        {inputs.path(key): inputs.path(left[key]) for key in sorted(waiting & left.keys() - desired.keys())},
     )
 
 
@@ -123,7 +125,7 @@ def _conflict(
 ) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`.
 
-    `staying` are files that are no longer generated, and stay.
+    `staying` are files that stay the user's, or because he needs them.
     """
     key, files = action.origin or action.path, generation.inputs.files
     mine = files.text(key)
@@ -142,11 +144,17 @@ def _conflict(
     return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
 
 
-def _left_before(inputs: Inputs, records: Mapping[str, FileRecord]) -> list[str]:
-    """Return the files that renamed elements left in earlier builds, and that still wait to be deleted."""
+def _left_files(
+    inputs: Inputs, records: Mapping[str, FileRecord], moves: Mapping[str, str], desired: Collection[str]
+) -> dict[str, str]:
+    """Return the files that renamed elements leave, or have left while something waits, with their files now."""
+    found = {old: new for new, old in moves.items()}
     model = inputs.state.model if inputs.state else None
-    left = map(inputs.old_key, model.left or ()) if model else ()
-    return [key for key in left if key in records and records[key].state is RecordState.WAITING]
+    for old, new in (model.left or {}).items() if model else ():
+        key, now = inputs.old_key(old), found.get(inputs.old_key(new), inputs.key(new))
+        if now in desired and key in records and records[key].state is RecordState.WAITING:
+            found.setdefault(key, now)
+    return found
 
 
 def _is_leaving_record(action: Action, left: Collection[str]) -> bool:

@@ -109,19 +109,20 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def rewritten(self) -> frozenset[tuple[str, str]]:
         """Path and hash of the last texts of files that get another text or none; of records, only those that go."""
-        found: set[tuple[str, str | None]] = set()
+        found, orphans = set[tuple[str, str | None]](), set[tuple[str, str | None]]()
         recorded, now = self.inputs.recorded, self.package.artifacts
-        if recorded is None or self.inputs.recovered is not None:
-            return frozenset()
-        for key, record in recorded.files.items():
+        for key, record in recorded.files.items() if recorded else ():
             path = self.inputs.old_path(key)
             may_differ = path in self.changed or record.state in (RecordState.WAITING, RecordState.CONFLICT)
             stays = path in now and (record.role is Role.RECORD or not may_differ)
-            if not stays and record.role is not Role.IMPORT:
-                found.add((path, record.written_hash))
-                if record.origin:
-                    found.add((self.inputs.old_path(record.origin), record.base))
-        return frozenset((path, sha256) for path, sha256 in found if sha256)
+            if stays or record.role is Role.IMPORT:
+                continue
+            into = orphans if record.state is RecordState.ORPHAN and path not in now else found
+            into.add((path, record.written_hash))
+            if record.origin:
+                into.add((self.inputs.old_path(record.origin), record.base))
+        # orphans alone take no name away
+        return frozenset((path, sha256) for path, sha256 in (found | orphans if found else found) if sha256)
 
     @cached_property
     def changes(self) -> Changes | None:

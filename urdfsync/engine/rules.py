@@ -199,8 +199,8 @@ def records_after(actions: Iterable[Action]) -> dict[str, FileRecord]:
         if action.held or is_left or action.kind in CONFLICTS:
             state = RecordState.CONFLICT if action.kind in CONFLICTS else RecordState.WAITING
             chosen_for = sides_hash(action.mine, action.generated) if action.choice else None
-            waits = action.origin, action.replaced_hash, action.choice, chosen_for
-            records[action.path] = FileRecord(action.owner, action.role, action.base, state, *waits)
+            pending = action.origin, action.replaced_hash, action.choice, chosen_for
+            records[action.path] = FileRecord(action.owner, action.role, action.base, state, *pending)
             continue
         if action.kind in (Kind.KEEP, Kind.INCLUDED) or (action.result or base) != base:
             state = RecordState.EDITED

@@ -47,8 +47,8 @@ class Model(msgspec.Struct, frozen=True):
     """The domain's revision in that build, if it is another one now."""
     gone: list[str] | msgspec.UnsetType = msgspec.UNSET
     """What the package lost since then, by dotted names below it, if anything: no merge may mention it."""
-    left: list[str] | msgspec.UnsetType = msgspec.UNSET
-    """Files that renamed elements left since then, if any, by paths below the package: they wait to be deleted."""
+    left: dict[str, str] | msgspec.UnsetType = msgspec.UNSET
+    """Files that renamed elements left since then, if any, with their files now: the old ones wait to be deleted."""
     format: int = FORMAT
 
 
@@ -59,7 +59,7 @@ def of(
     since: Snapshot | None = None,
     since_revision: int | msgspec.UnsetType = msgspec.UNSET,
     gone: Iterable[str] = (),
-    left: Iterable[str] = (),
+    left: Mapping[str, str] | None = None,
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
     facts = {}
@@ -68,8 +68,8 @@ def of(
         facts[key] = ConversionFacts(imported.source_hash, imported.converter, plain)
     texts = dict(sorted((bases or {}).items()))
     complete = None if since is None else dict(since)
-    names, files = (sorted(all_of) or msgspec.UNSET for all_of in (gone, left))
-    return Model(dict(snapshot), facts, texts, complete, since_revision, names, files)
+    names, moved = sorted(gone) or msgspec.UNSET, dict(sorted((left or {}).items())) or msgspec.UNSET
+    return Model(dict(snapshot), facts, texts, complete, since_revision, names, moved)
 
 
 def dumps(model: Model) -> str:

@@ -52,7 +52,8 @@ class RecoveredState(msgspec.Struct, frozen=True):
     def model(self, rebuilt: Manifest) -> Model | None:
         """The model that belongs to a rebuilt manifest; None if no side is a model.
 
-        Facts of imports and texts of bases come from all sides: those that the manifest records by their hashes.
+        Facts of imports and texts of bases come from all sides: those that the manifest records by their hashes. What
+        the package lost on either side is gone.
         """
         first = self.models.get(rebuilt.source.snapshot) or next(iter(self.models.values()), None)
         if first is None:
@@ -68,7 +69,8 @@ class RecoveredState(msgspec.Struct, frozen=True):
                 file = rebuilt.files.get(f"{rebuilt.folder}/{path}")
                 if file and file.base == text_digest(text.encode()):
                     bases.setdefault(path, text)
-        return msgspec.structs.replace(first, imports=imports, bases=bases)
+        gone = sorted({name for side in self.models.values() for name in side.gone or ()})
+        return msgspec.structs.replace(first, imports=imports, bases=bases, gone=gone or msgspec.UNSET)
 
 
 def recover(toml: str | None, json: str | None, file: str, beside: str) -> RecoveredState:
