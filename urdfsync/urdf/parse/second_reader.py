@@ -18,6 +18,7 @@ from urdfsync.urdf.validate import Finding
 
 # What yourdfpy raises for files that the strict reader accepts: it expects attributes that may be absent.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
+_SHOWN = 5
 _TEXTS = 100
 
 _Structure = Mapping[str, frozenset[str]]
@@ -49,11 +50,11 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
         yield Finding("second-reader-failed", "robot", f"not cross-checked: yourdfpy {failure}")
         return
     for kind, one in ours.items():
-        parts = [
-            f"{title} {', '.join(sorted(names))}"
-            for title, names in (("without", one - theirs[kind]), ("with", theirs[kind] - one))
-            if names
-        ]
+        parts = []
+        for title, names in (("without", one - theirs[kind]), ("with", theirs[kind] - one)):
+            if names:
+                shown = sorted(names)[:_SHOWN] + ["…"] * (len(names) > _SHOWN)
+                parts.append(f"{title} {', '.join(shown)}")
         if parts:
             yield Finding("second-reader-differs", "robot", f"yourdfpy reads other {kind}: {'; '.join(parts)}")
     if theirs == ours:
