@@ -192,8 +192,9 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
     def ignored(folder: str, names: list[str]) -> list[str]:
         left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
         if not whole and Path(folder).is_relative_to(parts["Modelica"]):
+            below = Path(folder).relative_to(parts["Modelica"]).parts
             for name in names:
-                path = (*Path(folder).relative_to(parts["Modelica"]).parts, name.removesuffix(".mo"))
+                path = (*below, name.removesuffix(".mo"))
                 is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
                 if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
                     left_out.append(name)
