@@ -18,6 +18,7 @@ from urdfsync import config
 from urdfsync.check import libraries
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult
+from urdfsync.check.package import read_package
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, CheckStep
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
@@ -302,6 +303,17 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
     assert len(result.compiled) == 3, "the package itself is right"
     files = "modelica/Bench/MyBench.mo, modelica/Draft.mo and modelica/MyArm.mo"
     assert result.unchecked[0] == f"{files} outside of the package: names were checked, but nothing there was compiled"
+
+
+def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:
+    base = arm / "Links" / "Base.mo"
+    base.write_bytes(base.read_bytes().replace(b"\n", b"\r\n"))
+    replace(arm / "Links" / "Hand.mo", "model Hand", "// looked at\nmodel Hand")
+    replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    package = read_package(loaded, loaded.robots[0], BuildOptions(dry=True))
+    assert package.files.edited == ["Joints/ElbowParameters.mo", "Links/Hand.mo"]
+    assert package.edits == ("Joints/ElbowParameters.mo",)
 
 
 def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -183,4 +185,19 @@ def test_a_copy_is_made_once_for_each_state(small: StandardLibrary, cache: UserC
     assert (first / "mark").exists()
     assert first.stat().st_mtime > 0, "its last use is noted"
     (small.parts["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
+    assert standard_library_copy(small.parts, (), cache) != first
+
+
+def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
+    small: StandardLibrary, cache: UserCache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: Any) -> Any:
+        if str(path).endswith("Fluid"):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path)
+
+    genuine = os.scandir
+    monkeypatch.setattr(os, "scandir", refuse)
+    first = standard_library_copy(small.parts, (), cache)
+    (small.parts["Modelica"] / "Mechanics" / "package.mo").write_text("package Mechanics end Mechanics;")
     assert standard_library_copy(small.parts, (), cache) != first

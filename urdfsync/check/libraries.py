@@ -14,7 +14,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, fingerprint
-from urdfsync.check.package import package_texts, stored_files
+from urdfsync.check.package import package_texts
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY
@@ -167,12 +167,15 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 def library_state(path: Path) -> str:
     """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
+    files = [path] if path.is_file() else []
+    for folder, folders, names in os.walk(path):  # what can't be read is passed over: the compiler says more of it
+        folders[:] = [name for name in folders if name != "Resources" and not name.startswith(".")]
+        files += [Path(folder, name) for name in names if name.endswith((".mo", ".order"))]
     found = []
-    with contextlib.suppress(PermissionError):  # the compiler says more of what can't be read
-        for file in [path] if path.is_file() else stored_files(path):
-            with contextlib.suppress(FileNotFoundError):  # somebody replaces it at this moment
-                status = file.stat()
-                found.append((str(file), status.st_size, status.st_mtime_ns))
+    for file in files:
+        with contextlib.suppress(OSError):  # a link to nothing, or somebody replaces it at this moment
+            status = file.stat()
+            found.append((str(file), status.st_size, status.st_mtime_ns))
     return fingerprint(sorted(found))
 
 
@@ -189,8 +192,9 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
     def ignored(folder: str, names: list[str]) -> list[str]:
         left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
         if not whole and Path(folder).is_relative_to(parts["Modelica"]):
+            below = Path(folder).relative_to(parts["Modelica"]).parts
             for name in names:
-                path = (*Path(folder).relative_to(parts["Modelica"]).parts, name.removesuffix(".mo"))
+                path = (*below, name.removesuffix(".mo"))
                 is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
                 if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
                     left_out.append(name)

@@ -112,8 +112,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
-    models_on_disk = (path for path in sorted(generated) if path.endswith(".mo") and path in on_disk)
-    edited = [path for path in models_on_disk if in_step and normalised(on_disk[path]) != generated[path]]
+    shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
+    edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
     edits = (path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path]))
     return CheckedPackage(
         robot=robot,

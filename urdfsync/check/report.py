@@ -41,10 +41,11 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
     wrong = [one for one in result.deviations or () if not agrees(one)]
-    said = [(one, "bold red") for one in _phrases(wrong, against=f" from {result.reference or 'the reference'}")]
-    if said:
-        advice = "whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
-        said[0] = f"{said[0][0]}; {advice}", "bold red"
+    differences = _phrases(wrong, against=f" from {result.reference or 'the reference'}")
+    if differences:
+        differences[0] += "; whatever you edited: look at `templates` of your own, else please report it as a bug, "
+        differences[0] += "with the source"
+    said = [(one, "bold red") for one in differences]
     changed = "bold red" if strict else "cyan"
     for found in result.effects:
         edited = f"{listed(found.files)} {'was' if len(found.files) == 1 else 'were'} edited"

@@ -79,8 +79,8 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
                 found.append(package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint=hint))
             if (first := spellings.setdefault(name.casefold(), name)) != name:
                 message = f"`{name}` and `{first}` differ only by case"
-                other = "rename one: file systems that ignore case do not hold both"
-                found.append(package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=other))
+                hint = "rename one: file systems that ignore case do not hold both"
+                found.append(package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint))
         if str(folder / _ORDER) in package.texts:
             others = misnamed.get(folder, set()) if folder in declarations else None
             found += _check_order(package, folder, stored[folder] | lines.keys(), others)

@@ -54,8 +54,8 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
         return
     tree = KinematicTree.of(robot)
     inertials = [link.inertial for link in tree.links if link.inertial is not None]
-    is_massless = not any(any((i.mass, i.inertia.ixx, i.inertia.iyy, i.inertia.izz)) for i in inertials)
-    if is_massless and any(joint.type in MOTION_KINDS for joint in tree.joints):
+    has_mass = any(one.mass or one.inertia.ixx or one.inertia.iyy or one.inertia.izz for one in inertials)
+    if not has_mass and any(joint.type in MOTION_KINDS for joint in tree.joints):
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield warning("moves-no-mass", message, "give the links an <inertial>", "robot")
         return

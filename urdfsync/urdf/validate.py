@@ -143,9 +143,11 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
     `complete` is false if faulty joints or links had to be left out: the number of roots means nothing then.
     """
     for kind, names in (("link", [link.name for link in robot.links]), ("joint", [j.name for j in robot.joints])):
+        seen = set[str]()  # of one kind: a link and a joint may share a name
         for path, name in zip(element_paths(kind, names), names, strict=True):
-            if path != f"{kind} {name}":  # a link and a joint may share a name
+            if name in seen:
                 yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {name!r} above")
+            seen.add(name)
     yield from _check_tree(robot, complete)
     for path, link in _numbered("link", robot.links):
         yield from _check_link(path, link)

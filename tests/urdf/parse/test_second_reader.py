@@ -36,6 +36,7 @@ def read(urdf: str) -> RobotReading:
     ({"joints": (Joint("j", "fixed", "b", "a"),)}, "without j (fixed, b → a); with j (fixed, a → b)"),
     ({"joints": (Joint("j", "planar", "a", "b"),)}, "without j (planar, a → b); with j (fixed, a → b)"),
     ({"joints": ()}, "other joints: with j (fixed, a → b)"),
+    ({"links": tuple(map(Link, "abcdefgh"))}, "other links: without c, d, e, f, g, …"),
 ])  # fmt: skip
 def test_disagreement_is_an_error(changes: dict[str, Any], message: str) -> None:
     (finding,) = compare_readers(URDF.encode(), msgspec.structs.replace(ROBOT, **changes))

@@ -246,6 +246,7 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<?xml version='1.0' encoding='idna'?><robot>\xff</robot>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='punycode'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='undefined'?><robot/>", "file-encoding", 1),
+        (b"<?xml version='1.0' encoding='utf-7'?><robot name='+2AA-'/>", "file-encoding", 1),
         (b"<!-- cart -->\n<?xml version='1.0'?>\n<robot/>", "xml-syntax", 2),
         (b"<?xml version='1.0'>\n<robot/>", "xml-syntax", 1),
         (f"{LAUGHS}<robot name='r'>&b;</robot>".encode(), "xml-entity", 1),

@@ -55,10 +55,7 @@ def describe(
     for difference in differences:
         match difference.path:
             case ("imports", str(key)):
-                shapes = shared.get(key, ())
-                was, now = ([_in_model(*shape, each.imports, options) for shape in shapes] for each in versions)
-                reach = ChangeClass.PARAMETER if was == now else ChangeClass.STRUCTURAL
-                found.append(Meaning((f"mesh {key.removesuffix(_UNSCALED)}", "content"), reach) if shapes else None)
+                found.append(_of_import(key, shared[key], versions, options) if key in shared else None)
             case ("links", str(name), *fields):
                 found.append(_of_link(name, fields, versions, options))
             case ("joints", str(name), "drive"):
@@ -165,6 +162,13 @@ def _shared_meshes(old: Version, new: Version) -> Mapping[str, _Shapes]:
                 if (key := _mesh_key(two)) and _mesh_key(one) == key:
                     shapes.setdefault(key, []).append((group, two))
     return shapes
+
+
+def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning:
+    """Return the meaning of another content of a mesh; `shapes` have it in both versions."""
+    old, new = ([_in_model(*shape, version.imports, options) for shape in shapes] for version in versions)
+    words = (f"mesh {key.removesuffix(_UNSCALED)}", "content")
+    return Meaning(words, ChangeClass.PARAMETER if old == new else ChangeClass.STRUCTURAL)
 
 
 # --- joints -------------------------------------------------------------------------------------------------------

@@ -47,7 +47,8 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
                 alike[_likeness(new, name, links, joints)][1].append(name)
             for ones, others in alike.values():
                 if len(ones) == len(others) == 1:
-                    renames["joint", ones[0]] = matches[ones[0]] = others[0]
+                    renames["joint", ones[0]] = others[0]
+                    matches[ones[0]] = others[0]
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []
@@ -73,9 +74,10 @@ def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: Ab
     `links` and `joints` are the names in both versions.
     """
     joint = snapshot["joints"][name]
-    child, leader = joint["child"], joint["mimic"]["joint"] if "mimic" in joint else None
-    known = leader if leader is None or leader in joints else ""
-    return _frozen(joint), known, child if child in links else _frozen(snapshot["links"][child])
+    child, leader = joint["child"], None
+    if "mimic" in joint:  # a leader that has another name may have been renamed as well: `_drop_wrongly_led` sees to it
+        leader = joint["mimic"]["joint"] if joint["mimic"]["joint"] in joints else ""
+    return _frozen(joint), leader, child if child in links else _frozen(snapshot["links"][child])
 
 
 def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:

@@ -71,8 +71,8 @@ def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int], *, touc
 
     Those of collisions need outermost points if the robot touches the ground.
 
-    `lines` holds the line of each element by its path, for example `link wheel / visual 2`, as reading
-    the source gave it.
+    `lines` holds the line of each element by its path, as reading the source gave it; those of the shapes count, for
+    example `link wheel / visual 2 / geometry`, else those of their links.
     """
     found: dict[str, tuple[Mesh, list[int]]] = {}
     touching = set[str]()

@@ -26,7 +26,8 @@ def link_shapes(
     """Return a link's visuals and collisions, each with all that models and records say of it.
 
     A shape whose mesh was never found is left out. Shapes are numbered as in the URDF, so that the others keep their
-    names when a mesh is found later.
+    names when a mesh is found later. All collisions of a robot with a floating base touch the ground but meshes without
+    outermost points.
     """
     visuals: list[dict[str, Any]] = []
     for visual, shape in _shapes("visual", link.visuals, imports, package):
@@ -51,7 +52,7 @@ def link_model(
 ) -> dict[str, Any]:
     """Return the structure of a link, for its model: no number and no name of the URDF.
 
-    All collisions touch the ground but meshes without outermost points.
+    Each collision that touches the ground has a contact; see `link_shapes`.
     """
     contacts = [
         {

@@ -175,7 +175,8 @@ def _schema(
             children[name] = structs[0], field.default
         elif field.name in _ONE_VALUE:
             children[field.name] = _COUNTS[field.type], field.default
-            required.extend([field.name] if field.required else [])
+            if field.required:
+                required.append(field.name)
         elif field.type in _COUNTS:
             attributes[field.name] = _COUNTS[field.type], field.default
     return attributes, children, required

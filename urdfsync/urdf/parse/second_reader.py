@@ -18,6 +18,7 @@ from urdfsync.urdf.validate import Finding
 
 # What yourdfpy raises for files that the strict reader accepts: it expects attributes that may be absent.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
+_SHOWN = 5
 _TEXTS = 100
 
 _Structure = Mapping[str, frozenset[str]]
@@ -34,26 +35,26 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
     text = hashlib.sha256(content.translate(None, b"0123456789+-.eE")).digest()
     if _agreed.get(text) == ours:
         return
-    theirs, failure = _structure(Robot("")), "finds no link in this file"
+    theirs: _Structure | None = None
+    failure = "finds no link in this file"
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True  # every problem is reported here
     try:
-        read = yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False)
-        theirs = _structure(read.robot)
+        theirs = _structure(yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False).robot)
     except _FAILURES as error:
         reason = f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
         failure = f"can't read this file ({reason})"
     finally:
         logger.disabled = before
-    if ours["links"] and not theirs["links"]:
+    if theirs is None or (ours["links"] and not theirs["links"]):
         yield Finding("second-reader-failed", "robot", f"not cross-checked: yourdfpy {failure}")
         return
     for kind, one in ours.items():
-        parts = [
-            f"{title} {', '.join(sorted(names))}"
-            for title, names in (("without", one - theirs[kind]), ("with", theirs[kind] - one))
-            if names
-        ]
+        parts = []
+        for title, names in (("without", one - theirs[kind]), ("with", theirs[kind] - one)):
+            if names:
+                shown = sorted(names)[:_SHOWN] + ["…"] * (len(names) > _SHOWN)
+                parts.append(f"{title} {', '.join(shown)}")
         if parts:
             yield Finding("second-reader-differs", "robot", f"yourdfpy reads other {kind}: {'; '.join(parts)}")
     if theirs == ours:

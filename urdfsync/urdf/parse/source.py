@@ -19,7 +19,6 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, summary
 from urdfsync.urdf.robot import Joint, Link, Robot
-from urdfsync.urdf.validate import Finding, perhaps
 
 _Value = TypeVar("_Value", bound=Link | Joint | None)
 
@@ -134,7 +133,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
         for path, target in actuated:
             if target not in known:
                 message = f"{path.partition(' / ')[0]} drives joint {target!r}, which does not exist"
-                reader.extend([Finding("unknown-actuated-joint", path, message, perhaps(target, known))])
+                hint = validate.perhaps(target, known)
+                reader.extend([validate.Finding("unknown-actuated-joint", path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     return msgspec.structs.replace(robot, joints=tuple(moving))
 
@@ -160,7 +160,8 @@ def _read_part(
             if len(_parts) == _PARTS:
                 _parts.clear()
             _parts[key] = part
-    value: _Value = part[0]
-    for place, line in part[1].items():
+    value: _Value
+    value, lines = part
+    for place, line in lines.items():
         reader.lines.setdefault(place, first + line)
     return value

@@ -128,9 +128,9 @@ class PinocchioExperiment:
         else:
             free = {}
             for joint in self._free:
-                place, axes = (_vector(found, each[joint.child]) for each in (names.places, names.axes))
+                place = _vector(found, names.places[joint.child])
+                axes = _vector(found, names.axes[joint.child]).reshape(3, 3).T
                 velocity, turning = (_vector(found, names.of_body(joint.child, part)) for part in ("v_0", "w_a"))
-                axes = axes.reshape(3, 3).T
                 free[joint.name] = FrameMotion(place, axes, velocity, axes @ turning)
             state = self._reference.state(found["time"], self._courses, free, in_world=True)
         solved = self._reference.solve(state)
