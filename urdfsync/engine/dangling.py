@@ -40,21 +40,27 @@ class DanglingNames:
 
     @functools.cached_property
     def gone(self) -> set[ClassName]:
-        """What texts of the last build declare and the package has no more; also what went since the last complete one.
+        """What the package had when nothing waited, or had in the last build, and has no more.
 
         The parts of a class that is gone are left out. Those that a renamed class loses have its new name.
         """
-        generation, inputs = self._generation, self._inputs
-        before = ((path, generation.base(inputs.old_key(path), one) or "") for path, one in generation.rewritten)
-        declared, model = _declared(before), inputs.state.model if inputs.state else None
-        around = {path[:count] for path in declared for count in range(1, len(path))}
-        renamed = {path: (*path[:-1], new) for path in around if (new := self._new_name(path))}
-        if self._last.class_ != inputs.robot.target.name:
-            renamed[(self._last.class_,)] = (inputs.robot.target.name,)
-        declared |= {tuple(path.split(".", _DEEPEST)) for path in model.gone or ()} if model else set()
-        declared |= {(*renamed[path[:-1]], path[-1]) for path in declared if path[:-1] in renamed}
-        gone = {path for path in declared if not self._exists(path)}
+        before = self._before
+        classes = {path[:count] for path in before for count in range(1, len(path))}
+        renamed = {path: (*path[:-1], new) for path in classes if (new := self._new_name(path))}
+        if self._last.class_ != self._inputs.robot.target.name:
+            renamed[(self._last.class_,)] = (self._inputs.robot.target.name,)
+        moved = {(*renamed[path[:-1]], path[-1]) for path in before if path[:-1] in renamed}
+        gone = {path for path in before | moved if not self._exists(path)}
         return {path for path in gone if not any(path[:count] in gone for count in range(1, len(path)))}
+
+    @functools.cached_property
+    def _before(self) -> set[ClassName]:
+        """What the texts declare that this build rewrites, and what is recorded as gone since nothing waited."""
+        generation, inputs = self._generation, self._inputs
+        texts = ((path, generation.base(inputs.old_key(path), one) or "") for path, one in generation.rewritten)
+        model = inputs.state.model if inputs.state else None
+        recorded = model.gone or () if model else ()
+        return _declared(texts) | {tuple(path.split(".", _DEEPEST)) for path in recorded}
 
     @functools.cached_property
     def lost(self) -> dict[str, str]:

@@ -112,7 +112,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         Actions(held),
         {**texts, **merged},
         records_after(held[: len(actions)]),
-        {key: names for key, names in orders.items() if names},
+        {key: lines for key, lines in orders.items() if lines},
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(".".join(path) for path in names.gone) if names and waits else (),
