@@ -150,8 +150,10 @@ def _left_files(
     """Return the files that renamed elements leave, or have left while something waits, with their files now."""
     found = {old: new for new, old in moves.items()}
     model = inputs.state.model if inputs.state else None
+    # moves of this build; those that wait are no other name of what has come to the old place since
+    again = {old: new for new, old in moves.items() if new not in records or records[new].origin != old}
     for old, new in (model.left or {}).items() if model else ():
-        key, now = inputs.old_key(old), found.get(inputs.old_key(new), inputs.key(new))
+        key, now = inputs.old_key(old), again.get(inputs.old_key(new), inputs.key(new))
         if now in desired and key in records and records[key].state is RecordState.WAITING:
             found.setdefault(key, now)
     return found
