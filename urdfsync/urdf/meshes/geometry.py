@@ -194,7 +194,7 @@ def _corners(tied: Array, number: int, size: float) -> Array:
     if len(tied) > _CHUNK:
         tied = np.unique(np.concatenate(_nearly_extreme(tied, _DIRECTIONS[others], size)), axis=0)
     parts = math.ceil(np.count_nonzero(others) * len(tied) / _PRODUCTS)
-    found: list[Array] = []
+    found: list[npt.NDArray[np.signedinteger]] = []
     for part in np.array_split(np.flatnonzero(others), parts):
         heights = _products(tied, _DIRECTIONS[part])
         extreme = heights >= heights.max(axis=0) - _TIE * size
