@@ -20,11 +20,11 @@ from support.networks import (
     MANIFEST,
     R1,
     R2,
-    RC_FOLDER,
     RECORD,
     configure,
     edit,
     kinds,
+    own_model,
     portable,
     rename,
     resistor,
@@ -51,20 +51,18 @@ def merging() -> None:
     configure('on_conflict = "merge"\n')
 
 
-def own_model(declarations: str) -> None:
-    """Let the models of all elements declare something."""
-    template = Path("own/element/model.mo.jinja")
-    template.parent.mkdir(parents=True)
-    text = (RC_FOLDER / "templates/element/model.mo.jinja").read_text()
-    template.write_text(text.replace("\nequation\n", f"\n{declarations}\nequation\n"))
-    configure('templates = "own"\n')
-
-
 def drop(*names: str) -> None:
     """Take elements out of the source."""
     network = json.loads(Path("ladder.json").read_text())
     network["elements"] = [element for element in network["elements"] if element["name"] not in names]
     Path("ladder.json").write_text(json.dumps(network))
+
+
+def assert_rejected_again_and_again(name: str) -> None:
+    """A build finds one conflict, whose merge mentions a name that is gone, and so does the next one."""
+    for _ in range(2):
+        (found,) = run().conflict_texts
+        assert found.rejected.startswith(f"the merge mentions `{name}`, which the package has no more")
 
 
 def conflicts(**request: Any) -> list[str]:
@@ -401,9 +399,7 @@ def test_a_merge_stays_rejected_where_the_user_follows_the_source_in_another_fil
         edit(R1, old, new)
     if not adopted:
         edit(R1, "equation", SENSOR)
-    for _ in range(2):
-        (found,) = run().conflict_texts
-        assert found.rejected.startswith("the merge mentions `power`, which the package has no more")
+    assert_rejected_again_and_again("power")
 
 
 def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(project: Path) -> None:
@@ -411,9 +407,7 @@ def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(projec
     run()
     edit(R1, "equation", "  Real energy = 2*power;\n\nequation")
     rename("R1", "Shunt")
-    for _ in range(2):
-        (found,) = run().conflict_texts
-        assert found.rejected.startswith("the merge mentions `power`, which the package has no more")
+    assert_rejected_again_and_again("power")
 
 
 def test_a_merge_that_mentions_what_the_user_deleted_and_the_source_has_no_more_is_a_conflict(project: Path) -> None:
@@ -422,9 +416,7 @@ def test_a_merge_that_mentions_what_the_user_deleted_and_the_source_has_no_more_
     Path(C1).unlink()
     edit(f"{LADDER}/Ladder.mo", "equation", "  Elements.C1 other;\n\nequation")
     drop("C1")
-    for _ in range(2):
-        (found,) = run().conflict_texts
-        assert found.rejected.startswith("the merge mentions `C1`, which the package has no more")
+    assert_rejected_again_and_again("C1")
 
 
 def test_a_merge_that_mentions_what_is_gone_is_a_conflict_if_its_model_gets_another_name(project: Path) -> None:
@@ -432,9 +424,7 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict_if_its_model_gets_anot
     edit(f"{LADDER}/Ladder.mo", "equation", "  Real mine = elementR1.v;\n\nequation")
     drop("R1")
     configure('class = "Net"\n')
-    for _ in range(2):
-        (found,) = run().conflict_texts
-        assert found.rejected.startswith("the merge mentions `elementR1`, which the package has no more")
+    assert_rejected_again_and_again("elementR1")
 
 
 def test_a_merge_that_mentions_what_the_user_gives_up_is_a_conflict(project: Path) -> None:

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from support import replay
-from support.networks import LADDER, RC_FOLDER, configure, portable, run
+from support.networks import LADDER, configure, own_model, portable, run
 
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Result
@@ -25,7 +25,7 @@ EPISODE = 25
 STEPS = replay.STEPS or 12 * EPISODE
 SOURCE, ELEMENTS, WHOLE = Path("ladder.json"), Path(LADDER, "Elements"), Path(LADDER, "Ladder.mo")
 NAMES = ("C1", "C2", "R1", "R2", "Shunt", "Tank")
-POWER = "\n<% if kind == 'resistor' %>\n  Real power = v*i;\n<% endif %>\nequation\n"
+POWER = "<% if kind == 'resistor' %>\n  Real power = v*i;\n<% endif %>"
 MENTIONS = (
     "Elements.{} other{};",
     "parameter Elements.{}Parameters numbers{};",
@@ -131,10 +131,8 @@ def mentions() -> Iterator[str]:
 @pytest.mark.parametrize("seed", range(-(-STEPS // EPISODE)))
 def test_a_repeated_build_says_and_does_nothing_else(project: Path, seed: int) -> None:
     random = Random(seed)
-    template = project / "own/element/model.mo.jinja"
-    template.parent.mkdir(parents=True)
-    template.write_text((RC_FOLDER / "templates/element/model.mo.jinja").read_text().replace("\nequation\n", POWER))
-    configure('templates = "own"\n' + random.choice(["", 'on_conflict = "merge"\n']))
+    own_model(POWER)
+    configure(random.choice(["", 'on_conflict = "merge"\n']))
     episode = Episode(random)
     result = episode.build()
     for _ in range(EPISODE):

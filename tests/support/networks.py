@@ -52,6 +52,15 @@ def configure(text: str) -> None:
         file.write(text)
 
 
+def own_model(declarations: str) -> None:
+    """Let the models of all elements declare something."""
+    template = Path("own/element/model.mo.jinja")
+    template.parent.mkdir(parents=True)
+    text = (RC_FOLDER / "templates/element/model.mo.jinja").read_text()
+    template.write_text(text.replace("\nequation\n", f"\n{declarations}\nequation\n"))
+    configure('templates = "own"\n')
+
+
 def run_all(**request: Any) -> list[Result]:
     """Build all robots."""
     loaded = config.load(Path("urdfsync.toml"))

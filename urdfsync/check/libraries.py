@@ -14,7 +14,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, fingerprint
-from urdfsync.check.package import package_texts
+from urdfsync.check.package import package_texts, stored_files
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY
@@ -167,13 +167,9 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 def library_state(path: Path) -> str:
     """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
-    files = [path] if path.is_file() else []
-    for folder, folders, names in os.walk(path):  # what can't be read is passed over: the compiler says more of it
-        folders[:] = [name for name in folders if name != "Resources" and not name.startswith(".")]
-        files += [Path(folder, name) for name in names if name.endswith((".mo", ".order"))]
     found = []
-    for file in files:
-        with contextlib.suppress(OSError):  # a link to nothing, or somebody replaces it at this moment
+    for file in [path] if path.is_file() else stored_files(path, onerror=None):  # the compiler says what can't be read
+        with contextlib.suppress(OSError):  # somebody replaces it at this moment
             status = file.stat()
             found.append((str(file), status.st_size, status.st_mtime_ns))
     return fingerprint(sorted(found))

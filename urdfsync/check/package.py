@@ -9,7 +9,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -137,11 +137,6 @@ def _words(text: bytes) -> list[str]:
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
-def class_path(file: PurePosixPath) -> PurePosixPath:
-    """The path of a stored class, without suffix: of a `package.mo` that of its folder."""
-    return file.parent if file.name == "package.mo" else file.with_suffix("")
-
-
 def package_texts(folder: Path) -> dict[str, bytes]:
     """The Modelica files below a package's folder, by their path below it; see `read_files`."""
     return _below(folder, read_files(folder))
@@ -208,18 +203,20 @@ def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes
     return found
 
 
-def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
+def _refuse(error: OSError) -> None:
+    if not isinstance(error, FileNotFoundError | NotADirectoryError):
+        raise error
+
+
+def stored_files(
+    folder: Path, without: Collection[Path] = (), onerror: Callable[[OSError], None] | None = _refuse
+) -> Iterator[Path]:
     """The Modelica files of a package and of those in it, but for the folders in `without`.
 
     Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
-    OSError for a folder that can't be read.
+    OSError for a folder that can't be read, unless `onerror` passes over it.
     """
-
-    def refuse(error: OSError) -> None:
-        if not isinstance(error, FileNotFoundError | NotADirectoryError):
-            raise error
-
-    for place, folders, names in os.walk(folder, onerror=refuse):
+    for place, folders, names in os.walk(folder, onerror=onerror):
         visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
         folders[:] = [name for name in visible if Path(place, name) not in without]
         for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some

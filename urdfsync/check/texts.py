@@ -12,12 +12,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageTexts, class_path
+from urdfsync.check.package import CheckedPackage, PackageTexts
 from urdfsync.check.results import listed
 from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import ClassName, StoredClasses
+from urdfsync.modelica.files import ClassName, StoredClasses, class_path
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.modelica.parser import parse

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Collection, Iterable, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -15,7 +15,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Type
-from urdfsync.modelica.files import ClassName, StoredClasses
+from urdfsync.modelica.files import ClassName, StoredClasses, class_path
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Element, Scopes
@@ -58,8 +58,7 @@ class DanglingNames:
         """What the texts declare that this build rewrites, and what is recorded as gone since nothing waited."""
         generation, inputs = self._generation, self._inputs
         texts = ((path, generation.base(inputs.old_key(path), one) or "") for path, one in generation.rewritten)
-        model = inputs.state.model if inputs.state else None
-        recorded = model.gone or () if model else ()
+        recorded = (inputs.model.gone or ()) if inputs.model else ()
         return _declared(texts) | {tuple(path.split(".", _DEEPEST)) for path in recorded}
 
     @functools.cached_property
@@ -114,6 +113,11 @@ class DanglingNames:
     def _generated(self) -> Scopes:
         """The package as it is generated, without edits."""
         return Scopes(self._with_texts({}, {}))
+
+    @functools.cached_property
+    def _contents(self) -> dict[str, bytes]:
+        """What would be written, by the paths below the package."""
+        return {path: self._generation.content(self._inputs.key(path)) for path in self._generation.package.artifacts}
 
     def first_use(self, key: str, text: str, staying: Collection[str]) -> Unresolved | None:
         """Return the first use of a lost name in a text for a file of the package; None if there is none.
@@ -215,8 +219,7 @@ class DanglingNames:
         """The generated classes, with `texts` of the package in their place or beside them, and others' files."""
         inputs, robot = self._inputs, self._inputs.robot
         former = self._last.package if self._last.package != self._package else ""
-        found = {path: self._generation.content(inputs.key(path)) for path in self._generation.package.artifacts}
-        found |= {inputs.path(key): text.encode(errors="replace") for key, text in texts.items()}
+        found = self._contents | {inputs.path(key): text.encode(errors="replace") for key, text in texts.items()}
         others = {**others, **{one.path: one.content for one in inputs.parents.shared if one.content is not None}}
 
         def find(name: str) -> Path | None:
@@ -232,25 +235,19 @@ class DanglingNames:
         return {key: text for key in keys if (text := self._files.any_text(key))}
 
     def _class_name(self, key: str) -> ClassName:
-        return (*self._package.split("."), *_class_path(self._inputs.path(key)))
-
-
-def _class_path(path: str) -> ClassName:
-    """Return the name below the package of the class that a file is for, by its path there."""
-    *folders, file = path.removesuffix(".mo").split("/")
-    return (*folders, *([] if file == "package" else [file]))
+        return (*self._package.split("."), *class_path(PurePosixPath(self._inputs.path(key))).parts)
 
 
 def class_of(path: str) -> str:
     """Return the name of the class that a file is for, by its key or path."""
-    return path.removesuffix("/package.mo").rpartition("/")[2].removesuffix(".mo")
+    return class_path(PurePosixPath(path)).name
 
 
 def _declared(texts: Iterable[tuple[str, str]]) -> set[ClassName]:
     """Return the full names, below the package, of all that texts declare, by their paths below it."""
     found: set[ClassName] = set()
     for path, text in texts:
-        name = _class_path(path)
+        name = class_path(PurePosixPath(path)).parts
         paths = (one.path for one in declared(parse(text).classes, name[:-1]))
         found.update(paths if name else (path[1:] for path in paths if path[1:]))  # the package itself is no part
     return found

@@ -20,7 +20,7 @@ from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, record
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state import repair
-from urdfsync.state.record import FileRecord, RecordState
+from urdfsync.state.record import Choice, FileRecord, RecordState
 
 if TYPE_CHECKING:
     from urdfsync.engine.dangling import DanglingNames
@@ -85,10 +85,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
     if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
         disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
         choices = {**remembered_choices(records, actions), **inputs.options.choices}
-        # a merge may mention what stays the user's; a record that it mentions is kept
-        leaving = {a.path for a in actions if _is_leaving_record(a, left)}
-        likely = keep_needed(resolve(actions, {}, choices, merging=False)[0], files.has_classes, leaving)
-        staying = [a.path for a in likely if a.kind in (Kind.KEEP, Kind.ORPHAN, Kind.NEEDED) or a.released]
+        staying = _staying(inputs, actions, choices, left)
         conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
@@ -116,8 +113,21 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(".".join(path) for path in names.gone) if names and waits else (),
-        {inputs.path(key): inputs.path(left[key]) for key in sorted(waiting & left.keys() - desired.keys())},
+        {inputs.path(key): inputs.path(left[key]) for key in waiting & left.keys() - desired.keys()},
     )
+
+
+def _staying(
+    inputs: Inputs, actions: Sequence[Action], choices: Mapping[str, Choice], left: Collection[str]
+) -> list[str]:
+    """Return the files that stay the user's, or because he needs them, whatever becomes of the merges.
+
+    A merge may mention them: a record that it mentions is kept.
+    """
+    leaving = {action.path for action in actions if _is_leaving_record(action, left)}
+    without_merges, _ = resolve(actions, {}, choices, merging=False)
+    kept = keep_needed(without_merges, inputs.files.has_classes, leaving)
+    return [one.path for one in kept if one.kind in (Kind.KEEP, Kind.ORPHAN, Kind.NEEDED) or one.released]
 
 
 def _conflict(
@@ -149,10 +159,10 @@ def _left_files(
 ) -> dict[str, str]:
     """Return the files that renamed elements leave, or have left while something waits, with their files now."""
     found = {old: new for new, old in moves.items()}
-    model = inputs.state.model if inputs.state else None
+    recorded = (inputs.model.left or {}) if inputs.model else {}
     # moves of this build; those that wait are no other name of what has come to the old place since
     again = {old: new for new, old in moves.items() if new not in records or records[new].origin != old}
-    for old, new in (model.left or {}).items() if model else ():
+    for old, new in recorded.items():
         key, now = inputs.old_key(old), again.get(inputs.old_key(new), inputs.key(new))
         if now in desired and key in records and records[key].state is RecordState.WAITING:
             found.setdefault(key, now)

@@ -84,7 +84,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             for package in packages:
                 if path in package.artifacts and package.hash(path) == sha256:
                     return package.content(path).decode()
-        recorded_texts = inputs.state.model.bases.values() if inputs.state and inputs.state.model else ()
+        recorded_texts = inputs.model.bases.values() if inputs.model else ()
         return next((text for text in recorded_texts if text_digest(text.encode()) == sha256), None)
 
     def desired_files(self) -> dict[str, DesiredFile]:

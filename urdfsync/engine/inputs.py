@@ -57,6 +57,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.state.manifest if self.state else None
 
     @cached_property
+    def model(self) -> Model | None:
+        """What the last build recorded of its model; None if there was none, or it is lost."""
+        return self.state.model if self.state else None
+
+    @cached_property
     def folder(self) -> str:
         """Key of the package's folder."""
         return self.files.key(self.robot.folder)
@@ -126,22 +131,21 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def last(self) -> Version | None:
         """The model of the last build; None if there was none, or it is lost."""
-        if self.state is None or self.state.model is None or not self.state.intact:
+        if self.state is None or self.model is None or not self.state.intact:
             return None
-        return self.version(self.state.model)
+        return self.version(self.model)
 
     @cached_property
     def last_complete(self) -> Version | None:
         """The model of the last build after which nothing waited; without imports if that is not the last build."""
-        model = self.state.model if self.state else None
-        if self.last is None or model is None or model.since is None:
+        if self.last is None or self.model is None or self.model.since is None:
             return self.last
-        return Version(model.since, None, self.last.generator, self.last.options)
+        return Version(self.model.since, None, self.last.generator, self.last.options)
 
     @property
     def complete_revision(self) -> int | None:
         """The domain's revision in the last build after which nothing waited; None if there was none."""
-        since = self.state.model.since_revision if self.state and self.state.model else msgspec.UNSET
+        since = self.model.since_revision if self.model else msgspec.UNSET
         if since is not msgspec.UNSET:
             return since
         return self.recorded.generator.revision if self.recorded else None
@@ -187,11 +191,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     def recorded_imports(self) -> imports.Recorded:
         """Return the imports of the last build, and how their copies in the package are read."""
-        recorded, model = self.recorded or self.heading(""), self.state.model if self.state else None
+        recorded = self.recorded or self.heading("")
         imported = (key for key, record in recorded.files.items() if record.role is Role.IMPORT)
         return imports.Recorded(
             records=recorded.dependencies,
-            facts=model.imports if model else {},
+            facts=self.model.imports if self.model else {},
             copy=lambda target: self.files.read(self.old_key(target)),
             bases={self.old_path(key): recorded.files[key].base for key in imported},
             moved=self.old_folder != self.folder,

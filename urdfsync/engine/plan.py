@@ -33,8 +33,9 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         dependencies.mark_incomplete()  # what is read from here on is not recorded as a dependency of the answer
         generation = generate_robot(inputs)
         names = None
-        gone = inputs.state.model.gone if inputs.state and inputs.state.model else None
-        if generation.rewritten or gone:  # else no name goes; the parser takes a tenth of a small build to load
+        if generation.rewritten or (
+            inputs.model and inputs.model.gone
+        ):  # else no name goes; the parser takes a tenth of a small build to load
             from urdfsync.engine.dangling import DanglingNames
 
             names = DanglingNames(generation)

@@ -24,6 +24,11 @@ _PACKAGE = "package.mo"
 _NOT_CLASSES = "Resources"
 
 
+def class_path(file: PurePosixPath) -> PurePosixPath:
+    """Return the path of a stored class, without suffix: of a `package.mo` that of its folder."""
+    return file.parent if file.name == _PACKAGE else file.with_suffix("")
+
+
 class StoredClasses:
     """The classes that are stored in files, for one robot's package; files are known by their absolute paths."""
 
@@ -50,10 +55,9 @@ class StoredClasses:
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
         for path, content in texts.items():
-            parts = PurePosixPath(path).with_suffix("").parts
-            if path.endswith(".mo") and _NOT_CLASSES not in parts[:-1]:
-                name = (*package.split("."), *(parts[:-1] if parts[-1] == "package" else parts))
-                self.own[name] = content, folder / path
+            place = PurePosixPath(path)
+            if path.endswith(".mo") and _NOT_CLASSES not in place.parent.parts:
+                self.own[(*package.split("."), *class_path(place).parts)] = content, folder / path
         for file, content in others.items():
             found = _parsed(content)
             around = tuple(found.within.split(".")) if found.within else ()

@@ -59,7 +59,7 @@ def of(
     since: Snapshot | None = None,
     since_revision: int | msgspec.UnsetType = msgspec.UNSET,
     gone: Iterable[str] = (),
-    left: Mapping[str, str] | None = None,
+    left: Mapping[str, str] = {},
 ) -> Model:
     """What is recorded of a model, as it comes back from the JSON file; both snapshots are plain data already."""
     facts = {}
@@ -68,8 +68,8 @@ def of(
         facts[key] = ConversionFacts(imported.source_hash, imported.converter, plain)
     texts = dict(sorted((bases or {}).items()))
     complete = None if since is None else dict(since)
-    names, moved = sorted(gone) or msgspec.UNSET, dict(sorted((left or {}).items())) or msgspec.UNSET
-    return Model(dict(snapshot), facts, texts, complete, since_revision, names, moved)
+    unset = msgspec.UNSET
+    return Model(dict(snapshot), facts, texts, complete, since_revision, sorted(gone) or unset, dict(left) or unset)
 
 
 def dumps(model: Model) -> str:
