@@ -24,13 +24,12 @@ from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
-from urdfsync.profiling import OTHER, STAGES
 from urdfsync.watch import events
 from urdfsync.watch.report import JsonReport, event_values
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, CLEARED, RESOLVE, INIT, RECORD, LIBRARY = ONE
+BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, RESOLVE, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
@@ -38,7 +37,6 @@ EXAMPLES = [*ONE, *SESSION, *OTHERS]
 
 LONG = {"text"}
 """A whole record: no example shows it."""
-PROFILE = {"profile", "ms", "stages", "counts", "stamp"}
 """Times: they are never the same."""
 
 URDF = """<robot name="arm">
@@ -242,11 +240,6 @@ def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) 
     assert json.loads(json.dumps(document, allow_nan=False)) == CHECK
 
 
-def test_clear_cache(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.check.cache.UserCache.clear", lambda _: 48_123_904)
-    assert printed(execute, folder, "check", "--clear-cache") == CLEARED
-
-
 def test_library(folder: Path, execute: Execute) -> None:
     assert matches(LIBRARY, printed(execute, folder, "library"))
 
@@ -254,15 +247,7 @@ def test_library(folder: Path, execute: Execute) -> None:
 def test_tables_name_every_key_and_no_other() -> None:
     cells = re.findall(r"^\| (`[^|]*) \|", PAGE, re.MULTILINE)
     named = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
-    assert named == keys(EXAMPLES) | LONG | PROFILE
-
-
-def test_a_profile(folder: Path, execute: Execute) -> None:
-    cli.main(["init", "arm.urdf"])
-    found = printed(execute, folder, "build", "--profile")
-    assert found.keys() == BUILD.keys() | {"profile"}
-    assert found["profile"].keys() | {"profile"} == PROFILE
-    assert {f"`{name}`" for name in (*keys(found["profile"]), *STAGES, OTHER)} <= set(re.findall(r"`[\w -]+`", PAGE))
+    assert named == keys(EXAMPLES) | LONG
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:

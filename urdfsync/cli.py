@@ -13,9 +13,9 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from urdfsync import __version__, profiling, streams, uptodate
+from urdfsync import __version__, streams, uptodate
 from urdfsync.commands import arguments
-from urdfsync.dependencies import Dependencies, mark_incomplete
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
@@ -70,8 +70,7 @@ def _main(given: list[str]) -> int:
     try:
         args = _parser(given).parse_args(given)
         console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
-        with _measured(given) if getattr(args, "profile", False) else contextlib.nullcontext():
-            return int(args.run(args, console))
+        return int(args.run(args, console))
     except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
     except arguments.UsageError as error:
@@ -118,17 +117,6 @@ def _terminated_as_interrupted() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-@contextlib.contextmanager
-def _measured(given: Sequence[str]) -> Iterator[None]:
-    """Measure a command; also how long it takes to find a saved answer."""
-    mark_incomplete()  # times can't be said again
-    with profiling.measured(since=uptodate.PROGRAM_START[0]) as profile:
-        with profiling.stage("saved answer"):
-            plain = [argument for argument in given if argument != "--profile"]
-            profile.has_answer = uptodate.saved_answer(plain) is not None if plain[0] in uptodate.COMMANDS else None
-        yield
 
 
 def _parser(given: Sequence[str]) -> arguments.Parser:

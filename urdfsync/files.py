@@ -10,7 +10,6 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync import profiling
 from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
@@ -145,7 +144,6 @@ class Tree:
 
     def content(self, path: str) -> bytes | None:
         """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
-        profiling.count("read")
         try:
             return read_unrecorded(path)
         except (FileNotFoundError, NotADirectoryError):

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 from typing import cast
 
-from urdfsync import profiling
 from urdfsync.dependencies import depend_on
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
@@ -26,8 +25,7 @@ def domain(name: str) -> Domain:
         raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
     module, _, attribute = place.partition(":")
     try:
-        with profiling.stage("imports"):
-            return cast("Domain", getattr(importlib.import_module(module), attribute))
+        return cast("Domain", getattr(importlib.import_module(module), attribute))
     except (ImportError, AttributeError) as problem:
         message = f"the domain `{name}` can't be loaded: {problem}"
         raise ConfigError(Diagnostic(Severity.ERROR, "broken-domain", message, hint="install it again")) from problem

@@ -109,8 +109,7 @@ def test_an_interruption_leaves_what_was_found(
     assert "[interrupted]" in streams.err
 
 
-BAD = """--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola; ladder --clear-cache;
-    --robot ladder --clear-cache; --clear-cache --physics; --clear-cache --timeout 5; --clear-cache --wait 5"""
+BAD = """--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola"""
 
 
 @pytest.mark.parametrize("arguments", [words.split() for words in BAD.split(";")], ids=" ".join)
@@ -120,21 +119,3 @@ def test_bad_usage(checker: Checker, capsys: Capture, arguments: list[str]) -> N
     assert streams.out == ""
     assert "[usage]" in streams.err
     assert checker.robots == []
-
-
-def test_the_cache_is_emptied_without_a_configuration(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache/urdfsync")
-    record = tmp_path / "cache/urdfsync/libraries/part/package.mo"
-    record.parent.mkdir(parents=True)
-    record.write_bytes(b" " * 2_500_000)
-    assert cli.main(["check", "--clear-cache"]) == 0
-    assert capsys.readouterr().out == "cache emptied, 2.5 MB freed\n"
-    assert not record.exists()
-    assert cli.main(["check", "--clear-cache"]) == 0
-    assert capsys.readouterr().out == "the cache was empty\n"
-    assert cli.main(["check", "--clear-cache", "--quiet"]) == 0
-    assert capsys.readouterr().out == ""

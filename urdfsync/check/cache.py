@@ -108,16 +108,6 @@ class UserCache:
                 freed += size
         return freed
 
-    def clear(self) -> int:
-        """Delete everything that is ours, but for what running checks work with; returns the bytes that came free.
-
-        What the compiler remembers goes in any case: it makes again what it misses.
-        """
-        freed = self.trim(0)
-        for folder in () if self._busy() else self._folders():
-            shutil.rmtree(folder, ignore_errors=True)  # locks of the compiler, and what is being made
-        return freed
-
     def _busy(self) -> list[Path]:
         """The folders that running checks work in."""
         pids = {path: path.name.partition("-")[0] for path in self.workspaces.glob("*")}

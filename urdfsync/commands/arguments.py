@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-from urdfsync import config, profiling
+from urdfsync import config
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
@@ -62,7 +62,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "metavar": "ADDRESS",
         "help": "have workers of a Dask scheduler do the work (tcp://HOST:PORT); it has to be one that you trust",
     },
-    "--profile": {"action": "store_true", "help": "say where the time went; no saved answer is printed"},
 }
 """Arguments and options that more than one command takes."""
 
@@ -85,7 +84,6 @@ def add_command(
     return parser
 
 
-@profiling.stage("configuration")
 def configuration(args: argparse.Namespace) -> Config:
     """The configuration that the arguments name, or the nearest one. Raises ConfigError."""
     return config.load(args.config or config.find(config.working_folder()))

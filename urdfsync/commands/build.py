@@ -30,7 +30,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "build",
         run,
-        "robots --robot --wait --trust --jobs --executor --profile",
+        "robots --robot --wait --trust --jobs --executor",
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
         epilog=f"example: urdfsync build arm --dry-run --explain\n\n{arguments.CODES}",

@@ -8,17 +8,14 @@ import os
 import sys
 from collections.abc import Iterable
 
-from rich.filesize import decimal
-
 from urdfsync import config
 from urdfsync.check import run as run_checks
-from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.report import closing_lines, robot_lines, to_json
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
-from urdfsync.output.console import Console, has_marks, line
+from urdfsync.output.console import Console, has_marks
 
 _CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
 """Fields of `CheckOptions` that the user may set."""
@@ -49,7 +46,6 @@ def add(commands: arguments.Commands) -> None:
     seconds = f"seconds for a robot ({default.timeout:g})"
     option("--timeout", type=_amount, metavar="S", default=default.timeout, help=seconds)
     option("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
-    option("--clear-cache", action="store_true", help="empty the user's cache of checks, and do no more")
 
 
 def _amount(text: str) -> float:
@@ -64,17 +60,6 @@ def _amount(text: str) -> float:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Check the packages of the robots, and show each as soon as it is checked."""
-    if args.clear_cache:
-        asked = (getattr(args, name) != args.parser.get_default(name) for name in ("robot", *_CHECK_OPTIONS))
-        if args.robots or any(asked):  # a check fills it again
-            message = "--clear-cache goes without robots and without options of a check"
-            raise arguments.UsageError(args.parser, message, "it empties the cache of all robots, and checks none")
-        freed = UserCache.default().clear()
-        if console.json:
-            console.write_json("check", Exit.IN_STEP, {"freed": freed})
-        elif not console.quiet:
-            console.print([line((f"cache emptied, {decimal(freed)} freed" if freed else "the cache was empty", ""))])
-        return Exit.IN_STEP
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}

@@ -41,7 +41,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "diff",
         run,
-        "--robot --wait --profile",
+        "--robot --wait",
         help="show what changed in the sources since the last build",
         description="Show what changed in a source since the last build, or since another version of it: by element, "
         "with what follows for the whole model and for the files of the package. Nothing is written.",

@@ -68,7 +68,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "status",
         run,
-        "robots --robot --wait --profile",
+        "robots --robot --wait",
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",

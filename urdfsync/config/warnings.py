@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync import profiling, registry
+from urdfsync import registry
 from urdfsync.config.paths import templates_folder
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.dependencies import is_folder, read_file, walk_files
@@ -16,7 +16,6 @@ from urdfsync.spelling import nearest
 _SUFFIX = ".jinja"
 
 
-@profiling.stage("configuration")
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist; files in template folders that no template of the domain or other file names."""
     found = []

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import dependencies, machine, profiling
+from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
@@ -108,8 +108,7 @@ class _Builder:
             writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
             if writes or not self._is_noted(robot):
                 dependencies.mark_incomplete()  # what was read is about to change
-                with profiling.stage("waiting"):
-                    self._lock.acquire(waiting=self._wait)
+                self._lock.acquire(waiting=self._wait)
                 if not self._is_current(plan):
                     continue
                 if not_done := self._write(robot, plan):
@@ -146,7 +145,6 @@ class _Builder:
                 store.bases(plan.former_name).prune(())
         return applied.not_done
 
-    @profiling.stage("looking at files")
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 

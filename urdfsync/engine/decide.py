@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action, Actions, Kind
@@ -49,7 +48,6 @@ class Decision(msgspec.Struct, frozen=True):
     """Files that renamed elements left, and that wait to be deleted, with their files now; paths below the package."""
 
 
-@profiling.stage("deciding")
 def decide_package(inputs: Inputs, generation: Generation | None, names: DanglingNames | None = None) -> Decision:
     """Decide on every file of a robot; without a generation, what the last build recorded is wanted again.
 
@@ -75,8 +73,7 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
             recorded = repair.rebuilt(inputs.recovered, mine, generated) or inputs.heading("")
     records, owned = inputs.own(recorded)
     roles = {key: record.role for key, record in records.items()} | {key: one.role for key, one in desired.items()}
-    with profiling.stage("looking at files"):
-        on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
+    on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
     actions = decide(records, desired, on_disk, moves)
 
     conflicts: dict[str, Conflict] = {}

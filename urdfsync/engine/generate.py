@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
 from urdfsync.files import shown, text_digest
@@ -65,17 +64,16 @@ def generate(
     templates: Templates,
 ) -> Package:
     """Return the package of a model. Raises OutputError for paths that can't be written."""
-    with profiling.stage("artifacts"):
-        found = tuple(domain.artifacts(snapshot, imports, target, options))
-        check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
+    found = tuple(domain.artifacts(snapshot, imports, target, options))
+    check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
     return Package(found, templates)
 
 
 @functools.lru_cache(maxsize=4)
 def _renderer(templates: Templates) -> Renderer:
     """Return one renderer for all robots with the same templates, so that each template is compiled once."""
-    with profiling.stage("imports"):  # Jinja takes 10 ms to import: most builds have nothing to render
-        from urdfsync.render import Renderer
+    # Jinja takes 10 ms to import: most builds have nothing to render
+    from urdfsync.render import Renderer
 
     return Renderer(templates.folders, is_trusted=len(templates.folders) == 1)
 
@@ -118,12 +116,10 @@ def _is_inside(path: str) -> bool:
     return whole and path.isprintable() and _FORBIDDEN.isdisjoint(path)
 
 
-@profiling.stage("rendering")
 def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2
 
-    profiling.count("rendered")
     try:
         text = renderer.render(artifact.template, artifact.data)
         return (text.replace("\r\n", "\n") if "\r" in text else text).encode()

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import msgspec
 
-from urdfsync import changes, profiling
+from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Role, Target, Version
@@ -135,7 +135,6 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         complete = self.inputs.last_complete
         return self.changes if complete is self.inputs.last else self._changes_since(complete)
 
-    @profiling.stage("comparing")
     def _changes_since(self, version: Version | None) -> Changes | None:
         if version is None:
             return None
@@ -191,15 +190,14 @@ def generate_robot(inputs: Inputs) -> Generation:
     domain, robot, options, recorded = inputs.domain, inputs.robot, inputs.options, inputs.recorded
     snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source), options.cache)
     found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
-    with profiling.stage("meshes"):
-        imported = imports.bring_in(
-            domain,
-            inputs.dependencies(snapshot, reading.lines),
-            inputs.recorded_imports(),
-            shown(robot.source),
-            options.full,
-            lambda done, total: options.progress(f"{robot.name}: imports", done, total),
-        )
+    imported = imports.bring_in(
+        domain,
+        inputs.dependencies(snapshot, reading.lines),
+        inputs.recorded_imports(),
+        shown(robot.source),
+        options.full,
+        lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+    )
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
     last_package, recovered = None, []
     if inputs.last and recorded:  # first: the cache keeps one package, and that of now takes its place
@@ -211,8 +209,7 @@ def generate_robot(inputs: Inputs) -> Generation:
             recovered.append(_package(inputs, inputs.version(model), robot.target))
     changed = frozenset(package.artifacts)
     if last_package and recorded and recorded.generator == inputs.generator and not options.full:
-        with profiling.stage("comparing"):
-            changed = package.changed_since(last_package)
+        changed = package.changed_since(last_package)
     found = (*found, *imported.diagnostics)
     return Generation(inputs, now, reading.lines, found, imported, package, last_package, tuple(recovered), changed)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from urdfsync import dependencies, profiling, uptodate
+from urdfsync import dependencies, uptodate
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine import imports
 from urdfsync.engine.actions import CONFLICTS
@@ -26,9 +26,8 @@ from urdfsync.state.record import RecordState
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     begin = uptodate.read_clocks()
-    with profiling.stage("looking at files"):
-        inputs = inspect(config, robot, options)
-        plan = _plan_if_current(inputs)
+    inputs = inspect(config, robot, options)
+    plan = _plan_if_current(inputs)
     if plan is None:
         dependencies.mark_incomplete()  # what is read from here on is not recorded as a dependency of the answer
         generation = generate_robot(inputs)
@@ -46,7 +45,6 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     return plan
 
 
-@profiling.stage("looking at files")
 def plan_if_current(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan | None:
     """Return the plan if nothing is to be generated or written, without parsing the source; None otherwise."""
     begin = uptodate.read_clocks()

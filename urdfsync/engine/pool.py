@@ -19,11 +19,11 @@ from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from threading import Thread
 from types import TracebackType
-from typing import Self, TypeAlias
+from typing import Self
 
 import msgspec
 
-from urdfsync import dependencies, machine, profiling
+from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
@@ -42,9 +42,6 @@ _PATIENCE = 10
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
-_Planned: TypeAlias = tuple[Plan, "profiling.Measured | None"]
-"""A plan, and what was measured if it was."""
-
 
 class Pool:
     """Plans the robots of one command; a plan that was made in advance serves once."""
@@ -55,7 +52,7 @@ class Pool:
         """Plans of robots for which there is nothing to generate, made by this process."""
         self._is_started = False
         self._executor: Executor | None = None
-        self._futures: dict[str, Future[_Planned]] = {}
+        self._futures: dict[str, Future[Plan]] = {}
         self._waiting: deque[RobotConfig] = deque()
         self._stale = self._most = 0
 
@@ -114,14 +111,12 @@ class Pool:
 
     def _submit(self) -> None:
         options = msgspec.structs.replace(self._options, progress=no_progress, cache=None, executor="")
-        is_profiled = profiling.current() is not None
         while self._executor is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
             with _safe_path():
-                arguments = str(Path.cwd()), self._config, robot, options, is_profiled
+                arguments = str(Path.cwd()), self._config, robot, options
                 self._futures[robot.name] = self._executor.submit(_plan, *arguments)
 
-    @profiling.stage("waiting")
     def _result(self, robot: RobotConfig) -> Plan:
         message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
         lost = OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
@@ -142,10 +137,7 @@ class Pool:
             raise problem
         if problem is not None:
             raise lost from problem
-        plan, measured = future.result()
-        if measured and (profile := profiling.current()):
-            profile.add(measured)
-        return plan
+        return future.result()
 
 
 def connect_cluster(address: str) -> Executor:
@@ -169,12 +161,10 @@ def connect_cluster(address: str) -> Executor:
     return executor
 
 
-def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions, is_profiled: bool) -> _Planned:
+def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Plan in a worker, in the folder that diagnostics name files from. Raises UrdfsyncError."""
     os.chdir(folder)
-    with profiling.measured() if is_profiled else contextlib.nullcontext() as profile:
-        plan = plan_robot(config, robot, options)
-        return plan, profile.results() if profile else None
+    return plan_robot(config, robot, options)
 
 
 @contextlib.contextmanager

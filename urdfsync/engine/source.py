@@ -9,7 +9,6 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.dependencies import is_folder, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
@@ -93,7 +92,6 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
     return found
 
 
-@profiling.stage("reading")
 def read(
     domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None = None
 ) -> tuple[Snapshot, Reading]:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
@@ -55,7 +54,6 @@ class Plan(msgspec.Struct, frozen=True):
     """Path of the main model's diagram."""
 
 
-@profiling.stage("recording")
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
     """Return the plan, with all that is to be written unless the run is dry."""
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot

@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, Any, Literal
 
 import msgspec
 
-from urdfsync import profiling, streams
+from urdfsync import streams
 from urdfsync.diagnostics import Diagnostic, Severity
 
 if TYPE_CHECKING:
@@ -133,7 +133,6 @@ class Console:
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
 
-    @profiling.stage("presentation")
     def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
@@ -155,18 +154,12 @@ class Console:
         self._robots.append(values)
 
     def end(self, command: str, code: int, diagnostics: Sequence[Diagnostic] = ()) -> None:
-        """The end of a command: what stopped it, or the JSON document of its robots, and where the time went."""
+        """The end of a command: what stopped it, or the JSON document of its robots."""
         self.stop_progress()
-        profile = profiling.current()
-        if profile:
-            from urdfsync.output import profiles  # hardly anybody asks
         if self.json:
-            measured = {"profile": profiles.to_json(profile)} if profile else {}
-            self.write_json(command, code, {"robots": self._robots, **measured}, diagnostics)
-            return
-        self.findings(diagnostics)
-        if profile:
-            self.print((line(*parts) for parts in profiles.profile_lines(profile)), error=True)
+            self.write_json(command, code, {"robots": self._robots}, diagnostics)
+        else:
+            self.findings(diagnostics)
 
     def write_json(
         self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()

@@ -18,8 +18,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import profiling
-
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _APPEND = (_CREATE & ~os.O_EXCL) | os.O_APPEND | getattr(os, "O_NONBLOCK", 0)
 _FEW = 32
@@ -156,7 +154,6 @@ def remove(path: Path) -> None:
         path.unlink()
 
 
-@profiling.stage("syncing")
 def sync(paths: Sequence[Path]) -> None:
     """Bring files and folders to the disk, so that they outlive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):

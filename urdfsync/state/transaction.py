@@ -27,7 +27,6 @@ from typing import NoReturn
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
@@ -76,7 +75,6 @@ class Transactions:
         """Whether a transaction is under way, or was when its process ended. Needs no lock."""
         return bool(self._journals.names())
 
-    @profiling.stage("writing")
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes. `emptied` are folders to remove if they are empty then.
 
@@ -111,7 +109,6 @@ class Transactions:
             else:
                 self._discard(journal, files, known)
             raise
-        profiling.count("written", len(changes) - len(applied.not_done))
         return applied
 
     def recover(self, repair: bool = False) -> tuple[Diagnostic, ...]:

@@ -12,7 +12,6 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync import profiling
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
@@ -58,7 +57,6 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
     return RobotReading(None if reader.failed else robot, diagnostics, reader.lines)
 
 
-@profiling.stage("cross-check")
 def _cross_check(content: bytes, robot: Robot, reader: Reader) -> None:
     # Late, since yourdfpy takes most of a second to load, and a plain build does without it.
     from urdfsync.urdf.parse.second_reader import compare_readers
