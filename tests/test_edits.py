@@ -7,7 +7,6 @@ import errno
 import json
 import os
 import shutil
-import tomllib
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -233,7 +232,6 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     again = run()
     assert kinds(again) == {SHUNT: Kind.CONFLICT}
     assert again.conflict_texts == result.conflict_texts, "the base is recorded, although the model knows R1 no more"
-    assert tomllib.loads(Path(MANIFEST).read_text())["files"]["Elements/Shunt.mo"]["origin"] == "Elements/R1.mo"
     rename("Shunt", "Branch")
     result = run()
     assert kinds(result) == {SHUNT.replace("Shunt", "Branch"): Kind.CONFLICT}, "a second name finds the file, too"
@@ -289,7 +287,8 @@ def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     edit(RECORD, "end R1", MAY)
     resistor(150)
     shutil.rmtree(project / ".urdfsync/base")
-    (project / ".urdfsync/robots/ladder.json").unlink()
+    lines = Path(MANIFEST).read_text().splitlines(keepends=True)
+    Path(MANIFEST).write_text("".join(line for line in lines if not line.startswith("model ")))
     (found,) = run().conflict_texts
     assert found.base is None
     assert found.merge is None
@@ -340,17 +339,17 @@ USER = {
     "MyLadder.mo": """\
 within;
 model MyLadder
-  extends Ladder.Ladder(redeclare Modelica.Electrical.Analog.Basic.Resistor C1, R1(R = 2));
+  extends Ladder.Ladder(redeclare Modelica.Electrical.Analog.Basic.Resistor elementC1, elementR1(R = 2));
   Ladder.Elements.C1 other;
-  Real C3 = C1.v;
+  Real C3 = elementC1.v;
 equation
-  connect(other.p, C1.p);
+  connect(other.p, elementC1.p);
 end MyLadder;
 """,
     "bench/MyBench.mo": """\
 model MyBench "Tries C1"
   MyLadder mine;
-  Real u = mine.C1.v + mine.R1.v;
+  Real u = mine.elementC1.v + mine.elementR1.v;
 end MyBench;
 """,
     "Stranger.mo": "model Stranger\n  C1 other;\nend Stranger;\n",
@@ -375,31 +374,15 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
     merging()
     run()
     whole = f"{LADDER}/Ladder.mo"
-    edit(whole, "equation", "  Real power = C1.v*C1.i;\n\nequation")
+    edit(whole, "equation", "  Real power = elementC1.v*elementC1.i;\n\nequation")
     rename("C1", "Tank")
     for _ in range(2):  # the second time, the state knows the new name already
         (found,) = run().conflict_texts
         assert found.path == whole
         assert found.merge is not None
         assert found.merge.text is None
-        line = found.merge.proposal.split("\n").index("  Real power = C1.v*C1.i;") + 1
-        assert found.rejected == f"the merge mentions `C1`, which the package has no more (line {line})"
-
-
-@pytest.mark.parametrize("adopted", [False, True], ids=["by hand", "as generated"])
-def test_a_merge_stays_rejected_where_the_user_follows_the_source_in_another_file(project: Path, adopted: bool) -> None:
-    """R1 loses its power, which Ladder mentions; the user has taken it out of R1, too."""
-    own_model(f"<% if kind == 'resistor' %>\n{POWER}<% endif %>\n")
-    merging()
-    run()
-    edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = elementR1.power;\n\nequation")
-    as_rc_pair()
-    rename("C1", "Tank")
-    for old, new in ((POWER, ""), ("Resistor", "Capacitor"), ("v = parameters.R*i", "i = parameters.C*der(v)")):
-        edit(R1, old, new)
-    if not adopted:
-        edit(R1, "equation", SENSOR)
-    assert_rejected_again_and_again("power")
+        line = found.merge.proposal.split("\n").index("  Real power = elementC1.v*elementC1.i;") + 1
+        assert found.rejected == f"the merge mentions `elementC1`, which the package has no more (line {line})"
 
 
 def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(project: Path) -> None:
@@ -450,7 +433,8 @@ def test_what_the_user_keeps_may_be_mentioned(project: Path) -> None:
     edit(f"{LADDER}/Ladder.mo", "equation", "  Real power = elementR1.power;\n\nequation")
     drop("C1")
     as_rc_pair()
-    assert set(conflicts()) == {R1, f"{LADDER}/Ladder.mo"}
+    assert conflicts() == [R1]
+    assert conflicts(dry=True, choices={R1: Choice.TAKE}) == [f"{LADDER}/Ladder.mo"]
     result = run(choices={C1: Choice.KEEP, R1: Choice.KEEP})
     assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
     assert not result.diagnostics
@@ -521,10 +505,11 @@ def test_files_around_the_package_that_use_what_is_gone_are_named(project: Path)
     run()
     write_user()
     drop("C1")
+    gone = GONE.replace("C1", "elementC1")
     expected = [
-        f"Broken.mo:2: `C1` {GONE}",
-        f"MyBench.mo:3: `mine.C1.v` {GONE}",
-        f"MyLadder.mo:3: `C1` {GONE}; also in lines 4, 5, 7",
+        f"MyBench.mo:3: `mine.elementC1.v` {gone}",
+        f"MyLadder.mo:3: `elementC1` {gone}; also in lines 5, 7",
+        f"MyLadder.mo:4: `Ladder.Elements.C1` {GONE}",
     ]
     for request in ({"dry": True}, {}):
         assert sorted(warnings(run(**request))) == expected
@@ -547,7 +532,7 @@ def test_a_record_that_a_model_of_the_users_needs_stays_as_long_as_it_does(proje
 @pytest.mark.parametrize(
     ("path", "old", "new", "words"),
     [
-        ("ladder.json", '"C1"', '"Tank"', "no `C1` any more; it is `Tank` now; also in lines 4, 5, 7"),
+        ("ladder.json", '"C1"', '"Tank"', "no `C1` any more; it is `Tank` now"),
         ("urdfsync.toml", '"Ladder"', '"Rungs"', "no `Ladder` any more; it is `Rungs` now; also in line 4"),
     ],
 )
@@ -557,7 +542,7 @@ def test_uses_of_what_has_another_name_get_the_new_one(
     run()
     write_user()
     edit(path, old, new)
-    (found,) = [line for line in warnings(run()) if line.startswith("MyLadder")]
+    (found,) = [line for line in warnings(run()) if line.startswith("MyLadder") and "`element" not in line]
     assert found.endswith(f"but the package has {words}")
 
 
@@ -604,18 +589,6 @@ def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(proj
     found = kinds(run())
     assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
     assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
-
-
-def test_the_record_of_a_renamed_element_waits_although_a_text_mentions_it(project: Path) -> None:
-    run()
-    Path("modelica/Bench.mo").write_text("model Bench\n  Ladder.Elements.R1Parameters numbers;\nend Bench;\n")
-    Path(SHUNT.replace(".mo", "Parameters.mo")).write_text("mine")
-    rename("R1", "Shunt")
-    run()
-    state = Path(MANIFEST).read_bytes()
-    assert tomllib.loads(state.decode())["files"]["Elements/R1Parameters.mo"]["state"] == "waiting"
-    run()
-    assert Path(MANIFEST).read_bytes() == state
 
 
 def test_the_record_of_an_element_that_is_renamed_and_then_goes_is_kept_where_it_is_mentioned(project: Path) -> None:

@@ -90,12 +90,17 @@ class Changes(msgspec.Struct, frozen=True):
         return result
 
 
-def compare(old: Version, new: Version, domain: Domain, options: Any) -> Changes:
-    """Return the changes from one version to another, with the domain's options of the new one."""
-    renames: Mapping[ElementKey, str] = {}
+def compare(
+    old: Version, new: Version, domain: Domain, options: Any, renames: Mapping[ElementKey, str] | None = None
+) -> Changes:
+    """Return the changes from one version to another, with the domain's options of the new one.
+
+    `renames` are known ones; None to look for them.
+    """
     differences: list[Difference] = []
+    if renames is None:
+        renames = domain.renames(old.snapshot, new.snapshot) if old.snapshot != new.snapshot else {}
     if old.snapshot != new.snapshot:
-        renames = domain.renames(old.snapshot, new.snapshot)
         old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
         new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
         differences += _of_snapshots(old.snapshot, new.snapshot)
@@ -111,7 +116,7 @@ def compare(old: Version, new: Version, domain: Domain, options: Any) -> Changes
         for difference, meaning in zip(differences, meanings, strict=True)
         if meaning is not None
     ]
-    return Changes(tuple(changes), renames, old.generator != new.generator)
+    return Changes(tuple(changes), renames)
 
 
 def moved_files(

@@ -150,8 +150,6 @@ class Version(msgspec.Struct, frozen=True):
     snapshot: Snapshot
     imports: Mapping[str, Import] | None = None
     """The files that the model refers to, if found; None if nobody looked, and then each counts as found."""
-    generator: str = ""
-    """Fingerprint of what turns it into files."""
     options: Any = None
     """The domain's options that it was built with; None if they are not known, or those of the other version."""
 

@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 from hypothesis import settings
 from hypothesis import strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from urdfsync import changes
 from urdfsync.domain import Role
@@ -24,14 +24,15 @@ from urdfsync.engine.rules import (
     DesiredFile,
     OnDisk,
     decide,
+    files_after,
     hold,
     keep_needed,
-    records_after,
+    pending_choices,
     remembered_choices,
-    renamed_files,
+    renewed_files,
 )
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state.record import Choice, FileRecord, RecordState
+from urdfsync.state.record import Choice, FileRecord
 
 NAMES = ("Arm", "Base", "Cap")
 MAIN, PACKAGE = "Main.mo", "package.mo"
@@ -87,18 +88,19 @@ class Project:
         self.parts: dict[int, Part] = {}
         self.files: dict[str, str] = {}
         self.recorded: dict[str, FileRecord] = {}
+        self.pending: dict[tuple[str, str], Choice] = {}
         self.merging = False
-        self._last: dict[int, Part] = {}
+        self._complete: dict[int, Part] = {}
+        """The model of the last complete build."""
 
     def moves(self) -> dict[str, str]:
         """New and old path of every file whose element has another name; see `Generation`."""
-        records = {path: record for path, record in self.recorded.items() if record.state is not RecordState.ORPHAN}
-        before, now = package(self._last.values()), package(self.parts.values())
-        renames = {("part", old.name): self.parts[key].name for key, old in self._last.items() if key in self.parts}
-        old = {path: (file.owner, template(path)) for path, file in before.items() if path in records}
+        before, now = package(self._complete.values()), package(self.parts.values())
+        renames = {("part", old.name): self.parts[key].name for key, old in self._complete.items() if key in self.parts}
+        old = {path: (file.owner, template(path)) for path, file in before.items() if path in self.recorded}
         renamed = changes.moved_files(old, {path: (file.owner, template(path)) for path, file in now.items()}, renames)
-        targets = {path: renamed.get(path, path) for path in records}
-        return renamed_files(self.recorded, targets, now)
+        pairs = ((renamed.get(path, path), path) for path in self.recorded)
+        return {new: path for new, path in pairs if new != path and new in now}
 
     def build(self, choices: Mapping[str, Choice] | None = None) -> tuple[Action, ...]:
         """Plan, write and record."""
@@ -110,7 +112,12 @@ class Project:
         for action in actions:
             if action.writes and action.kind not in DELETES:
                 self.files[action.path] = merged.get(action.path, wanted[action.path].hash)
-        self.recorded, self._last = records_after(actions), dict(self.parts)
+        if any(action.held or action.kind in CONFLICTS for action in actions):
+            self.recorded |= renewed_files(actions)
+            self.pending = pending_choices(actions)
+        else:
+            self.recorded = files_after(actions, self.recorded)
+            self._complete, self.pending = dict(self.parts), {}
         return actions
 
     def _decide(
@@ -118,17 +125,23 @@ class Project:
     ) -> tuple[tuple[Action, ...], dict[str, str]]:
         """The actions, and the texts that are merged; see `decide`."""
         found = {path: self._found(path) for path in wanted.keys() | self.recorded.keys()}
-        planned = decide(self.recorded, wanted, found, self.moves())
+        last = package(self._complete.values())
+        known = {
+            path: (last[path].role, last[path].owner) if path in last else (Role.RECORD, "") for path in self.recorded
+        }
+        planned = decide(self.recorded, wanted, found, self.moves(), known)
         conflicts = {a.path: self._conflict(a) for a in planned if a.kind in DISPUTED}
-        choices = {**remembered_choices(self.recorded, planned), **choices}
+        choices = {**remembered_choices(self.pending, planned), **choices}
         resolved, merged = resolve(planned, conflicts, choices, self.merging)
         actions = keep_needed(
             [msgspec.structs.replace(action, result=merged.get(action.path)) for action in resolved],
             lambda path, gone: any(file not in gone and file != path for file in self.files),
+            (),
         )
         records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
-        return hold(actions, {path for path, (old, new) in texts.items() if numbers_only(old, new)}), merged
+        numbers = {path for path, (old, new) in texts.items() if numbers_only(old, new)}
+        return hold(actions, numbers, moves=False), merged
 
     def _found(self, path: str) -> OnDisk:
         if path in self.files:
@@ -138,7 +151,7 @@ class Project:
     def _conflict(self, action: Action) -> Conflict:
         place, generated = action.origin or action.path, action.generated or ""
         if place in self.files:
-            return find_conflict(action, action.base, self.files[place], generated)
+            return find_conflict(action, [action.base] if action.base else [], self.files[place], generated)
         return Conflict(action.path, action.owner, action.base, self.files[as_folder(place)], generated, None)
 
 
@@ -232,7 +245,6 @@ class Rounds(RuleBasedStateMachine):
         self._build({})
 
     @rule(choices=st.lists(st.sampled_from(Choice), min_size=1, max_size=3))
-    @precondition(lambda self: any(record.state is RecordState.CONFLICT for record in self.project.recorded.values()))
     def resolve(self, choices: list[Choice]) -> None:
         conflicts = waiting(self._build({}))
         self._build(dict(zip(conflicts, choices, strict=False)))
@@ -248,14 +260,14 @@ class Rounds(RuleBasedStateMachine):
         if not conflicts:
             files = self.project.files
             assert not any(action.held for action in actions)
-            assert not any(record.origin or record.choice for record in self.project.recorded.values())
+            assert not self.project.pending
             assert all(path in files or as_folder(path) in files for path in package(self.project.parts.values()))
 
     def _build(self, choices: Mapping[str, Choice]) -> tuple[Action, ...]:
         project = self.project
-        before = dict(project.files)
+        before, hashes = dict(project.files), dict(project.recorded)
         actions = project.build(choices)
-        self._nothing_is_lost(before, actions)
+        self._nothing_is_lost(before, hashes, actions)
         self._structure_is_all_or_nothing(actions)
         files, recorded = dict(project.files), project.recorded
         again = project.build()
@@ -264,14 +276,17 @@ class Rounds(RuleBasedStateMachine):
         assert waiting(again) == waiting(actions)
         return actions
 
-    def _nothing_is_lost(self, before: Mapping[str, str], actions: Collection[Action]) -> None:
+    def _nothing_is_lost(
+        self, before: Mapping[str, str], recorded: Mapping[str, FileRecord], actions: Collection[Action]
+    ) -> None:
         taken = {a.origin or a.path for a in actions if a.choice is Choice.TAKE and a.writes}
         kept = edits([text for path, text in before.items() if path not in taken])
         assert kept <= edits(self.project.files.values())
         moved = {action.origin for action in actions if action.kind is Kind.MOVE and action.writes}
         for action in actions:
             if action.writes and action.path in before and action.path not in taken | moved:
-                assert action.kind is Kind.MERGE or before[action.path] in (action.base, action.replaced_hash)
+                known = action.base, *recorded.get(action.path, FileRecord()).hashes
+                assert action.kind is Kind.MERGE or before[action.path] in known
 
     def _structure_is_all_or_nothing(self, actions: Collection[Action]) -> None:
         if waiting(actions):

@@ -20,7 +20,7 @@ RC_FOLDER = Path(__file__).parents[1] / "rcnetwork"
 LADDER = "modelica/Ladder"
 R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
 RECORD = f"{LADDER}/Elements/R1Parameters.mo"
-MANIFEST = ".urdfsync/robots/ladder.toml"
+MANIFEST = ".urdfsync/robots/ladder.state"
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n'
 
 

@@ -40,7 +40,6 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
-    parser.add_argument("--repair", action="store_true", help="make a state again that has merge markers or is damaged")
     parser.add_argument(
         "--explain", action="store_true", help="list each file that is not just unchanged, what happens to it and why"
     )
@@ -51,7 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     dry = args.dry_run or args.check
-    request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg, repair=args.repair)
+    request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg)
     results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
     if not console.json and not console.quiet:
         console.print(_next_steps(results))

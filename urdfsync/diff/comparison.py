@@ -32,7 +32,6 @@ from urdfsync.engine.result import Exit, Result
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
-from urdfsync.state.modelfile import ConversionFacts
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
@@ -161,8 +160,8 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     if result.failed:
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
-    last, found = inputs.last_complete, result.changes
-    missing = "" if last else "what was built last is not known any more" if inputs.recorded else "never built"
+    last, found = inputs.last, result.changes
+    missing = "" if last else "what was built last is not known any more" if inputs.record else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and found is not None and (found.changes or found.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.content, shown(robot.source))
@@ -264,12 +263,7 @@ def _read(
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
-    recorded = imports.Recorded(
-        {key: record for key, record in known.records.items() if key in known.imports},
-        {key: ConversionFacts(one.source_hash, one.converter, dict(one.facts)) for key, one in known.imports.items()},
-        known.contents.get,
-        bases={},
-    )
+    recorded = imports.Recorded({key: (one,) for key, one in known.imports.items()}, known.contents.get)
     imported = imports.bring_in(
         domain,
         dependencies,

@@ -50,9 +50,9 @@ _REASONS = {
     Kind.CREATE: "new",
     Kind.RESTORE: "it was deleted; written again",
     Kind.ADOPT: "it already is what would be written",
-    Kind.UPDATE: "what it is made from changed",
+    Kind.UPDATE: "its generated text changed",
     Kind.KEEP: "you edited it; there is nothing new for it",
-    Kind.CONFLICT: "you edited it, and what it is made from changed too",
+    Kind.CONFLICT: "you edited it, and its generated text changed too",
     Kind.UNOWNED: "urdfsync did not write the file that is there",
     Kind.DELETE: "no longer generated",
     Kind.ORPHAN: "no longer generated, but you edited it; kept",
@@ -66,7 +66,7 @@ _REASONS = {
 
 
 class Action(msgspec.Struct, frozen=True):
-    """What happens to one file, and the hashes that the decision rests on; `path` is as in the manifest."""
+    """What happens to one file, and the hashes that the decision rests on; `path` is as in the record."""
 
     path: str
     kind: Kind
@@ -80,19 +80,23 @@ class Action(msgspec.Struct, frozen=True):
     """The user's decision about it."""
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
-    replaced_hash: str | None = None
-    """Hash of the file that urdfsync wrote at `path` for another element, if it is there."""
     result: str | None = None
     """Hash of the merged text; None if nothing is merged."""
     held: bool = False
-    """Put off until the robot's conflicts are resolved."""
+    """Waits until the robot's other conflicts are resolved."""
     at_hand: bool = True
     """Whether the generated content is available on this machine."""
 
     @property
     def reason(self) -> str:
         """Why, as the end of a sentence that begins with the path."""
-        return _REASONS[self.kind] + ("; waits until the conflict is settled" if self.held else "")
+        return _REASONS[self.kind]
+
+    @property
+    def waits_for(self) -> str:
+        """What it waits for, if it does, as a clause."""
+        resolved = "resolved, " if self.choice else ""
+        return f"{resolved}waits until the other conflicts are resolved" if self.held else ""
 
     @property
     def replaceable(self) -> bool:

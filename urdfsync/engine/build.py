@@ -20,10 +20,10 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity,
 from urdfsync.engine.actions import DELETES, Actions, Kind
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles, key_of
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
-from urdfsync.engine.stage import Plan, partly_done
+from urdfsync.engine.stage import Plan
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
@@ -106,7 +106,7 @@ class _Builder:
                 continue
             told = _joined(first, plan) if first else plan
             writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
-            if writes or not self._is_noted(robot):
+            if writes:
                 dependencies.mark_incomplete()  # what was read is about to change
                 self._lock.acquire(waiting=self._wait)
                 if not self._is_current(plan):
@@ -119,27 +119,18 @@ class _Builder:
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
-    def _is_noted(self, robot: RobotConfig) -> bool:
-        """Return whether it is recorded that a build in this checkout wrote the package's folder."""
-        return key_of(robot.folder, self._config.root) in Store(self._config.root).written_folders(robot.name)
-
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
         files, store = PackageFiles(self._config, robot), Store(self._config.root)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
-        changes = [*shared, *store.ignoring(), *plan.writes]
+        changes = [*shared, *store.for_git(), *plan.writes]
         bases = store.bases(robot.name)
         bases.add(plan.bases)
-        former = {plan.former_folder} & store.written_folders(robot.name)
-        store.note_folders(robot.name, {files.key(robot.folder), *former}, plan.former_name)
         if not changes:
             return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
-        if applied.not_done:
-            if renewed := partly_done(plan, robot.name, applied.not_done, store, files):
-                self._transactions.apply(robot.name, renewed)
-        elif plan.mentioned is not None:
+        if not applied.not_done:
             bases.prune(plan.mentioned)
             if plan.former_name:
                 store.bases(plan.former_name).prune(())
@@ -148,7 +139,7 @@ class _Builder:
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 
-        Nearly every build writes the manifest as its last file, so it is read again here; the others are when they are
+        Nearly every build writes the record as its last file, so it is read again here; the others are when they are
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}
@@ -161,7 +152,7 @@ class _Builder:
             return
         if not self._options.dry:
             self._lock.acquire(waiting=self._wait)
-            self.notes += self._transactions.recover(self._options.repair)
+            self.notes += self._transactions.recover()
             return
         with build_lock(self._config.root, self._state_folder, self._options.wait) as lock:
             lock.acquire(shared=True, waiting=self._wait)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ class Conflict(msgspec.Struct, frozen=True):
     """One text file in conflict: the three texts as they are, line endings included."""
 
     path: str
-    """Path of the generated text as in the manifest: from the configuration's folder, POSIX."""
+    """Path of the generated text as in the record: from the configuration's folder, POSIX."""
     owner: str
     """Element that the file belongs to, in the domain's words."""
     base: str | None
@@ -51,13 +51,21 @@ def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]
     return found
 
 
-def find_conflict(action: Action, base: str | None, mine: str, generated: str) -> Conflict:
-    """Merge the texts of a file; a merge that is no sound Modelica is rejected."""
+def find_conflict(action: Action, bases: Sequence[str], mine: str, generated: str) -> Conflict:
+    """Merge the texts of a file; a merge that is no sound Modelica is rejected, and so is one that is ambiguous.
+
+    `bases` are all texts that may be the base, best first.
+    """
     from urdfsync.merge import merge
 
-    merged = None if base is None else merge(base, mine, generated, is_modelica=action.path.endswith(".mo"))
-    rejected = f"the merge {merged.flaw}" if merged and merged.flaw else ""
-    return Conflict(action.path, action.owner, base, mine, generated, merged, action.origin, rejected)
+    merges = [merge(base, mine, generated, is_modelica=action.path.endswith(".mo")) for base in bases]
+    first = merges[0] if merges else None
+    rejected = f"the merge {first.flaw}" if first and first.flaw else ""
+    if first and any(other.text != first.text for other in merges):
+        first = msgspec.structs.replace(first, text=None)
+        rejected = "two branches recorded different texts as its base, and each gives another merge"
+    base = bases[0] if bases else None
+    return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, rejected)
 
 
 def resolve(

@@ -4,25 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action, Actions, Kind
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import DesiredFile, decide, hold, keep_needed, records_after, remembered_choices
+from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state import repair
-from urdfsync.state.record import Choice, FileRecord, RecordState
-
-if TYPE_CHECKING:
-    from urdfsync.engine.dangling import DanglingNames
+from urdfsync.state.record import Choice
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
@@ -31,173 +26,159 @@ _MARKER = r"(?m)^(?:<{7}|>{7}) "
 
 
 class Decision(msgspec.Struct, frozen=True):
-    """All actions of one robot, and what to record when they are done."""
+    """All actions of one robot, and what there is to say about them."""
 
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
-    files: Mapping[str, FileRecord]
-    orders: Mapping[str, tuple[str, ...]]
     conflicts: tuple[Conflict, ...] = ()
     """The texts of the files in conflict."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
-    gone: tuple[str, ...] = ()
-    """If something waits: what the package loses until nothing does, by dotted names below it."""
-    left: Mapping[str, str] = {}
-    """Files that renamed elements left, and that wait to be deleted, with their files now; paths below the package."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """Warnings about names that are gone."""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether nothing conflicts and nothing waits."""
+        return not any(action.held or action.kind in CONFLICTS for action in self.actions)
 
 
-def decide_package(inputs: Inputs, generation: Generation | None, names: DanglingNames | None = None) -> Decision:
-    """Decide on every file of a robot; without a generation, what the last build recorded is wanted again.
+def decide_package(generation: Generation) -> Decision:
+    """Decide on every file of a robot.
 
-    No merge may use `names` that the package loses. Raises OutputError for what can't be worked with, such as links or
-    merge markers.
+    Raises OutputError for what can't be worked with, such as links or merge markers.
     """
-    files, moves = inputs.files, dict[str, str]()
-    recorded = inputs.recorded or inputs.heading("")
-    desired_orders = recorded.orders
-    if generation is None:
-        desired = {
-            key: DesiredFile(record.role, record.owner, record.base)
-            for key, record in recorded.files.items()
-            if record.base is not None and record.state is not RecordState.ORPHAN
-        }
-    else:
-        desired, desired_orders = generation.desired_files(), generation.desired_orders()
-        moves = generation.renamed_files()
-        if inputs.recovered:  # with `--repair`: what is on disk decides between the sides
-            generated = {key: file.hash for key, file in desired.items()}
-            places = {**dict.fromkeys(generated, Role.MODEL), **inputs.recovered.roles}
-            mine = {key: files.hash(key, role) for key, role in places.items()}
-            recorded = repair.rebuilt(inputs.recovered, mine, generated) or inputs.heading("")
-    records, owned = inputs.own(recorded)
-    roles = {key: record.role for key, record in records.items()} | {key: one.role for key, one in desired.items()}
+    inputs, files = generation.inputs, generation.inputs.files
+    recorded, desired, known = inputs.recorded_files, generation.desired_files(), generation.recorded_roles()
+    roles = {key: role for key, (role, _) in known.items()} | {key: one.role for key, one in desired.items()}
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
-    actions = decide(records, desired, on_disk, moves)
+    actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves(), known))
 
-    conflicts: dict[str, Conflict] = {}
-    merged: dict[str, str] = {}
-    left = _left_files(inputs, records, moves, desired)
-    if generation is not None and any(a.kind in DISPUTED or a.kind is Kind.ORPHAN for a in actions):
-        disputed = [a for a in actions if a.kind in DISPUTED and a.role is not Role.IMPORT]
-        choices = {**remembered_choices(records, actions), **inputs.options.choices}
-        staying = _staying(inputs, actions, choices, left)
-        conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
-        actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-    actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
+    disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    conflicts = {action.path: _conflict(generation, action) for action in disputed}
+    pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
+    remembered = remembered_choices({(inputs.key(path), sides): one for (path, sides), one in pending.items()}, actions)
+    choices = {**remembered, **inputs.options.choices}
+    warnings: tuple[Diagnostic, ...] = ()
+    if _takes_names_away(generation):
+        conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
+    actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    actions = _keep_needed(generation, actions, merged)
 
-    old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
-    _refuse_markers(inputs, actions, old_orders)
-    removable = _removable_lines(owned, actions)
-    order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
-    renumbered: set[str] = set()
-    waits = any(action.kind in CONFLICTS for action in actions)
-    if generation is not None and waits:
-        for action in actions:
-            if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
-                text = merged.get(action.path) or generation.content(action.path).decode()
-                if numbers_only(files.text(action.path) or "", text):
-                    renumbered.add(action.path)
-    held = hold((*actions, *order_actions), renumbered)
+    order_actions, orders, shared = _decide_orders(generation, actions)
+    _refuse_markers(inputs, actions, orders.keys())
+    numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
+    held = Actions(hold((*actions, *order_actions), numbers, inputs.folder != inputs.old_folder))
     waiting = {action.path for action in held if action.held}
-    orders = {key: (owned if key in waiting else desired_orders).get(key, ()) for key in old_orders}
-    return Decision(
-        Actions(held),
-        {**texts, **merged},
-        records_after(held[: len(actions)]),
-        {key: lines for key, lines in orders.items() if lines},
-        tuple(conflicts[a.path] for a in actions if a.kind in CONFLICTS and a.path in conflicts),
+    decision = Decision(
+        held,
+        {**orders, **merged},
+        tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
-        tuple(".".join(path) for path in names.gone) if names and waits else (),
-        {inputs.path(key): inputs.path(left[key]) for key in waiting & left.keys() - desired.keys()},
+    )
+    return msgspec.structs.replace(decision, diagnostics=warnings) if decision.is_complete else decision
+
+
+def _conflict(generation: Generation, action: Action) -> Conflict:
+    """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
+    key, files = action.origin or action.path, generation.inputs.files
+    mine, generated = files.text(key), generation.content(action.path).decode()
+    record = generation.inputs.recorded_files.get(key)
+    hashes = record.hashes if record and action.base in record.hashes else (action.base,)
+    bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
+    if mine is not None:
+        return find_conflict(action, bases, mine, generated)
+    package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
+    reason, base = "you made a folder of the class", bases[0] if bases else None
+    return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)
+
+
+def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple[Action, ...]:
+    """Delete in a folder that the package had before only what can be generated here, and leave all else.
+
+    The record may be a stranger's, who has put the hashes of the user's own files into it.
+    """
+    inputs, now = generation.inputs, generation.imported.imports.values()
+    if inputs.folder == inputs.old_folder:
+        return tuple(actions)
+    imported = {one.target_hash for one in now}
+
+    def is_ours(action: Action) -> bool:
+        path = inputs.old_path(action.path)
+        if action.role is Role.IMPORT:
+            return action.mine in imported
+        packages = (package for package in generation.last_packages if path in package.artifacts)
+        return any(package.hash(path) == action.base for package in packages)
+
+    return tuple(
+        msgspec.structs.replace(action, kind=Kind.ORPHAN)
+        if action.kind in DELETES and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
+        else action
+        for action in actions
     )
 
 
-def _staying(
-    inputs: Inputs, actions: Sequence[Action], choices: Mapping[str, Choice], left: Collection[str]
-) -> list[str]:
-    """Return the files that stay the user's, or because he needs them, whatever becomes of the merges.
+def _takes_names_away(generation: Generation) -> bool:
+    """Whether a name may be gone since the last complete build: not if only numbers changed."""
+    changes = generation.changes
+    return bool(generation.inputs.recorded_files) and (
+        changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
+    )
 
-    A merge may mention them: a record that it mentions is kept.
+
+def _find_vanished(
+    generation: Generation,
+    actions: Iterable[Action],
+    conflicts: Mapping[str, Conflict],
+    choices: Mapping[str, Choice],
+) -> tuple[dict[str, Conflict], tuple[Diagnostic, ...]]:
+    """Return the conflicts, without the merges that would use a name that is gone; and warnings about other uses.
+
+    All merges that are possible are taken for that.
     """
-    leaving = {action.path for action in actions if _is_leaving_record(action, left)}
-    without_merges, _ = resolve(actions, {}, choices, merging=False)
-    kept = keep_needed(without_merges, inputs.files.has_classes, leaving)
-    return [one.path for one in kept if one.kind in (Kind.KEEP, Kind.ORPHAN, Kind.NEEDED) or one.released]
+    from urdfsync.engine import vanished  # the parser takes a tenth of a small build to load
+
+    planned, merged = resolve(actions, conflicts, choices, merging=True)
+    planned = _keep_needed(generation, planned, merged)
+    found = vanished.find_vanished(generation, planned, merged)
+    sound = dict(conflicts)
+    for key in found.in_package.keys() & merged.keys():
+        conflict, use = sound[key], found.in_package[key][0]
+        if conflict.merge and conflict.merge.text == merged[key] != conflict.mine:
+            reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
+            rejected = msgspec.structs.replace(conflict.merge, text=None)
+            sound[key] = msgspec.structs.replace(conflict, merge=rejected, rejected=reason)
+    return sound, tuple(vanished.warnings(generation, found))
 
 
-def _conflict(
-    generation: Generation, names: DanglingNames | None, action: Action, staying: Collection[str]
-) -> Conflict:
-    """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`.
+def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
+    """Keep what texts of the user's need."""
+    used: Collection[str] = ()
+    if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
+        from urdfsync.engine.vanished import mentioned_records
 
-    `staying` are files that stay the user's, or because he needs them.
-    """
-    key, files = action.origin or action.path, generation.inputs.files
-    mine = files.text(key)
-    base = generation.base(key, action.base) if action.base else None
-    generated = generation.content(action.path).decode()
-    if mine is None:
-        package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
-        reason = "you made a folder of the class"
-        return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)
-    conflict = find_conflict(action, base, mine, generated)
-    merged = conflict.merge.text if conflict.merge and action.path.endswith(".mo") else None
-    use = names.first_use(action.path, merged, staying) if names and merged is not None and merged != mine else None
-    if use is None or conflict.merge is None:
-        return conflict
-    reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
-    return msgspec.structs.replace(conflict, merge=msgspec.structs.replace(conflict.merge, text=None), rejected=reason)
+        used = mentioned_records(generation, actions, merged)
+    return keep_needed(actions, generation.inputs.files.has_classes, used)
 
 
-def _left_files(
-    inputs: Inputs, records: Mapping[str, FileRecord], moves: Mapping[str, str], desired: Collection[str]
-) -> dict[str, str]:
-    """Return the files that renamed elements leave, or have left while something waits, with their files now."""
-    found = {old: new for new, old in moves.items()}
-    recorded = (inputs.model.left or {}) if inputs.model else {}
-    # moves of this build; those that wait are no other name of what has come to the old place since
-    again = {old: new for new, old in moves.items() if new not in records or records[new].origin != old}
-    for old, new in recorded.items():
-        key, now = inputs.old_key(old), again.get(inputs.old_key(new), inputs.key(new))
-        if now in desired and key in records and records[key].state is RecordState.WAITING:
-            found.setdefault(key, now)
-    return found
+def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:
+    """Return the records of which only numbers change."""
+    files, found = generation.inputs.files, set()
+    for action in actions:
+        if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+            text = merged.get(action.path) or generation.content(action.path).decode()
+            if numbers_only(files.text(action.path) or "", text):
+                found.add(action.path)
+    return frozenset(found)
 
 
-def _is_leaving_record(action: Action, left: Collection[str]) -> bool:
-    """Whether a record is no longer generated, and not because a renamed element `left` it."""
-    return action.kind is Kind.DELETE and action.role is Role.RECORD and action.path not in left
-
-
-def _mentioned_records(
-    inputs: Inputs, actions: Sequence[Action], left: Collection[str], merged: Mapping[str, str]
-) -> frozenset[str]:
-    """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
-
-    Those that a renamed element `left` are not needed: the user is told the new name.
-    """
-    files = inputs.files
-    leaving = [action.path for action in actions if _is_leaving_record(action, left)]
-    if not leaving:
-        return frozenset()
-    from urdfsync.engine.dangling import class_of, code_words
-
-    edited = (action for action in actions if action.kind in USERS)
-    texts = list(inputs.users_classes(edited, actions, merged).values())
-    around = files.users_files({inputs.folder, inputs.old_folder})
-    texts += [content.decode(errors="replace") for content in around.values()]
-    used = {word for text in texts for word in code_words(text)}
-    return frozenset(path for path in leaving if class_of(path) in used)
-
-
-def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[str, str | None]) -> None:
+def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     files, found = inputs.files, []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
-    keys = [action.origin or action.path for action in edited]
-    for key, text in {**{key: files.text(key) for key in keys}, **orders}.items():
+    for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
+        text = files.text(key)
         if text and (match := re.search(_MARKER, text)):
             line = text.count("\n", 0, match.start()) + 1
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
@@ -208,7 +189,7 @@ def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Mapping[s
 
 
 def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, tuple[str, ...]]:
-    """Return the lines of `package.order` files that urdfsync may remove: not those of edited classes that stay.
+    """Return the lines of `package.order` files that urdfsync may remove: not those of classes that stay.
 
     The line of a class that is deleted goes with it, whoever wrote it.
     """
@@ -224,33 +205,33 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
 
 
 def _decide_orders(
-    inputs: Inputs,
-    old_texts: Mapping[str, str | None],
-    removable: Mapping[str, tuple[str, ...]],
-    desired: Mapping[str, tuple[str, ...]],
+    generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
     """Return the actions for `package.order` files and for packages around the robot's, and the new texts of orders.
 
     Also what to do with the files around the package, that of the last build included.
     """
-    files, inside = inputs.files, (f"{inputs.folder}/", f"{inputs.old_folder}/")
-    actions, texts, shared = [], {}, []
-    for key, old in old_texts.items():
-        names, owned = desired.get(key, ()), removable.get(key, ())
+    inputs, files = generation.inputs, generation.inputs.files
+    recorded, desired = generation.recorded_orders(), generation.desired_orders()
+    removable = _removable_lines(recorded, actions)
+    inside = (f"{inputs.folder}/", f"{inputs.old_folder}/")
+    found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
+    for key in sorted(recorded.keys() | desired.keys()):
+        old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
-            kind = Kind.FORGET if not new else Kind.RESTORE if key in removable else Kind.CREATE
+            kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE
         else:
             kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
-        actions.append(Action(key, kind, Role.ORDER, "package"))
+        found.append(Action(key, kind, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, owned))
     for one in inputs.parents.shared:
         key = files.key(one.path)
         if one.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
-            actions.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
+            found.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, one.names):
             kind = Kind.CREATE if old is None else Kind.UPDATE
-            actions.append(Action(key, kind, Role.ORDER, "parent package"))
-    return actions, texts, [*shared, *inputs.parents.shared]
+            found.append(Action(key, kind, Role.ORDER, "parent package"))
+    return found, texts, [*shared, *inputs.parents.shared]

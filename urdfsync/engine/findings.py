@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
+from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
@@ -21,18 +21,14 @@ _FEW = 3
 """So many files are named; of more, only their number."""
 
 
-def find_all(generation: Generation, actions: Actions, names: list[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return all findings of a build in the order of their places; `names` are those about names that go."""
-    inputs = generation.inputs
-    found = [*generation.diagnostics, *inputs.parents.diagnostics, *names]
+def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
+    """Return all findings of a build in the order of their places."""
+    inputs, actions = generation.inputs, decision.actions
+    found = [*generation.diagnostics, *inputs.parents.diagnostics, *decision.diagnostics]
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; what urdfsync recorded of it goes"
         place = shown(inputs.config.file), inputs.robot.lines[""]
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
-    if inputs.recovered:
-        message = f"the recorded state of robot `{inputs.robot.name}` was made again from what could be read of it"
-        hint = "files that are not what was ever written are shown as edited or in conflict"
-        found.append(Diagnostic(Severity.NOTE, "repaired-state", message, shown(inputs.store.folder), hint=hint))
     found += [*_left_behind(inputs, actions), *_lost_connectors(generation), *_outdated(inputs, actions)]
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
@@ -52,12 +48,9 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     message = f"the package moved from {shown(old)} to {shown(new)}"
     if not is_inside:
         message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
-    elif inputs.old_folder not in inputs.own_folders:
-        message += "; the old folder was not built in this checkout, so it stays as it is"
-        hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
     else:
         named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
-        message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"
+        message += f"; these files are not deleted, since urdfsync did not write them: {', '.join(named)}"
         hint = "take over what you need, then delete the old folder"
     file, line = shown(inputs.config.file), inputs.robot.lines[""]
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
@@ -65,8 +58,8 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
 def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:
     """Notes on what users may have connected to, and what has another name now, or none."""
-    inputs, changes = generation.inputs, generation.changes_since_complete
-    complete, robot = inputs.last_complete, inputs.robot
+    inputs, changes = generation.inputs, generation.changes
+    complete, robot = inputs.last, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
@@ -83,7 +76,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
     One if it waits for conflicts, and one for each file that the user keeps.
     """
-    if inputs.complete_revision is None or inputs.complete_revision >= inputs.domain.fits_since:
+    if inputs.last is None or inputs.record is None or inputs.record.generator.revision >= inputs.domain.fits_since:
         return
     conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind in CONFLICTS]
     if conflicts and any(action.held for action in actions):

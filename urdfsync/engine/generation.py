@@ -1,27 +1,28 @@
 """One robot generated from its source as it is now: model, imported files, and the texts of its package.
 
-Of the package of the last build, texts whose template and data are still the same need not be rendered.
+Of the package of the last complete build, texts whose template and data are still the same need not be rendered.
 """
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
+from typing import Any
 
 import msgspec
 
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Role, Target, Version
+from urdfsync.domain import Domain, ElementKey, Role, Snapshot, Target, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
-from urdfsync.engine.rules import DesiredFile, renamed_files
+from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import digest, normalised, shown, text_digest
-from urdfsync.state.record import RecordState
+from urdfsync.state.record import Open, role_of
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -36,21 +37,22 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
-    last_package: Package | None
-    """The package of the recorded model, from today's templates; None if there is none."""
-    recovered_packages: tuple[Package, ...]
-    """The packages of the models that `--repair` could read."""
+    last_packages: tuple[Package, ...]
+    """The package of the recorded model, from today's templates; several if it is not known which model that is."""
     changed: frozenset[str]
-    """Paths below the package whose text may differ from the last build's."""
+    """Paths below the package whose text may differ from that of the last complete build."""
+
+    @property
+    def last_package(self) -> Package | None:
+        """The package of the last complete build; None if it is not known."""
+        return self.last_packages[0] if len(self.last_packages) == 1 and self.inputs.last else None
 
     def _recorded_hash(self, path: str) -> str | None:
-        """Return the recorded hash of a text that is as in the last build."""
-        if path in self.changed or self.inputs.recorded is None:
+        """Return the recorded hash of a text that is as in the last complete build."""
+        record = self.inputs.recorded_files.get(self.inputs.old_key(path))
+        if path in self.changed or record is None or len(record.hashes) != 1:
             return None
-        record = self.inputs.recorded.files.get(self.inputs.old_key(path))
-        if record is None or record.state not in (RecordState.GENERATED, RecordState.EDITED):
-            return None  # in other states the base may be older
-        return record.base
+        return record.hashes[0]
 
     def hash(self, path: str) -> str:
         """Return the hash of what would be written, by the path below the package."""
@@ -64,28 +66,25 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return self.package.content(path) if known is None else known.encode()
 
     def base(self, key: str, sha256: str) -> str | None:
-        """Return the text that was written last at a key of the last build, by its hash; None if it is lost.
+        """Return the text with this hash that was written last at a key of the last build; None if it is lost.
 
-        It may be kept, on disk, recorded, or rendered again. A file that the user moved has its base under the key that
+        It may be kept, recorded, on disk, or rendered again. A file that the user moved has its base under the key that
         it had.
         """
         # from the cheapest to the dearest; what does not have the hash is never taken, so the order changes no result
-        inputs, recorded = self.inputs, self.inputs.recorded
-        if (known := inputs.bases.get(sha256)) is not None:
+        inputs = self.inputs
+        known = inputs.bases.get(sha256) or (inputs.record.texts.get(sha256) if inputs.record else None)
+        if known is not None and text_digest(known.encode()) == sha256:
             return known
-        packages = [self.package, *self.recovered_packages]
-        if self.last_package and recorded and recorded.generator == inputs.generator:
-            packages.insert(0, self.last_package)
-        same = [other for other, record in recorded.files.items() if record.base == sha256] if recorded else []
+        same = [other for other, record in inputs.recorded_files.items() if sha256 in record.hashes]
         for place in dict.fromkeys((key, *same)):
             mine, path = inputs.files.read(place), inputs.old_path(place)
             if mine is not None and text_digest(mine) == sha256:
                 return normalised(mine).decode(errors="surrogateescape")
-            for package in packages:
+            for package in (*self.last_packages, self.package):
                 if path in package.artifacts and package.hash(path) == sha256:
                     return package.content(path).decode()
-        recorded_texts = inputs.model.bases.values() if inputs.model else ()
-        return next((text for text in recorded_texts if text_digest(text.encode()) == sha256), None)
+        return None
 
     def desired_files(self) -> dict[str, DesiredFile]:
         """Return every file that the package should have, by key."""
@@ -98,6 +97,15 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             found[self.inputs.key(entry.target)] = DesiredFile(Role.IMPORT, name, entry.target_hash, at_hand)
         return found
 
+    def recorded_roles(self) -> dict[str, tuple[Role, str]]:
+        """Return role and owner of each recorded file, by key."""
+        found = {}
+        for key in self.inputs.recorded_files:
+            path = self.inputs.old_path(key)
+            artifact = next((p.artifacts[path] for p in self.last_packages if path in p.artifacts), None)
+            found[key] = (artifact.role, artifact.owner) if artifact else (role_of(path), "")
+        return found
+
     def desired_orders(self) -> dict[str, tuple[str, ...]]:
         """Return urdfsync's lines of each `package.order`, the parent's included, by key."""
         inputs, folder = self.inputs, self.inputs.robot.folder
@@ -106,80 +114,81 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             orders[inputs.files.key(folder.parent / "package.order")] = (folder.name,)
         return orders
 
+    def recorded_orders(self) -> dict[str, tuple[str, ...]]:
+        """Return the lines of each `package.order` that follow from the last complete build, by key."""
+        inputs, found = self.inputs, dict[str, tuple[str, ...]]()
+        if inputs.record is None or not inputs.record.snapshots:
+            return found
+        for package in self.last_packages:
+            found |= {inputs.old_key(path): names for path, names in package.orders.items()}
+        if "." in inputs.old_target.package:
+            above, _, name = inputs.old_folder.rpartition("/")
+            found[f"{above}/package.order" if above else "package.order"] = (name,)
+        return {key: names for key, names in found.items() if inputs.files.is_inside(key)}
+
     @cached_property
-    def rewritten(self) -> frozenset[tuple[str, str]]:
-        """Path and hash of the last texts of files that get another text or none; of records, only those that go."""
-        found, orphans = set[tuple[str, str | None]](), set[tuple[str, str | None]]()
-        recorded, now = self.inputs.recorded, self.package.artifacts
-        for key, record in recorded.files.items() if recorded else ():
-            path = self.inputs.old_path(key)
-            may_differ = path in self.changed or record.state in (RecordState.WAITING, RecordState.CONFLICT)
-            stays = path in now and (record.role is Role.RECORD or not may_differ)
-            if stays or record.role is Role.IMPORT:
-                continue
-            into = orphans if record.state is RecordState.ORPHAN and path not in now else found
-            into.add((path, record.written_hash))
-            if record.origin:
-                into.add((self.inputs.old_path(record.origin), record.base))
-        # orphans alone take no name away
-        return frozenset((path, sha256) for path, sha256 in (found | orphans if found else found) if sha256)
+    def renames(self) -> Mapping[ElementKey, str]:
+        """Elements that have another name since the last complete build: old element → new name."""
+        inputs = self.inputs
+        if inputs.last is None or inputs.record is None:
+            return {}
+        try:
+            return find_renames(inputs.domain, inputs.last.snapshot, inputs.record.open, self.now.snapshot)
+        except NO_MODEL:
+            return {}
 
     @cached_property
     def changes(self) -> Changes | None:
-        """What changed in the model since the last build; None if that is not known."""
-        return self._changes_since(self.inputs.last)
-
-    @cached_property
-    def changes_since_complete(self) -> Changes | None:
-        """What changed since the last build after which nothing waited; None if that is not known."""
-        complete = self.inputs.last_complete
-        return self.changes if complete is self.inputs.last else self._changes_since(complete)
-
-    def _changes_since(self, version: Version | None) -> Changes | None:
-        if version is None:
+        """What changed since the last complete build; None if that is not known."""
+        inputs = self.inputs
+        if inputs.last is None:
             return None
         try:
-            found = changes.compare(version, self.now, self.inputs.domain, self.inputs.robot.options)
+            found = changes.compare(inputs.last, self.now, inputs.domain, inputs.robot.options, self.renames)
         except NO_MODEL:
             return None
-        options = self.inputs.changed_options() if found.generator else ()
-        return msgspec.structs.replace(found, options=options) if options else found
+        if inputs.has_same_generator:
+            return found
+        return msgspec.structs.replace(found, generator=True, options=inputs.changed_options())
 
-    def renamed_files(self) -> dict[str, str]:
-        """Return new and old key of text files whose element was renamed, or whose package moved.
-
-        Also of those whose element an older urdfsync gave another identifier.
-        """
-        inputs, recorded = self.inputs, self.inputs.recorded
-        if recorded is None:
-            return {}
-        texts = {
-            inputs.old_path(key): record
-            for key, record in recorded.files.items()
-            if record.role is not Role.IMPORT and record.state is not RecordState.ORPHAN
-        }
-        last = self.last_package.artifacts if self.last_package else {}
-        before = {path: (a.owner, a.template) for path, a in last.items() if path in texts}
-        names: Mapping[str, Mapping[str, str]] = {}
-        if inputs.last and last:
-            names = inputs.domain.names(inputs.last.snapshot, Target(recorded.package, recorded.class_))
-        other = {
-            f"{kind.removesuffix('s')} {name}"
-            for kind, identifiers in recorded.names.items()
-            for name, identifier in identifiers.items()
-            if names.get(kind, {}).get(name, identifier) != identifier
-        }
-        if other:
-            written = {path: (r.owner, str(r.role)) for path, r in texts.items() if r.owner in other}
-            today = {path: (a.owner, str(a.role)) for path, a in last.items()}
-            for old_path, path in changes.moved_files(written, today, {}).items():
-                before[old_path] = (last[path].owner, last[path].template)
+    def moves(self) -> dict[str, str]:
+        """Return new and old key of text files whose element was renamed, or whose package moved."""
+        inputs, last = self.inputs, self.last_package
+        texts = {inputs.old_path(key) for key in inputs.recorded_files}
+        before = {path: (a.owner, a.template) for path, a in last.artifacts.items() if path in texts} if last else {}
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
-        if before == now and inputs.folder == inputs.old_folder and not any(r.origin for r in texts.values()):
+        if before == now and inputs.folder == inputs.old_folder:
             return {}
-        renamed = changes.moved_files(before, now, self.changes.renames if self.changes else {})
-        targets = {inputs.old_key(path): inputs.key(renamed.get(path, path)) for path in texts}
-        return renamed_files(recorded.files, targets, {inputs.key(path) for path in now})
+        renamed = changes.moved_files(before, now, self.renames)
+        pairs = ((inputs.key(renamed.get(path, path)), inputs.old_key(path)) for path in texts)
+        return {new: old for new, old in pairs if new != old and inputs.path(new) in now}
+
+
+def find_renames(domain: Domain, recorded: Snapshot, open_: Open | None, now: Snapshot) -> dict[ElementKey, str]:
+    """Return elements that have another name since the last complete build: old element → new name.
+
+    While something is open, an element may get another name in one export and other numbers in another. So the renames
+    up to the model last seen are followed by those from it.
+    """
+    direct = dict(domain.renames(recorded, now)) if recorded != now else {}
+    if open_ is None or not open_.seen:
+        return direct
+    later = domain.renames(open_.seen, now) if open_.seen != now else {}
+    there, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
+    followed = {}
+    for kind, name in _elements(domain, recorded):
+        last_name = open_.renamed.get((kind, name), name)
+        new_name = later.get((kind, last_name), last_name)
+        if (kind, last_name) in elements and (kind, new_name) in there:
+            followed[kind, name] = new_name
+    taken = {(kind, name) for (kind, _), name in followed.items()}
+    more = {key: name for key, name in direct.items() if key not in followed and (key[0], name) not in taken}
+    return {key: name for key, name in (followed | more).items() if name != key[1]}
+
+
+def _elements(domain: Domain, snapshot: Snapshot) -> Iterator[ElementKey]:
+    for kind, identifiers in domain.names(snapshot, Target("Package", "Model")).items():
+        yield from ((kind.removesuffix("s"), name) for name in identifiers)
 
 
 def generate_robot(inputs: Inputs) -> Generation:
@@ -187,39 +196,51 @@ def generate_robot(inputs: Inputs) -> Generation:
 
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
-    domain, robot, options, recorded = inputs.domain, inputs.robot, inputs.options, inputs.recorded
+    domain, robot, options = inputs.domain, inputs.robot, inputs.options
     snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source), options.cache)
     found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = imports.bring_in(
         domain,
         inputs.dependencies(snapshot, reading.lines),
-        inputs.recorded_imports(),
+        inputs.recorded_imports,
         shown(robot.source),
         options.full,
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
-    now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
-    last_package, recovered = None, []
-    if inputs.last and recorded:  # first: the cache keeps one package, and that of now takes its place
-        with contextlib.suppress(*NO_MODEL):
-            last_package = _package(inputs, inputs.last, Target(recorded.package, recorded.class_))
-    package = _package(inputs, now, robot.target)
-    for model in inputs.recovered.models.values() if inputs.recovered and recorded else ():
-        with contextlib.suppress(*NO_MODEL):
-            recovered.append(_package(inputs, inputs.version(model), robot.target))
+    now = Version(snapshot, imported.imports)
+    last_packages = tuple(_recorded_packages(inputs))  # first: the cache keeps one package: that of now takes its place
+    package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
-    if last_package and recorded and recorded.generator == inputs.generator and not options.full:
-        changed = package.changed_since(last_package)
-    found = (*found, *imported.diagnostics)
-    return Generation(inputs, now, reading.lines, found, imported, package, last_package, tuple(recovered), changed)
+    if (
+        inputs.record
+        and inputs.record.open is None
+        and last_packages
+        and inputs.has_same_generator
+        and not options.full
+    ):
+        changed = package.changed_since(last_packages[0])
+    return Generation(
+        inputs, now, reading.lines, (*found, *imported.diagnostics), imported, package, last_packages, changed
+    )
 
 
-def _package(inputs: Inputs, version: Version, target: Target) -> Package:
+def _recorded_packages(inputs: Inputs) -> Iterable[Package]:
+    """Yield the package of each model that may be that of the last complete build."""
+    record = inputs.record
+    if record is None or record.generator.domain != inputs.robot.domain:
+        return
+    for snapshot in record.snapshots:
+        with contextlib.suppress(*NO_MODEL):
+            options = inputs.recorded_options or inputs.robot.options
+            yield _package(inputs, inputs.version(record, snapshot), inputs.old_target, options)
+
+
+def _package(inputs: Inputs, version: Version, target: Target, options: Any) -> Package:
     """Generate the package of a model. The daemon keeps the last one, which the next build compares with.
 
     Saves a fifth of a build of 1,000 links in the daemon.
     """
-    imported, options = version.imports or {}, inputs.robot.options
+    imported = version.imports or {}
 
     def make() -> Package:
         return generate(inputs.domain, version.snapshot, imported, target, options, inputs.templates)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +16,6 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
 from urdfsync.engine import ros_packages
 from urdfsync.files import digest
-from urdfsync.state.manifest import DependencyRecord
-from urdfsync.state.modelfile import ConversionFacts
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
@@ -37,14 +34,24 @@ _HINTS = {
 class Recorded(msgspec.Struct, frozen=True):
     """What is known of the imports of the last build, and how their copies in the package are read."""
 
-    records: Mapping[str, DependencyRecord]
-    facts: Mapping[str, ConversionFacts]
+    imports: Mapping[str, tuple[Import, ...]]
+    """Several for one file if git has united two states: the one that its copy is of counts."""
     copy: Callable[[str], bytes | None]
     """Content of an imported file, by its target."""
-    bases: Mapping[str, str | None]
+    bases: Mapping[str, Collection[str]] = {}
     """Hashes of what was written last, by target."""
     moved: bool = False
     """Whether the package has another folder now."""
+
+    def find(self, key: str) -> tuple[Import | None, bytes | None, str]:
+        """Return what is recorded of a dependency, its copy in the package, and the copy's hash."""
+        copy, sha256 = None, ""
+        for one in self.imports.get(key, ()):
+            copy = self.copy(one.target)
+            sha256 = "" if copy is None else digest(copy)
+            if sha256 == one.target_hash:
+                return one, copy, sha256
+        return next(iter(self.imports.get(key, ())), None), copy, sha256
 
 
 class Imported(msgspec.Struct):
@@ -52,7 +59,6 @@ class Imported(msgspec.Struct):
 
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
-    records: dict[str, DependencyRecord] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
     hashes_only: set[str] = msgspec.field(default_factory=set)
     """Targets of which nobody has the bytes that should be there: the copy has others, and the source is gone."""
@@ -60,37 +66,8 @@ class Imported(msgspec.Struct):
     def add(self, dependency: Dependency, entry: Import, content: bytes | None = None) -> None:
         """Add an import. `content` is what is to be written; None if the copy in the package serves."""
         self.imports[dependency.key] = entry
-        hashes = entry.source_hash, entry.target_hash
-        self.records[dependency.key] = DependencyRecord(dependency.uri, entry.target, *hashes, entry.converter)
         if content is not None:
             self.contents[entry.target] = content
-
-
-def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
-    """Whether every dependency is as it was, as far as it can be found on this machine."""
-    if {dependency.key for dependency in dependencies} != records.keys():
-        return False
-    for dependency in dependencies:
-        record = records[dependency.key]
-        if (record.uri, record.target) != (dependency.uri, dependency.target):
-            return False
-        found = _find(dependency)
-        known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
-        if isinstance(found, tuple) and (digest(found[1]), converter) not in known:
-            return False
-    return True
-
-
-def reminder(
-    dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], source: str
-) -> tuple[Diagnostic, ...]:
-    """One note on what `bring_in` has left out, for a build that finds nothing to do and so imports nothing."""
-    nouns = Counter(d.noun for d in dependencies if d.key in records and records[d.key].target_hash is None)
-    if not nouns:
-        return ()
-    parts = [f"{count} {noun if count == 1 else _plural(noun)}" for noun, count in nouns.items()]
-    message, hint = f"{' and '.join(parts)} left out", "`urdfsync build --full` says which, and why"
-    return (Diagnostic(Severity.NOTE, "left-out", message, source, hint=hint),)
 
 
 def _plural(noun: str) -> str:
@@ -108,29 +85,22 @@ def bring_in(
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
     A conversion of the last build serves again if it has the same input, unless `again`. What can't be found or read is
-    left out, or its recorded copy serves. What the last build did not find either is no warning again, but a note.
+    left out, or its recorded copy serves.
     Raises StateError if a copy must serve of which the recorded facts are lost.
     """
     result = Imported()
-    known: list[Dependency] = []
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
-        key, noun, record = dependency.key, dependency.noun, recorded.records.get(dependency.key)
-        trouble, unreadable = _import(domain, dependency, recorded, source, again, result)
-        if dependency.guessed and (unreadable or trouble is None):
+        key, noun = dependency.key, dependency.noun
+        trouble, is_read = _import(domain, dependency, recorded, source, again, result)
+        if dependency.guessed and is_read:
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
         if trouble is None:
             continue
         trouble = _keep_copy(dependency, recorded, result, trouble)
-        if unreadable:  # remembered, so that it is tried again only if it changes
-            facts = {"unreadable": unreadable, "unreadable_by": domain.converter}
-            result.records[key] = msgspec.structs.replace(result.records[key], **facts)
-        elif record and record.target_hash is None and record.unreadable is None and not again:
-            known.append(dependency)
-            continue
         # one warning for all files of a package, whose hint is the same
         own = key if trouble.code.startswith(f"{noun}-unreadable") else ""
         failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
@@ -147,52 +117,47 @@ def bring_in(
         hint = "rename the folder, or add that of the right package to `package_paths`"
         line = min(dependency.line for dependency in alike)
         result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
-    result.diagnostics += reminder(known, result.records, source)
     return result
 
 
 def _import(
     domain: Domain, dependency: Dependency, recorded: Recorded, source: str, again: bool, result: Imported
-) -> tuple[Diagnostic | None, str]:
-    """Add one import to the result; else return what is wrong, and the hash of a file that is there but unreadable."""
+) -> tuple[Diagnostic | None, bool]:
+    """Add one import to the result; else return what is wrong. Also whether its source could be read."""
     target, noun, found = dependency.target, dependency.noun, _find(dependency)
 
     def unreadable(message: str, hint: str) -> Diagnostic:
         return Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, source, dependency.line, hint=hint)
 
     if found is None:
-        return _not_found([dependency], source, dependency.line), ""
+        return _not_found([dependency], source, dependency.line), False
     if isinstance(found, OSError):
         message = f"{_named([dependency])} can't be read: {found.strerror}"
-        return unreadable(message, f"put a {noun} in its place that can be"), ""
+        return unreadable(message, f"put a {noun} in its place that can be"), False
     path, content = found
     sha256 = digest(content)
-    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
-    made_from = {(one.source_hash, one.converter) for one in (record, facts) if one}
-    needed = _needed(dependency, facts)
-    if record and needed is not None and not again and made_from == {(sha256, domain.converter)}:
-        copy = recorded.copy(record.target)
-        if copy is not None and digest(copy) == record.target_hash:
+    record, copy, copied = recorded.find(dependency.key)
+    if record and not again and (record.source_hash, record.converter) == (sha256, domain.converter):
+        facts = _needed(dependency, record)
+        if facts is not None and copied == record.target_hash:
             moves = recorded.moved or record.target != target
-            entry = Import(target, sha256, record.target_hash, domain.converter, needed)
+            entry = msgspec.structs.replace(record, target=target, facts=facts)
             result.add(dependency, entry, copy if moves else None)
-            return None, ""
+            return None, True
     if content.startswith(_POINTER):
         message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
-        return unreadable(message, "get the file itself with `git lfs pull`"), sha256
+        return unreadable(message, "get the file itself with `git lfs pull`"), True
     try:
         conversion = domain.convert(dependency, path, content)
     except SourceError as error:
-        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), sha256
+        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), True
     entry = Import(target, sha256, digest(conversion.content), domain.converter, conversion.facts)
     result.add(dependency, entry, conversion.content)
-    return None, ""
+    return None, True
 
 
-def _needed(dependency: Dependency, recorded: ConversionFacts | None) -> Mapping[str, Any] | None:
+def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | None:
     """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
-    if recorded is None:
-        return None
     if not dependency.facts:
         return recorded.facts
     found = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
@@ -222,25 +187,22 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
 
     `trouble` says what is wrong with the source. Returns it with what follows from it.
     """
-    record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
-    copy = recorded.copy(record.target) if record and record.target_hash else None
+    record, copy, copied = recorded.find(dependency.key)
     if record is None or copy is None:
-        result.records[dependency.key] = DependencyRecord(dependency.uri, dependency.target)
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    needed = _needed(dependency, facts)
-    if facts is None or needed is None or facts.source_hash != record.source_hash or record.source_hash is None:
+    facts = _needed(dependency, record)
+    if facts is None:
         message = f"{trouble.message}, and not all is recorded of its imported copy that is needed"
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
-    copied = digest(copy)
-    written = copied if copied == recorded.bases.get(record.target) else record.target_hash or copied
-    converter = facts.converter if written == record.target_hash else None  # an older copy, which was put back
+    written = copied if copied in recorded.bases.get(record.target, ()) else record.target_hash
+    converter = record.converter if written == record.target_hash else None  # an older copy, which was put back
     moves = recorded.moved or record.target != dependency.target
     if moves:
         written = copied
     elif written != copied:
         result.hashes_only.add(dependency.target)
-    entry = Import(dependency.target, record.source_hash, written, converter, needed)
+    entry = Import(dependency.target, record.source_hash, written, converter, facts)
     result.add(dependency, entry, copy if moves else None)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")

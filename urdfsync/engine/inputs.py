@@ -1,8 +1,7 @@
-"""What a build of one robot starts from: configuration, source, templates, recorded state, and the files on disk."""
+"""What a build of one robot starts from: configuration, source, templates, the record, and the files on disk."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -12,19 +11,16 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Role, Snapshot, Target, Templates, Version
+from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
-from urdfsync.files import digest, shown, text_digest
-from urdfsync.state import manifest, repair
+from urdfsync.files import shown
 from urdfsync.state.bases import BaseStore
-from urdfsync.state.manifest import Generator, Manifest
-from urdfsync.state.modelfile import Model
-from urdfsync.state.record import FileRecord
-from urdfsync.state.store import State, Store
+from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
+from urdfsync.state.store import Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """Errors that a domain raises for a recorded snapshot that is none of its own."""
@@ -40,26 +36,14 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     files: PackageFiles
     parents: Parents
     store: Store
-    state: State | None
-    """What the last build recorded; None if there was none, or it is lost."""
+    record: Record | None
+    """The last complete build, and what is open since; None if there is no record, or it is lost."""
     former_name: str | None
     """Name of the robot in the last build, if it has another one now."""
-    recovered: repair.RecoveredState | None
-    """What `--repair` could read of a broken state."""
     templates: Templates
     content: bytes
     """Bytes of the source."""
     generator: Generator
-
-    @cached_property
-    def recorded(self) -> Manifest | None:
-        """The manifest of the last build; None if there was none."""
-        return self.state.manifest if self.state else None
-
-    @cached_property
-    def model(self) -> Model | None:
-        """What the last build recorded of its model; None if there was none, or it is lost."""
-        return self.state.model if self.state else None
 
     @cached_property
     def folder(self) -> str:
@@ -69,27 +53,18 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def old_folder(self) -> str:
         """Key of the package's folder in the last build."""
-        return self.recorded.folder if self.recorded else self.folder
+        return self.record.folder if self.record else self.folder
 
     @cached_property
-    def own_folders(self) -> tuple[str, ...]:
-        """Keys of the folders in which a build may delete and move files: the package's, now and in the last build.
+    def old_target(self) -> Target:
+        """Package and class of the last build."""
+        return Target(self.record.package, self.record.class_) if self.record else self.robot.target
 
-        A former folder counts only if a build in this checkout wrote it: a manifest may be a stranger's.
-        """
-        manifests = self.recovered.manifests if self.recovered else filter(None, [self.recorded])
-        former = {manifest.folder for manifest in manifests} - {self.folder}
-        if former:
-            former &= self.store.written_folders(self.former_name or self.robot.name)
-        return self.folder, *sorted(former)
-
-    def own(self, recorded: Manifest) -> tuple[dict[str, FileRecord], dict[str, tuple[str, ...]]]:
-        """Return the recorded files that a build may delete and move, and the lines that it may take out of orders."""
-        inside, is_inside = tuple(f"{folder}/" for folder in self.own_folders), self.files.is_inside
-        around = "" if recorded.folder in self.own_folders else inside  # the parent's `package.order`, too
-        files = {key: one for key, one in recorded.files.items() if key.startswith(inside) and is_inside(key)}
-        orders = {key: names for key, names in recorded.orders.items() if key.startswith(around) and is_inside(key)}
-        return files, orders
+    @cached_property
+    def recorded_files(self) -> Mapping[str, FileRecord]:
+        """The recorded files by key; those that a build may not touch are left out."""
+        found = self.record.files if self.record else {}
+        return {key: one for key, one in found.items() if self.files.is_inside(key)}
 
     def key(self, path: str) -> str:
         """Return the key of a file by its path below the package."""
@@ -123,94 +98,69 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """The texts that urdfsync wrote last, as far as they are stored."""
         return self.store.bases(self.former_name or self.robot.name)
 
-    @cached_property
-    def source_hash(self) -> str:
-        """Text hash of the source."""
-        return text_digest(self.content)
+    @property
+    def has_same_generator(self) -> bool:
+        """Whether what turned the model into files is what it was in the last complete build."""
+        record = self.record
+        return bool(
+            record
+            and not record.is_ambiguous
+            and record.generator == self.generator
+            and self.old_target == self.robot.target
+            and record.options == option_values(self.robot.options)
+        )
 
     @cached_property
     def last(self) -> Version | None:
-        """The model of the last build; None if there was none, or it is lost."""
-        if self.state is None or self.model is None or not self.state.intact:
+        """The model of the last complete build; None if there was none, or it is lost."""
+        if self.record is None or self.record.snapshot is None:
             return None
-        return self.version(self.model)
+        return self.version(self.record, self.record.snapshot)
+
+    def version(self, record: Record, snapshot: Snapshot) -> Version:
+        """Return a recorded model with its imports."""
+        imported = {
+            key: found
+            for key, known in record.imports.items()
+            if (found := known[0] if len(known) == 1 else self.recorded_imports.find(key)[0])
+        }
+        return Version(snapshot, imported, self.recorded_options)
 
     @cached_property
-    def last_complete(self) -> Version | None:
-        """The model of the last build after which nothing waited; without imports if that is not the last build."""
-        if self.last is None or self.model is None or self.model.since is None:
-            return self.last
-        return Version(self.model.since, None, self.last.generator, self.last.options)
-
-    @property
-    def complete_revision(self) -> int | None:
-        """The domain's revision in the last build after which nothing waited; None if there was none."""
-        since = self.model.since_revision if self.model else msgspec.UNSET
-        if since is not msgspec.UNSET:
-            return since
-        return self.recorded.generator.revision if self.recorded else None
-
-    def version(self, model: Model) -> Version:
-        """Return a recorded model with the imports that the manifest has of it."""
-        dependencies = self.recorded.dependencies if self.recorded else {}
-        imported = {
-            key: Import(record.target, facts.source_hash, record.target_hash or "", facts.converter, facts.facts)
-            for key, facts in model.imports.items()
-            if (record := dependencies.get(key)) is not None
-        }
-        generator = self.recorded.generator.fingerprint if self.recorded else ""
-        return Version(model.snapshot, imported, generator, self._recorded_options)
-
-    @property
-    def _recorded_options(self) -> Any:
-        """The options of the last build; None if they are not recorded, or not as this program has them."""
-        recorded = self.recorded
-        if recorded is None or recorded.options is None or recorded.generator.domain != self.robot.domain:
+    def recorded_options(self) -> Any:
+        """The options of the last complete build; None if they are not as this program has them."""
+        if self.record is None or self.record.generator.domain != self.robot.domain:
             return None
         try:
-            return msgspec.convert(recorded.options, self.domain.options)
+            return msgspec.convert(self.record.options, self.domain.options)
         except msgspec.ValidationError:
             return None
-
-    def heading(self, model_hash: str) -> Manifest:
-        """Return the manifest of this build without its lists; `model_hash` is the text hash of the recorded model."""
-        target = self.robot.target
-        return Manifest(
-            package=target.package,
-            class_=target.name,
-            folder=self.folder,
-            source=manifest.Source(self.robot.source_text, self.source_hash, model_hash),
-            generator=self.generator,
-            options=manifest.option_values(self.robot.options),
-        )
 
     def dependencies(self, snapshot: Snapshot, lines: Mapping[str, int]) -> Sequence[Dependency]:
         """Return the files that a model refers to."""
         lookup = Lookup(self.robot.source, self.robot.package_paths + self.options.package_paths)
         return imports.find_dependencies(self.domain, snapshot, lookup, self.robot.options, lines)
 
+    @cached_property
     def recorded_imports(self) -> imports.Recorded:
-        """Return the imports of the last build, and how their copies in the package are read."""
-        recorded = self.recorded or self.heading("")
-        imported = (key for key, record in recorded.files.items() if record.role is Role.IMPORT)
+        """The imports of the last build, and how their copies in the package are read."""
+        bases = {self.old_path(key): one.hashes for key, one in self.recorded_files.items()}
         return imports.Recorded(
-            records=recorded.dependencies,
-            facts=self.model.imports if self.model else {},
+            self.record.imports if self.record else {},
             copy=lambda target: self.files.read(self.old_key(target)),
-            bases={self.old_path(key): recorded.files[key].base for key in imported},
+            bases={path: hashes for path, hashes in bases.items() if path.startswith(RESOURCES)},
             moved=self.old_folder != self.folder,
         )
 
     def changed_options(self) -> tuple[str, ...]:
         """Return the options that are others than in the last build; none if more than options changed, or nothing."""
-        before, recorded = self._recorded_options, self.recorded
-        if before is None or recorded is None or recorded.generator.revision != self.domain.revision:
+        before, record = self.recorded_options, self.record
+        if before is None or record is None or record.generator != self.generator:
             return ()
-        robot, revision = self.robot, self.domain.revision
-        if _fingerprint(robot.target, before, revision, self.templates.digest) != recorded.generator.fingerprint:
+        if self.old_target != self.robot.target:
             return ()
-        names = robot.options.__struct_fields__
-        return tuple(name for name in names if getattr(before, name) != getattr(robot.options, name))
+        names = self.robot.options.__struct_fields__
+        return tuple(name for name in names if getattr(before, name) != getattr(self.robot.options, name))
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
@@ -220,64 +170,33 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
     around = parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root), files.key(robot.folder)
-    state, recovered = _load(store, files, robot.name, options)
-    former = None
-    if state is None:  # was it built into this folder by another name, which is no longer configured?
+    record, former = store.load(robot.name, strict=not options.full), None
+    if record is None:  # was it built into this folder by another name, which is no longer configured?
         former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
-        state = store.load(former) if former else None
+        record = store.load(former) if former else None
     templates = source.templates(config, robot, domain)
     content = source.read_source(config, robot)
-    fingerprint = _fingerprint(robot.target, robot.options, domain.revision, templates.digest)
-    generator = Generator(robot.domain, domain.revision, fingerprint)
-    recorded = state.manifest.generator if state else generator
-    if recorded.domain == robot.domain and recorded.revision > domain.revision:
+    generator = Generator(robot.domain, domain.revision, templates.digest)
+    if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
-        file = shown(store.folder / "robots" / f"{robot.name}.toml")
+        file = shown(store.path(robot.name))
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
-    return Inputs(
-        config, robot, options, domain, files, around, store, state, former, recovered, templates, content, generator
-    )
+    return Inputs(config, robot, options, domain, files, around, store, record, former, templates, content, generator)
 
 
-def _load(
-    store: Store, files: PackageFiles, robot: str, options: BuildOptions
-) -> tuple[State | None, repair.RecoveredState | None]:
-    """Load the recorded state; with `--repair`, what is left of a broken one."""
-    try:
-        if options.cache is None:
-            return store.load(robot), None
-        return options.cache.get("state", store.texts(robot), lambda: store.load(robot)), None
-    except StateError:
-        if not options.repair:
-            raise
-    manifest_file, model_file = map(shown, store.paths(robot))
-    recovered = repair.recover(*store.texts(robot), manifest_file, model_file)
-    mine = {key: files.hash(key, role) for key, role in recovered.roles.items()}
-    recorded = repair.rebuilt(recovered, mine, {})
-    if recorded is None:
-        return None, recovered
-    return State(recorded, recovered.model(recorded), intact=False), recovered
-
-
-def _fingerprint(target: Target, options: Any, revision: int, templates: str) -> str:
-    """Hash all that shapes the output beside the model; `templates` is the hash of the templates."""
-    facts = {
-        "class": target.name,
-        "options": msgspec.to_builtins(options),
-        "package": target.package,
-        "revision": revision,
-        "templates": templates,
-    }
-    return digest(json.dumps(facts, sort_keys=True).encode())
+def option_values(options: msgspec.Struct) -> dict[str, Any]:
+    """Return a domain's options as they are recorded: plain data, without those that are None."""
+    values = msgspec.json.decode(msgspec.json.encode(options))
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
-    """Yield robots that have a state and are not configured, with the key of their folder; None if it can't be read."""
+    """Yield robots with a record that are not configured, and the key of their folder; None if it can't be read."""
     known = {robot.name.casefold() for robot in config.robots}
     for name in store.names():
         if name.casefold() not in known:
             try:
-                state = store.load(name)
+                record = store.load(name)
             except UrdfsyncError:
-                state = None
-            yield name, state.manifest.folder if state else None
+                record = None
+            yield name, record.folder if record else None

@@ -36,10 +36,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Where to look for packages after the configured folders."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
-    repair: bool = False
-    """Rebuild a recorded state that can't be read, from what is left of it and from the files."""
     choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
-    """The user's decisions about files in conflict, by their path in the manifest."""
+    """The user's decisions about files in conflict, by their keys."""
     jobs: int | None = None
     """Processes that may work at once; None for one per core."""
     executor: str = ""

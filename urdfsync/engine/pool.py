@@ -27,7 +27,7 @@ from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
-from urdfsync.engine.plan import plan_if_current, plan_robot
+from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
 from urdfsync.extras import install_command
 
@@ -48,8 +48,6 @@ class Pool:
 
     def __init__(self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> None:
         self._config, self._robots, self._options = config, robots, options
-        self._current: dict[str, Plan] = {}
-        """Plans of robots for which there is nothing to generate, made by this process."""
         self._is_started = False
         self._executor: Executor | None = None
         self._futures: dict[str, Future[Plan]] = {}
@@ -82,20 +80,11 @@ class Pool:
             self._start()
         if robot.name in self._futures or robot in self._waiting:
             return self._result(robot)
-        return self._current.pop(robot.name, None) or plan_robot(self._config, robot, self._options)
+        return plan_robot(self._config, robot, self._options)
 
     def _start(self) -> None:
         """Find the stale robots, and start workers if they are many."""
-        stale = []
-        for robot in self._robots:
-            try:
-                plan = plan_if_current(self._config, robot, self._options)
-            except (UrdfsyncError, OSError):
-                continue  # told when it is planned in its turn
-            if plan is None:
-                stale.append(robot)
-            else:
-                self._current[robot.name] = plan
+        stale = list(self._robots)
         workers = self._options.jobs or (_CLUSTER_WORKERS if self._executor else machine.cores())
         if self._executor is None:
             if len(stale) < LEAST_STALE:

@@ -27,12 +27,8 @@ class Rendering:
         """The source's bytes."""
         self._templates = inputs.templates
         self._imports: Mapping[str, Import]
-        last, recorded = inputs.last, inputs.recorded
-        if last and recorded and inputs.heading(recorded.source.snapshot).source == recorded.source:
-            self.snapshot, self._imports = last.snapshot, last.imports or {}
-        else:
-            generation = generate_robot(inputs)
-            self.snapshot, self._imports = generation.now.snapshot, generation.imported.imports
+        generation = generate_robot(inputs)
+        self.snapshot, self._imports = generation.now.snapshot, generation.imported.imports
         source.check_options(config, robot, self.domain, self.snapshot)
 
     def package(self, content: bytes) -> Mapping[str, bytes]:

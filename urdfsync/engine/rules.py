@@ -7,7 +7,6 @@ written. All are compared by hashes, never by times. Everything here is pure.
 from __future__ import annotations
 
 import enum
-import hashlib
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TypeAlias
 
@@ -15,7 +14,7 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Kind
-from urdfsync.state.record import Choice, FileRecord, RecordState
+from urdfsync.state.record import Choice, FileRecord, sides_hash
 
 
 class DesiredFile(msgspec.Struct, frozen=True):
@@ -31,7 +30,7 @@ class DesiredFile(msgspec.Struct, frozen=True):
 class ClassFolder(enum.Enum):
     """Stands for the hash of a missing file whose class the user has made a folder of (`X/package.mo`).
 
-    It is no string, so that no hash in a stranger's manifest is equal to it.
+    It is no string, so that no hash in a stranger's record is equal to it.
     """
 
     CLASS_FOLDER = enum.auto()
@@ -40,6 +39,8 @@ class ClassFolder(enum.Enum):
 CLASS_FOLDER = ClassFolder.CLASS_FOLDER
 OnDisk: TypeAlias = str | ClassFolder | None
 """Hash of what is at a path; None for nothing."""
+
+_NEVER_WRITTEN = FileRecord()
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
@@ -59,101 +60,84 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
     return Kind.KEEP if generated == base else Kind.CONFLICT
 
 
-def renamed_files(
-    recorded: Mapping[str, FileRecord], targets: Mapping[str, str], desired: Collection[str]
-) -> dict[str, str]:
-    """Return new and old path of the files that belong elsewhere now.
-
-    `targets` has, for recorded paths, the path of the element's file now. A file that waits for a conflict still is at
-    its origin; the record of the origin itself then describes another element's file, or an older one.
-    """
-    waiting = {record.origin for record in recorded.values() if record.origin}
-    found = {}
-    for path, record in recorded.items():
-        if path in targets and (record.origin or path not in waiting):
-            old, new = record.origin or path, targets[path]
-            if new in desired and new != old:
-                found[new] = old
-    return found
-
-
 def decide(
     recorded: Mapping[str, FileRecord],
     desired: Mapping[str, DesiredFile],
     on_disk: Mapping[str, OnDisk],
     moves: Mapping[str, str],
+    known: Mapping[str, tuple[Role, str]],
 ) -> tuple[Action, ...]:
     """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
 
-    `moves` has new and old path of files whose element was renamed, see `renamed_files`. A file that the user edited
-    goes to its new path (MOVE, and LEAVE at the old one), unless something else of the user's is there. A file that the
-    user moved there by hand is compared with what was written at the old path.
+    `moves` has new and old path of files whose element was renamed. A file that the user edited goes to its new path
+    (MOVE, and LEAVE at the old one), unless something else of the user's is there. `known` has role and owner of
+    recorded files.
     """
-    # what urdfsync wrote last of each file that moves; it may have waited before, to move here or to another place
-    waiting = {record.origin: record for record in recorded.values() if record.origin}
-    bases: dict[str, str | None] = {}
-    for to, place in moves.items():
-        waited = recorded[to] if to in recorded and recorded[to].origin == place else waiting.get(place)
-        bases[to] = waited.base if waited else recorded[place].written_hash if place in recorded else None
-    # what is at the old and the new places of the files that move: ours is what urdfsync wrote at that very place
-    ends = {path: mine for path in {*moves, *moves.values()} if (mine := on_disk.get(path)) is not None}
-    hashes = {path: mine for path, mine in ends.items() if isinstance(mine, str)}
-    ours = {path: hash_ for path, hash_ in hashes.items() if path in recorded and recorded[path].written_hash == hash_}
-    taken = ends.keys() - ours.keys()
-    edited = {new: old for new, old in moves.items() if bases[new] and hashes.get(old) not in (None, bases[new])}
-    # an edited file that can't move blocks the one that would take its place, and so on
-    while blocked := edited.keys() & taken - set(edited.values()):
-        edited = {new: old for new, old in edited.items() if new not in blocked}
-    moved_away = set(edited.values())
-
+    edited = _edited_moves(recorded, on_disk, moves)
+    left = set(edited.values())
     actions = []
     for path in sorted(recorded.keys() | desired.keys()):
-        record, target, mine = recorded.get(path), desired.get(path), on_disk.get(path)
-        base, generated = record.written_hash if record else None, target.hash if target else None
-        old, origin = moves.get(path) if target else None, None
+        record, target = recorded.get(path, _NEVER_WRITTEN), desired.get(path)
+        mine, generated = on_disk.get(path), target.hash if target else None
+        base, origin = record.base(mine, generated), None
+        old = moves.get(path) if target else None
+        there = on_disk.get(old) if old else None
+        old_base = recorded[old].base(there, generated) if old else None
         if old and path in edited:
-            kind, origin, base, mine = Kind.MOVE, old, bases[path], hashes[old]
-        elif old and bases[path] and hashes.get(old) == bases[path] and path not in taken and mine != generated:
-            kind, origin, base = Kind.CREATE if mine is None else Kind.UPDATE, old, bases[path]
-        elif path in moved_away and target is None:
+            kind, origin, base, mine = Kind.MOVE, old, old_base, there
+        elif old and old_base and there == old_base and mine != generated and _is_free(record, mine):
+            kind, origin, base = Kind.CREATE if mine is None else Kind.UPDATE, old, old_base
+        elif path in left and target is None:
             kind, mine = Kind.LEAVE, None
         else:
-            if path in moved_away:
+            if path in left:
                 base, mine = None, None
-            elif old and old not in hashes and path in taken & hashes.keys() and (not record or record.origin == old):
-                base = bases[path] or base  # the user moved it by hand
+            elif old_base and there is None and not _is_free(record, mine):
+                base = old_base  # the user moved the file there by hand
             kind = decide_file(base, mine, generated)
-            if kind is Kind.FORGET and base is None:
-                continue  # it was never written, and is not wanted any more
-        file, at_hand = target or recorded[path], target is None or target.at_hand
-        known = mine if isinstance(mine, str) else None
-        action = Action(path, kind, file.role, file.owner, base, generated, origin, mine=known, at_hand=at_hand)
-        if origin and path in ours:  # remembered in case that the file has to wait
-            action = msgspec.structs.replace(action, replaced_hash=ours[path])
-        actions.append(action)
+            if kind is Kind.DELETE and record.is_ambiguous:
+                kind = Kind.ORPHAN
+        if kind is Kind.FORGET and (record.is_users or not record.hashes):
+            continue  # it was never written, and is not wanted any more; or it is the user's
+        role, owner = (target.role, target.owner) if target else known[path]
+        at_hand = target is None or target.at_hand
+        on_disk_hash = mine if isinstance(mine, str) else None
+        actions.append(Action(path, kind, role, owner, base, generated, origin, mine=on_disk_hash, at_hand=at_hand))
     return tuple(actions)
 
 
-def keep_needed(
-    actions: Iterable[Action], has_classes: Callable[[str, Collection[str]], bool], used: Collection[str] = ()
-) -> tuple[Action, ...]:
-    """Keep what the user's files need: the record of an edited model, and the `package.mo` of a folder with classes.
+def _edited_moves(
+    recorded: Mapping[str, FileRecord], on_disk: Mapping[str, OnDisk], moves: Mapping[str, str]
+) -> dict[str, str]:
+    """Return new and old path of the edited files that move with their elements."""
+    edited = {
+        new: old
+        for new, old in moves.items()
+        if isinstance(mine := on_disk.get(old), str) and recorded[old].hashes and mine not in recorded[old].hashes
+    }
+    taken = {path for path in moves if not _is_free(recorded.get(path, _NEVER_WRITTEN), on_disk.get(path))}
+    # an edited file that can't move blocks the one that would take its place, and so on
+    while blocked := edited.keys() & taken - set(edited.values()):
+        edited = {new: old for new, old in edited.items() if new not in blocked}
+    return edited
 
-    The record of a model that the user keeps for himself goes with the model. `used` are records that a text of the
-    user's mentions. `has_classes(path, gone)` tells whether the folder of the `package.mo` at `path` holds classes
-    other than the files in `gone`.
+
+def _is_free(record: FileRecord, mine: OnDisk) -> bool:
+    """Whether nothing of the user's is at a path: no file, or one that urdfsync wrote there."""
+    return mine is None or mine in record.hashes
+
+
+def keep_needed(
+    actions: Iterable[Action], has_classes: Callable[[str, Collection[str]], bool], used: Collection[str]
+) -> tuple[Action, ...]:
+    """Keep what the user's files need: the records in `used`, and the `package.mo` of a folder with classes.
+
+    `has_classes(path, gone)` tells whether the folder of the `package.mo` at `path` holds classes other than the files
+    in `gone`.
     """
     actions = tuple(actions)
-    models = [action for action in actions if action.role is Role.MODEL]
-    orphans = {action.owner for action in models if action.kind is Kind.ORPHAN}
-    released = {action.owner for action in models if action.released} - orphans
     gone = {action.path: action for action in actions if action.kind in DELETES}
-    kept = {}
-    for path, action in gone.items():
-        if action.role is Role.RECORD and action.owner in released:
-            kept[path] = msgspec.structs.replace(action, kind=Kind.FORGET, choice=Choice.KEEP)
-        elif action.role is Role.RECORD and action.kind is Kind.DELETE and (action.owner in orphans or path in used):
-            kept[path] = msgspec.structs.replace(action, kind=Kind.NEEDED)
+    kept = {path: msgspec.structs.replace(gone[path], kind=Kind.NEEDED) for path in used if path in gone}
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
         if has_classes(path, gone.keys() - kept.keys()):
@@ -161,11 +145,11 @@ def keep_needed(
     return tuple(kept.get(action.path, action) for action in actions)
 
 
-def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Action, ...]:
+def hold(actions: Iterable[Action], numbers_only: Collection[str], moves: bool) -> tuple[Action, ...]:
     """Put off structural changes of a robot while one of its files is in conflict.
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
-    `numbers_only`), imported files, and files that are restored as they were.
+    `numbers_only`), imported files, and files that are restored as they were. Nothing is if the package `moves`.
     """
     actions = tuple(actions)
     if not any(action.kind in CONFLICTS for action in actions):
@@ -173,8 +157,10 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
     origins = {action.origin for action in actions}
 
     def waits(action: Action) -> bool:
-        if not action.writes or action.origin is not None or action.path in origins:
-            return action.writes
+        if not action.writes:
+            return action.choice is not None and action.kind not in CONFLICTS
+        if moves or action.origin is not None or action.path in origins:
+            return True
         if action.role is Role.IMPORT:
             return action.kind is Kind.DELETE
         if action.kind is Kind.RESTORE:
@@ -184,45 +170,41 @@ def hold(actions: Iterable[Action], numbers_only: Collection[str]) -> tuple[Acti
     return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
 
 
-def records_after(actions: Iterable[Action]) -> dict[str, FileRecord]:
-    """Return the manifest's entry of each file once the actions are done; `package.order` files have none.
-
-    While something waits, files that are gone are recorded still: their lines in `package.order` wait, too.
-    """
-    every, records = tuple(actions), dict[str, FileRecord]()
-    waits = any(action.held or action.kind in CONFLICTS for action in every)
-    for action in every:
-        base, state = action.generated, RecordState.GENERATED
+def files_after(actions: Iterable[Action], recorded: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
+    """Return the records of a package's files after a build that did all of its actions."""
+    found = {path: one for path, one in recorded.items() if one.is_users}
+    for action in actions:
         if action.role is Role.ORDER:
             continue
-        is_left = waits and action.kind is Kind.FORGET and not action.released
-        if action.held or is_left or action.kind in CONFLICTS:
-            state = RecordState.CONFLICT if action.kind in CONFLICTS else RecordState.WAITING
-            chosen_for = sides_hash(action.mine, action.generated) if action.choice else None
-            pending = action.origin, action.replaced_hash, action.choice, chosen_for
-            records[action.path] = FileRecord(action.owner, action.role, action.base, state, *pending)
-            continue
-        if action.kind in (Kind.KEEP, Kind.INCLUDED) or (action.result or base) != base:
-            state = RecordState.EDITED
-        elif action.kind in (Kind.ORPHAN, Kind.NEEDED):
-            base, state = action.base, RecordState.ORPHAN
-        elif base is None:
-            continue
-        records[action.path] = FileRecord(action.owner, action.role, base, state)
-    return records
+        if action.kind in (Kind.ORPHAN, Kind.NEEDED):
+            hashes = recorded[action.path].hashes
+            # one is left of an ambiguous base: not that of the file, or the next build would delete it
+            found[action.path] = FileRecord((next((one for one in hashes if one != action.mine), hashes[0]),))
+        elif action.released:
+            found[action.path] = FileRecord(is_users=True)
+        elif action.generated is not None:
+            found[action.path] = FileRecord((action.generated,))
+    return found
 
 
-def sides_hash(mine: str | None, generated: str | None) -> str:
-    """Return one hash for the texts of both sides, from theirs."""
-    return hashlib.sha256(f"{mine} {generated}".encode()).hexdigest()
-
-
-def remembered_choices(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the recorded choices of the user that still hold."""
+def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
+    """Return the records of the files that are as generated after a build that left others waiting."""
     return {
-        action.path: record.choice
+        action.path: FileRecord((action.generated,))
         for action in actions
-        if (record := recorded.get(action.path) or recorded.get(action.origin or "")) is not None
-        and record.choice is not None
-        and record.chosen_for == sides_hash(action.mine, action.generated)
+        if action.role is not Role.ORDER
+        and action.generated is not None
+        and (action.kind in (Kind.UNCHANGED, Kind.ADOPT) or (action.writes and action.kind not in DELETES))
     }
+
+
+def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
+    """Return the user's choices that wait, by path and by the two texts that they were made on."""
+    waiting = (action for action in actions if action.choice and action.held)
+    return {(one.path, sides_hash(one.mine, one.generated)): one.choice for one in waiting if one.choice}
+
+
+def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
+    """Return the pending choices that still hold, by path: neither side has changed since."""
+    found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in actions}
+    return {path: choice for path, choice in found.items() if choice is not None}

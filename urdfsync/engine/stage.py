@@ -1,8 +1,8 @@
-"""What one build of a robot writes: files, conflict files, bases, model, and the manifest as the last one."""
+"""What one build of a robot writes: files, conflict files, bases, and the record as the last one."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -10,20 +10,18 @@ import msgspec
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Actions
+from urdfsync.engine.actions import DELETES, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import PackageFiles, encode
+from urdfsync.engine.inputs import option_values
+from urdfsync.engine.package_files import encode
 from urdfsync.engine.parents import SharedFile
-from urdfsync.files import shown, text_digest
-from urdfsync.state import manifest, modelfile
-from urdfsync.state.record import FileRecord, RecordState
-from urdfsync.state.store import State, Store, Witness
+from urdfsync.engine.rules import files_after, pending_choices, renewed_files
+from urdfsync.files import shown
+from urdfsync.state.record import RESOURCES, Open, Record, role_of
+from urdfsync.state.store import Witness
 from urdfsync.state.transaction import FileChange
-
-_OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
-"""States of files whose base is older than the recorded model, which can't give it back."""
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -39,15 +37,13 @@ class Plan(msgspec.Struct, frozen=True):
     changes: Changes | None = None
     """What is new in the model."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write, the manifest last; none in a dry run, unless it compares the recorded state."""
+    """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
     bases: Mapping[str, str] = {}
     """Texts to keep as bases that are not kept yet, by their hashes."""
-    mentioned: frozenset[str] | None = None
-    """Hashes of all bases that the manifest mentions then; None if others may be needed as well."""
-    former_folder: str = ""
-    """Key of the package's folder in the last build, if it has another one now."""
+    mentioned: frozenset[str] = frozenset()
+    """Hashes of all bases that the record mentions then."""
     former_name: str | None = None
     """The name that the robot had in the last build, if it has another one now."""
     drawing: Path | None = None
@@ -57,7 +53,7 @@ class Plan(msgspec.Struct, frozen=True):
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
     """Return the plan, with all that is to be written unless the run is dry."""
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
-    store, former, news = inputs.store, inputs.former_name, generation.changes_since_complete
+    store, former, news = inputs.store, inputs.former_name, generation.changes
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
@@ -76,25 +72,9 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing, more = store.drawing(robot.name, picture)
             changes += more
 
-    bases: dict[str, str] = {}
-    mentioned: frozenset[str] | None = None
-    if inputs.old_folder != inputs.folder and any(action.held for action in decision.actions):
-        # while something waits, the package can't move: its record stays, with the choices that the user made meanwhile
-        recorded = inputs.recorded or inputs.heading("")
-        chosen = {record.origin: record for record in decision.files.values() if record.origin and record.choice}
-        renewed = {
-            key: msgspec.structs.replace(record, choice=chosen[key].choice, chosen_for=chosen[key].chosen_for)
-            for key, record in recorded.files.items()
-            if key in chosen
-        }
-        text = manifest.dumps(msgspec.structs.replace(recorded, files={**recorded.files, **renewed}))
-        changes += store.changes(robot.name, text, None, None)
-    else:
-        changes += store.changes(robot.name, *_recorded_texts(generation, decision), former)
-        kept = store.bases(robot.name)
-        mentioned = frozenset(r.base for r in decision.files.values() if r.role is not Role.IMPORT and r.base)
-        new = {key: record for key, record in decision.files.items() if record.base not in kept}
-        bases = {base: text for _, base, text in _base_texts(generation, new)}
+    record = _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
+    changes += store.changes(robot.name, record, former)
+    hashes = (file.hashes for key, file in record.files.items() if role_of(inputs.old_path(key)) is not Role.IMPORT)
 
     above, conflicts = files.path(inputs.old_folder).parent, store.folder / "conflicts"
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
@@ -104,9 +84,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
-        bases=bases,
-        mentioned=mentioned,
-        former_folder=inputs.old_folder if inputs.old_folder != inputs.folder else "",
+        bases=_missing_bases(generation, record),
+        mentioned=frozenset(sha256 for found in hashes for sha256 in found),
         former_name=former,
         drawing=drawing,
     )
@@ -125,32 +104,6 @@ def _file_changes(generation: Generation, decision: Decision) -> list[FileChange
     return found
 
 
-def partly_done(
-    plan: Plan, robot: str, not_done: Collection[Path], store: Store, files: PackageFiles
-) -> list[FileChange]:
-    """Return how to record a plan of which some files are not as planned, since somebody saved one in between.
-
-    Those keep the records that they had, as conflicts. So the next plan compares them with what was written there
-    before, and all others with what this plan wrote.
-    """
-    path, last = store.paths(robot)[0], store.load(plan.former_name or robot)
-    state = {change.path: change for change in plan.writes if change.path.parent == path.parent}
-    if path not in state:
-        return []
-    new = manifest.loads((state[path].content or b"").decode(), shown(path))
-    old_files, old_orders = (last.manifest.files, last.manifest.orders) if last else ({}, {})
-    left = {files.key(one) for one in not_done}
-    records = {key: record for key, record in new.files.items() if key not in left}
-    for key in left & old_files.keys():
-        record = old_files[key]
-        records[key] = msgspec.structs.replace(record, state=RecordState.CONFLICT) if key in new.files else record
-    orders = {key: names for key, names in new.orders.items() if key not in left}
-    orders |= {key: names for key, names in old_orders.items() if key in left}
-    source = msgspec.structs.replace(new.source, hash="")  # so that the next build generates everything
-    text = manifest.dumps(msgspec.structs.replace(new, files=records, orders=orders, source=source))
-    return list({**state, path: msgspec.structs.replace(state[path], content=text.encode())}.values())
-
-
 def _content(generation: Generation, decision: Decision, action: Action) -> bytes:
     key, files = action.path, generation.inputs.files
     if key in decision.texts:
@@ -167,39 +120,62 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
     return generated.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else generated
 
 
-def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, str]:
-    """Return the texts of manifest and model."""
-    inputs, snapshot = generation.inputs, generation.now.snapshot
-    waits = any(action.held or action.kind in CONFLICTS for action in decision.actions)
-    since = inputs.last_complete.snapshot if waits and inputs.last_complete else None
-    before = inputs.complete_revision if since else None
-    revision = msgspec.UNSET if before in (None, inputs.domain.revision) else before
-    below = inputs.key("")
-    older = {k: r for k, r in decision.files.items() if r.state in _OLDER_BASE and k.startswith(below)}
-    bases = {inputs.path(key): text for key, _, text in _base_texts(generation, older)}
-    model = modelfile.of(snapshot, generation.imported.imports, bases, since, revision, decision.gone, decision.left)
-    model_text = modelfile.dumps(model)
-    whole = msgspec.structs.replace(
-        inputs.heading(text_digest(model_text.encode())),
-        names=inputs.domain.names(snapshot, inputs.robot.target),
-        dependencies=generation.imported.records,
-        orders=decision.orders,
-        files=decision.files,
+def _complete_record(generation: Generation, decision: Decision) -> Record:
+    """Return the record of a build after which nothing is open."""
+    inputs, texts = generation.inputs, dict[str, str]()
+    inside = inputs.key("")
+    old = {key: one for key, one in inputs.recorded_files.items() if not one.is_users or inputs.files.read(key)}
+    files = files_after(decision.actions, old)
+    for action in decision.actions:
+        if action.kind in (Kind.ORPHAN, Kind.NEEDED) and action.role is not Role.IMPORT:
+            (base,) = files[action.path].hashes
+            if (text := generation.base(action.path, base)) is not None:
+                texts[base] = text
+    return Record(
+        package=inputs.robot.target.package,
+        class_=inputs.robot.target.name,
+        folder=inputs.folder,
+        generator=inputs.generator,
+        options=option_values(inputs.robot.options),
+        snapshots=(generation.now.snapshot,),
+        imports={key: (one,) for key, one in generation.imported.imports.items()},
+        files={key: one for key, one in files.items() if key.startswith(inside)},
+        texts=texts,
     )
-    text = manifest.dumps(whole)
-    if inputs.options.cache:
-        # What is loaded from these texts; saves the daemon half of a build of 1,000 links.
-        inputs.options.cache.put("state", (text, model_text), State(whole.recorded, model, intact=True))
-    return text, model_text
 
 
-def _base_texts(generation: Generation, records: Mapping[str, FileRecord]) -> Iterator[tuple[str, str, str]]:
-    """Yield key, hash and text of the base of each recorded text file, as far as they are not lost."""
-    for key, record in records.items():
-        if record.role is not Role.IMPORT and record.base is not None:
-            origin = record.origin or key
-            path = generation.inputs.path(origin)
-            is_generated = path in generation.package.artifacts and generation.hash(path) == record.base
-            text = generation.content(origin).decode() if is_generated else generation.base(origin, record.base)
-            if text is not None:
-                yield key, record.base, text
+def _open_record(generation: Generation, decision: Decision) -> Record:
+    """Return the record of the last complete build, with the bases that this build has renewed, and what is open."""
+    inputs, inside = generation.inputs, generation.inputs.key("")
+    record = inputs.record or Record(
+        package=inputs.robot.target.package,
+        class_=inputs.robot.target.name,
+        folder=inputs.folder,
+        generator=inputs.generator,
+        options=option_values(inputs.robot.options),
+    )
+    renewed = renewed_files(decision.actions) if inputs.folder == inputs.old_folder else {}
+    renewed = {key: one for key, one in renewed.items() if key.startswith(inside) and record.files.get(key) != one}
+    files = {**record.files, **renewed}
+    imported = inputs.key(RESOURCES)
+    texts = {one.hashes[0]: generation.content(key).decode() for key, one in renewed.items() if imported not in key}
+    hashes = {sha256 for file in files.values() for sha256 in file.hashes}
+    texts = {sha256: text for sha256, text in {**record.texts, **texts}.items() if sha256 in hashes}
+    choices = {(inputs.path(key), sides): one for (key, sides), one in pending_choices(decision.actions).items()}
+    open_ = Open(choices, generation.now.snapshot, generation.renames)
+    return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
+
+
+def _missing_bases(generation: Generation, record: Record) -> dict[str, str]:
+    """Return the bases that are not kept in this checkout yet, by their hashes, as far as they are not lost."""
+    inputs, found = generation.inputs, dict[str, str]()
+    kept = inputs.store.bases(inputs.robot.name)
+    for key, file in record.files.items():
+        path = inputs.path(key)
+        for sha256 in file.hashes if role_of(path) is not Role.IMPORT else ():
+            if sha256 not in kept and sha256 not in record.texts:
+                is_generated = path in generation.package.artifacts and generation.hash(path) == sha256
+                text = generation.content(key).decode() if is_generated else generation.base(key, sha256)
+                if text is not None:
+                    found[sha256] = text
+    return found

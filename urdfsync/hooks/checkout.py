@@ -67,8 +67,8 @@ class IndexCheckout:
         self.add(self._index.paths(map(Path, parent_files(robot))))
         with contextlib.suppress(UrdfsyncError):  # the build reports it
             state = Store(self.place(root)).load(robot.name)
-            if state is not None and root / state.manifest.folder != robot.folder:
-                self.add_folder(root / state.manifest.folder)
+            if state is not None and root / state.folder != robot.folder:
+                self.add_folder(root / state.folder)
 
     def real_diagnostic(self, found: Diagnostic) -> Diagnostic:
         """Return a finding about files in here, told of the real ones."""

@@ -97,7 +97,7 @@ def saved_texts(target: DisputedFile) -> dict[str, str]:
 
 
 def shown_path(result: Result, path: str) -> str:
-    """A path of the manifest as the user would type it."""
+    """A path of the record as the user would type it."""
     return shown(Path(os.path.normpath(result.root / path)))
 
 

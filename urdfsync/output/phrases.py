@@ -6,8 +6,6 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
-import msgspec
-
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Kind
@@ -21,7 +19,7 @@ RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --ta
 _NAMED = {
     Kind.UPDATE: "{}",
     Kind.MERGE: "{}; merged with your edits",
-    Kind.CONFLICT: "you edited it, and what it is made from changed too: {}",
+    Kind.CONFLICT: "you edited it, and its generated text changed too: {}",
 }
 """Reasons of actions that follow from a change of the model, which takes the place of `{}`."""
 
@@ -71,7 +69,8 @@ def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
             them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
             phrases.append((to_do if result.dry else done).format(n=number, them=them, have=have, s=s))
     if waiting := sum(action.held for action in result.actions.decided):
-        phrases.append(f"{counted(waiting, 'change')} waiting for that")
+        what = "the conflict is" if kinds[Kind.CONFLICT] == 1 else "all conflicts are"
+        phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
     return phrases
 
 
@@ -92,10 +91,14 @@ _ACTION_PHRASES = {
 
 
 def reason(action: Action, changes: Changes | None) -> str:
-    """Why an action happens, as the end of a sentence that begins with the path.
+    """Why an action happens, as the end of a sentence that begins with the path, and what it waits for.
 
     Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`.
     """
+    return "; ".join(filter(None, [_cause(action, changes), action.waits_for]))
+
+
+def _cause(action: Action, changes: Changes | None) -> str:
     if action.kind not in _NAMED or changes is None:
         return action.reason
     # records follow from the changes of their element, models and packages from structural ones
@@ -110,8 +113,7 @@ def reason(action: Action, changes: Changes | None) -> str:
     if found:
         more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
         cause = f"{found[0].element}: {change_row(found[:1])}{more}"
-    waits = action.reason.removeprefix(msgspec.structs.replace(action, held=False).reason)
-    return _NAMED[action.kind].format(cause) + waits
+    return _NAMED[action.kind].format(cause)
 
 
 def generator_change(changes: Changes) -> str:

@@ -34,7 +34,7 @@ from urdfsync.state.journal import REPAIR, Journal, JournalFolder, Phase, Step
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
-_STATE_FILES = {"robots": (".toml", ".json"), "svg": (".svg",)}
+_STATE_FILES = {"robots": (".state",), "svg": (".svg",)}
 """Folders and suffixes of the files in the state folder that transactions write, beside those of conflicts."""
 
 
@@ -235,7 +235,7 @@ class Transactions:
         state = str(self._folder)
         if path == state or path.startswith(state + os.sep):
             parts = path[len(state) + 1 :].replace(os.sep, "/").split("/")
-            if is_folder or parts == [".gitignore"]:
+            if is_folder or parts in ([".gitignore"], [".gitattributes"]):
                 return True
             is_state = len(parts) == 2 and parts[1].endswith(_STATE_FILES.get(parts[0], ()))
             return is_state or (len(parts) > 1 and parts[0] == "conflicts")

@@ -20,7 +20,8 @@ from urdfsync.engine import parents
 from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
-from urdfsync.state.store import State, Store
+from urdfsync.state.record import Record
+from urdfsync.state.store import Store
 
 _MAX_STEPS = 1000
 """Folders and links on the way to a file: links may lead in a circle."""
@@ -43,26 +44,30 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root), None
     inputs = {str(config.file), str(robot.source)}
-    outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
+    outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
-        state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
+        state = store.load(robot.name)
     if state is None:
         return RobotPaths(frozenset(inputs), frozenset(outputs))
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
-    outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
+    outputs.update(placed(prefix, key) for key in state.files)
     inputs.update(_dependencies(robot, state, package_paths))
-    names = frozenset((kind, name) for kind, found in state.manifest.names.items() for name in found)
-    return RobotPaths(frozenset(inputs), frozenset(outputs), state.manifest.source.hash, names)
+    names = frozenset(
+        (kind, name)
+        for kind, found in registry.domain(robot.domain).names(state.snapshot or {}, robot.target).items()
+        for name in found
+    )
+    return RobotPaths(frozenset(inputs), frozenset(outputs), "", names)
 
 
-def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Iterator[str]:
+def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Path]) -> Iterator[str]:
     """Yield the places of each dependency up to the first readable file: those behind it do not matter yet."""
-    if state.model is None:
+    if state.snapshot is None:
         return
     lookup = Lookup(robot.source, (*robot.package_paths, *package_paths))
     try:
-        found = find_dependencies(registry.domain(robot.domain), state.model.snapshot, lookup, robot.options, {})
+        found = find_dependencies(registry.domain(robot.domain), state.snapshot, lookup, robot.options, {})
     except Exception:  # noqa: BLE001 - no model of the domain, or a mistake in it: the build tells it
         return
     for dependency in found:

@@ -1,0 +1,241 @@
+"""Names that a build takes away, and where texts of the user's use them.
+
+The resolver of `check` is asked about the package of the last complete build and about the package as this build leaves
+it: what meant something in a text before, and means nothing now, has vanished.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+import msgspec
+
+from urdfsync.config import find_own_library
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Role, Target
+from urdfsync.engine.actions import USERS, Action, Kind
+from urdfsync.engine.generation import Generation
+from urdfsync.files import shown
+from urdfsync.modelica.files import ClassName, StoredClasses, class_path
+from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.syntax import declared
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
+
+_LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
+_CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
+
+
+class VanishedNames(msgspec.Struct, frozen=True):
+    """The uses of names that are gone, in the order of their lines."""
+
+    in_package: Mapping[str, Sequence[Unresolved]]
+    """By the key of the file in which they are."""
+    elsewhere: Mapping[Path, Sequence[Unresolved]]
+    """In files outside of the package."""
+
+
+def find_vanished(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> VanishedNames:
+    """Find names that meant something in the last complete build, and mean nothing once all actions are done.
+
+    Looked at are edited files, `merged` ones (texts by key) and models of the user's, inside of the package and around.
+    """
+    inputs, files = generation.inputs, generation.inputs.files
+    written = {action.path for action in actions} | inputs.recorded_files.keys()
+    users = {key: files.any_text(key) for key in files.classes(inputs.folder) - written}
+    edited = {action.path: action.origin or action.path for action in actions if action.kind in USERS}
+    mine = {key: files.any_text(place) for key, place in edited.items()}
+    around = dict(files.users_files({inputs.folder, inputs.old_folder}))
+    if inputs.old_folder != inputs.folder:
+        left = files.classes(inputs.old_folder) - written
+        around |= {files.path(key): files.any_text(key).encode() for key in left}
+    if not (users or mine or around):
+        return VanishedNames({}, {})
+    staying = {action.path for action in actions if action.kind is Kind.NEEDED or action.released}
+    kept = {key: files.any_text(key) for key in staying}
+
+    before_texts = {
+        key: generation.base(key, record.hashes[0]) or ""
+        for key, record in inputs.recorded_files.items()
+        if record.hashes and key.endswith(".mo")
+    }
+    after_texts = {
+        inputs.key(path): generation.content(inputs.key(path)).decode() for path in generation.package.artifacts
+    }
+    doubtful = _lost_parts(generation, before_texts, after_texts)
+    before_texts |= {place: mine[key] for key, place in edited.items()}
+    if inputs.old_folder == inputs.folder:
+        before_texts |= users
+    after_texts |= {**users, **kept, **mine, **merged}
+    before = Scopes(_classes(generation, inputs.old_target, inputs.old_folder, before_texts, around, now=False))
+    planned = _classes(generation, inputs.robot.target, inputs.folder, after_texts, around, now=True)
+    after = Scopes(planned)
+
+    def vanished(name: ClassName, old_name: ClassName) -> list[Unresolved]:
+        known = {one.name for one in _unresolved(old_name, before, doubtful)}
+        found = (one for one in _unresolved(name, after, doubtful) if one.kind not in _LEGAL)
+        return sorted((one for one in found if one.name not in known), key=lambda one: one.line)
+
+    package, old_package = inputs.robot.target.package, inputs.old_target.package
+    in_package = {}
+    for key in (*users, *edited):
+        old_key = edited.get(key, key)
+        old_name = _class_name(old_package, inputs.old_path(old_key))
+        in_package[key] = vanished(_class_name(package, inputs.path(key)), old_name)
+    elsewhere: dict[Path, list[Unresolved]] = {}
+    for name, node in planned.users.items():
+        elsewhere.setdefault(Path(node.file), []).extend(vanished(name, name))
+    return VanishedNames(
+        {key: found for key, found in in_package.items() if found},
+        {file: found for file, found in elsewhere.items() if found},
+    )
+
+
+def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnostic]:
+    """A warning for each name that is gone in each text: where, and what it is now."""
+    files = generation.inputs.files
+    uses = [*((files.path(key), one) for key, one in found.in_package.items()), *found.elsewhere.items()]
+    renamed = _renamed_identifiers(generation) if uses else {}
+    known = _known_names(generation) if uses else frozenset()
+    for file, all_uses in uses:
+        by_part: dict[str, list[Unresolved]] = {}
+        for use in all_uses:
+            by_part.setdefault(use.part, []).append(use)
+        for part, (first, *more) in by_part.items():
+            hint = _hint(generation, part, _new_name(part, renamed, known))
+            if lines := sorted({use.line for use in more} - {first.line}):
+                hint += f"; also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}"
+            message = f"`{first.name}` is used here, but the package has no `{part}` any more"
+            yield Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first.line, hint=hint)
+
+
+def _hint(generation: Generation, part: str, new_name: str) -> str:
+    inputs = generation.inputs
+    if new_name:
+        return f"it is `{new_name}` now"
+    paths = (inputs.old_path(key) for key in inputs.recorded_files if class_of(key) == part)
+    options = (inputs.domain.option_for(path, inputs.old_target, inputs.robot.options) for path in paths)
+    if option := next(filter(None, options), ""):
+        return f"`{option}` in the configuration brings it back"
+    return "adapt your text to what the package is now"
+
+
+def _renamed_identifiers(generation: Generation) -> dict[str, str]:
+    """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
+    inputs = generation.inputs
+    if inputs.last is None:
+        return {}
+    old = inputs.domain.names(inputs.last.snapshot, inputs.old_target)
+    new = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
+    found = {inputs.old_target.name: inputs.robot.target.name}
+    for kind, identifiers in old.items():
+        for name, identifier in identifiers.items():
+            now = generation.renames.get((kind.removesuffix("s"), name), name)
+            found[identifier] = new.get(kind, {}).get(now, identifier)
+    return {one: found[one] for one in sorted(found, key=len, reverse=True) if one != found[one]}
+
+
+def _known_names(generation: Generation) -> frozenset[str]:
+    """Return the names of all generated classes, and of what those at the top of the package declare."""
+    paths = generation.package.artifacts
+    tops = (generation.content(generation.inputs.key(path)).decode() for path in paths if "/" not in path)
+    return frozenset(map(class_of, paths)) | _declared(tops)
+
+
+def _new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
+    """Return the known name that begins with the new identifier where this one begins with the old one; else ``."""
+    for old, new in renamed.items():
+        if part.lower().startswith(old.lower()):
+            first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
+            candidates = (f"{first}{new[1:]}{part[len(old) :]}", f"{new}{part[len(old) :]}")
+            return next((one for one in candidates if one in known), "")
+    return ""
+
+
+def _classes(
+    generation: Generation,
+    target: Target,
+    folder: str,
+    texts: Mapping[str, str],
+    around: Mapping[Path, bytes],
+    now: bool,
+) -> StoredClasses:
+    """The classes of a package with these texts, and of the user's files around it.
+
+    `now` tells whether the package is that of this build; then nothing that is in a former folder counts.
+    """
+    inputs, robot = generation.inputs, generation.inputs.robot
+    contents = {key.removeprefix(f"{folder}/"): text.encode(errors="replace") for key, text in texts.items()}
+    parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None} if now else {}
+
+    def find(name: str) -> Path | None:
+        if own := find_own_library(name, target.package):
+            return own
+        places = (robot.output / name, robot.output / f"{name}.mo")
+        return next((path for path in places if path.is_file() or (path / "package.mo").is_file()), None)
+
+    former = inputs.old_target.package if now and inputs.old_target.package != target.package else ""
+    return StoredClasses(target.package, inputs.files.path(folder), contents, {**around, **parents}, find, former)
+
+
+def _unresolved(name: ClassName, scopes: Scopes, doubtful: Collection[str]) -> Iterator[Unresolved]:
+    """All that means nothing in a stored class; nothing if there is no such class, or if it can't be read."""
+    node = scopes.node(name)
+    return iter(()) if node is None else unresolved(node, scopes, doubtful)
+
+
+def _class_name(package: str, path: str) -> ClassName:
+    return (*package.split("."), *class_path(PurePosixPath(path)).parts)
+
+
+def class_of(path: str) -> str:
+    """Return the name of the class that a file is for, by its key or path."""
+    return class_path(PurePosixPath(path)).name
+
+
+def _lost_parts(generation: Generation, before: Mapping[str, str], after: Mapping[str, str]) -> frozenset[str]:
+    """Return the names of generated classes and of their parts that are no longer generated.
+
+    Where a class inherits from a library that is not at hand, such a name counts as gone.
+    """
+    new_keys, found = {old: new for new, old in generation.moves().items()}, set[str]()
+    for key, text in before.items():
+        now = after.get(new_keys.get(key, key))
+        if now != text:
+            found |= {class_of(key)} if now is None else _declared([text]) - _declared([now])
+    return frozenset(found)
+
+
+def _declared(texts: Iterable[str]) -> frozenset[str]:
+    """Return the names of all classes and components that texts declare."""
+    return frozenset(one.path[-1] for text in texts for one in declared(parse(text).classes, ()) if one.path)
+
+
+def code_words(text: str) -> set[str]:
+    """Return all names and keywords in a text, without those in strings and comments, and without the classes in it.
+
+    An edited file whose element has another name may still declare its class by the old one. The text need not parse.
+    """
+    found = [token.text for token in lex(text)[0]]
+    return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
+
+
+def mentioned_records(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
+    """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
+
+    Those that a renamed element left are not needed: the user is told the new name.
+    """
+    inputs, files = generation.inputs, generation.inputs.files
+    left = set(generation.moves().values())
+    leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in left]
+    if not leaving:
+        return frozenset()
+    edited = [action for action in actions if action.kind in USERS]
+    texts = list(inputs.users_classes(edited, actions, merged).values())
+    around = files.users_files({inputs.folder, inputs.old_folder})
+    texts += [content.decode(errors="replace") for content in around.values()]
+    used = {word for text in texts for word in code_words(text)}
+    return frozenset(path for path in leaving if class_of(path) in used)

@@ -1,0 +1,232 @@
+"""The recorded state of one robot, text ↔ value: `.urdfsync/robots/<robot>.state`, which is committed.
+
+Each line stands alone and says one fact; blank lines between them keep neighbours apart. So git unites two states line
+by line (`merge=union`). What then stands twice with different values is ambiguous until the next complete build.
+Nothing in it is an absolute path, a time or a host name.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.domain import Import, Snapshot
+from urdfsync.state.record import RESOURCES, Choice, FileRecord, Generator, Open, Record
+
+FORMAT = 1
+"""Raised when an older urdfsync could misread what a newer one records."""
+
+_HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
+_USERS = "user"
+"""In the place of a hash: the file is the user's."""
+_HASH = re.compile(r"[0-9a-f]{64}")
+_PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
+"""What nearly all paths are: nothing that could lead elsewhere."""
+_HINT = "restore it from version control, or let `urdfsync build --full` make it anew"
+
+_FACTS: Mapping[str, Any] = {
+    "format": int,
+    "package": str,
+    "class": str,
+    "folder": str,
+    "domain": str,
+    "revision": int,
+    "templates": str,
+    "option": tuple[str, Any],
+    "model": tuple[str, str | None, Any],
+    "import": tuple[str, Import],
+    "text": tuple[str, str],
+    "choice": tuple[str, str, Choice],
+    "seen": tuple[str, str | None, Any],
+    "renamed": tuple[str, str, str],
+}
+"""The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
+_HEADINGS = ("package", "class", "folder", "domain", "revision", "templates")
+_PLACE = ("package", "class", "folder")
+
+
+def dumps(record: Record) -> str:
+    """The record as text: the same value gives the same text everywhere."""
+    below = len(record.folder) + 1
+    lines = {line(word, value) for word, value in _facts(record)}
+    files = set()
+    for key, file in record.files.items():
+        files |= {(key[below:], one) for one in ((_USERS,) if file.is_users else file.hashes)}
+    listed = [f"file {sha256}  {path}" for path, sha256 in sorted(files)]
+    return "\n".join(f"{one}\n" for one in [_HEADER.rstrip(), *sorted(lines), *listed])
+
+
+def line(word: str, value: object) -> str:
+    """One fact."""
+    return f"{word} {msgspec.json.encode(value, order='sorted').decode()}"
+
+
+def _facts(record: Record) -> Iterator[tuple[str, object]]:
+    generator = record.generator
+    yield "format", FORMAT
+    yield from zip(_PLACE, (record.package, record.class_, record.folder), strict=True)
+    yield from (("domain", generator.domain), ("revision", generator.revision), ("templates", generator.templates))
+    yield from (("option", item) for item in record.options.items())
+    for snapshot in record.snapshots:
+        yield from (("model", fact) for fact in _elements(snapshot))
+    yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
+    yield from (("text", item) for item in record.texts.items())
+    if record.open:
+        yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
+        yield from (("seen", fact) for fact in _elements(record.open.seen))
+        yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
+
+
+def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
+    """Each element of a model: its kind, its name and itself; without a name what is no mapping of elements."""
+    for part, value in snapshot.items():
+        if isinstance(value, Mapping) and value:
+            yield from ((part, name, element) for name, element in value.items())
+        else:
+            yield part, None, value
+
+
+def loads(text: str, file: str, *, strict: bool = True) -> Record:
+    """The record in `text`, which errors call `file`.
+
+    Raises StateError with file and line for text that is no record, that names files outside of its package, or that a
+    newer urdfsync wrote. Unless `strict`, lines that can't be read are passed over.
+    """
+    found: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
+    is_damaged = False
+    for number, content in enumerate(text.split("\n"), 1):
+        if not content or content.startswith("#"):
+            continue
+        try:
+            word, value = _parse(content)
+        except (KeyError, ValueError, RecursionError) as error:
+            if strict:
+                raise _broken(file, number, _what_is_wrong(content, error)) from None
+            is_damaged = True
+            continue
+        if word == "format" and value > FORMAT:
+            message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
+            raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, number, hint="update urdfsync"))
+        if value not in found[word]:
+            found[word].append(value)
+    missing = [word for word in ("format", *_HEADINGS) if not found[word]]
+    if missing:
+        raise _broken(file, 1, f"it has no {' and no '.join(missing)}")
+    record = _record(found, is_damaged)
+    for path in _strange_paths(record):
+        number = next((n for n, one in enumerate(text.split("\n"), 1) if path in one), 1)
+        message = f"the recorded path {path!r} does not belong to the package `{record.package}`"
+        raise _broken(file, number, message)
+    return record
+
+
+def _parse(content: str) -> tuple[str, Any]:
+    """The word and the value of a line. Raises KeyError or ValueError."""
+    word, _, rest = content.partition(" ")
+    if word == "file":
+        sha256, _, path = rest.partition("  ")
+        if not path or not (sha256 == _USERS or _HASH.fullmatch(sha256)):
+            raise ValueError("no hash and path")
+        return word, (path, sha256)
+    return word, msgspec.json.decode(rest, type=_FACTS[word])
+
+
+def _record(found: Mapping[str, list[Any]], is_damaged: bool) -> Record:
+    """The record that facts make; of headings that are there twice, the last ones."""
+    package, class_, folder, domain, _, templates = (found[word][-1] for word in _HEADINGS)
+    is_placed = all(len(found[word]) == 1 for word in _PLACE)
+    options = dict(found["option"])
+    snapshots, seen = _snapshots(found["model"]), _snapshots(found["seen"])
+    is_sure = all(len(found[word]) == 1 for word in _HEADINGS) and len(options) == len(found["option"])
+    hashes: dict[str, list[str]] = {}
+    for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
+        hashes.setdefault(f"{folder}/{path}", []).append(sha256)
+    imports: dict[str, tuple[Import, ...]] = {}
+    for key, one in found["import"]:
+        imports[key] = (*imports.get(key, ()), one)
+    open_ = None
+    if seen:
+        choices = {(path, sides): choice for path, sides, choice in found["choice"]}
+        renamed = {(kind, old): new for kind, old, new in found["renamed"]}
+        is_known = len(seen) == 1 and len(renamed) == len(found["renamed"])
+        once = len(choices) == len(found["choice"])
+        open_ = Open(choices if once else {}, seen[0] if is_known else {}, renamed if is_known else {})
+    return Record(
+        package=package,
+        class_=class_,
+        folder=folder,
+        generator=Generator(domain, max(found["revision"]), templates),
+        options=options,
+        snapshots=snapshots,
+        imports=imports,
+        files={
+            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found)
+            for key, found in sorted(hashes.items())
+        },
+        texts=dict(found["text"]),
+        open=open_,
+        is_ambiguous=is_damaged or not is_sure or len(snapshots) > 1,
+    )
+
+
+def _snapshots(facts: list[tuple[str, str | None, Any]]) -> tuple[Snapshot, ...]:
+    """The model that its elements make: one, or two if elements are there twice; none if there is no element."""
+    last = {(part, name): element for part, name, element in facts}
+    first = {(part, name): element for part, name, element in reversed(facts)}
+    if not facts:
+        return ()
+    return tuple(map(_snapshot, (last,) if len(last) == len(facts) else (first, last)))
+
+
+def _snapshot(elements: Mapping[tuple[str, str | None], Any]) -> Snapshot:
+    model = {part: element for (part, name), element in elements.items() if name is None}
+    for (part, name), element in elements.items():
+        if name is not None:
+            if not isinstance(model.get(part), dict):
+                model[part] = {}
+            model[part][name] = element
+    return model
+
+
+def _what_is_wrong(content: str, error: Exception) -> str:
+    if re.match(r"[<>=|]{7}", content):
+        return "unresolved merge markers"
+    reason = "" if isinstance(error, KeyError) else f": {str(error)[:1].lower()}{str(error)[1:]}"
+    return f"this is no state of urdfsync{reason}"
+
+
+def _broken(file: str, line: int, message: str) -> StateError:
+    return StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_HINT))
+
+
+def _strange_paths(record: Record) -> Iterator[str]:
+    """Recorded paths of files that no build of this package writes: the state may be a stranger's."""
+    folder, package = record.folder, record.package.split(".")
+    if not (_is_normal(folder) and folder.split("/")[-len(package) :] == package):
+        yield folder
+    below = len(folder) + 1
+    rules: list[tuple[Iterator[str], Callable[[str], bool]]] = [
+        ((key[below:] for key in record.files), lambda path: path.startswith(RESOURCES) or path.endswith(".mo")),
+        ((one.target for found in record.imports.values() for one in found), lambda path: path.startswith(RESOURCES)),
+    ]
+    for paths, is_written in rules:
+        yield from (path for path in paths if not (_is_inside(path) and is_written(path)))
+
+
+def _is_inside(path: str) -> bool:
+    """Whether a path from a folder is that of a file below it, hidden ones apart."""
+    return bool(_PLAIN.fullmatch(path)) or (
+        _is_normal(path) and not any(part.startswith(".") for part in path.split("/"))
+    )
+
+
+def _is_normal(path: str) -> bool:
+    """Whether a path is relative, with forward slashes, without detours and control characters."""
+    is_absolute = path.startswith("/") or re.match(r"[A-Za-z]:", path) is not None
+    is_printable = not any(ord(char) < 32 or ord(char) == 127 for char in path)
+    return not is_absolute and is_printable and "\\" not in path and posixpath.normpath(path) == path
