@@ -262,12 +262,12 @@ def test_conflict(edited: Path, execute: Execute) -> None:
     model = Path("modelica/Ladder/Ladder.mo")
     for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
         lines = execute(*arguments, code=3).lines
-        assert lines[0] == "ladder: 1 conflict, 5 changes waiting for that"
+        assert lines[0] == "ladder: 1 conflict, 5 files wait until the conflict is resolved"
         assert f"  conflict   {model}  network" in lines
         assert '    generated  16    Elements.R3 elementR3 "Element R3";' in lines
         assert f"    urdfsync resolve {model} --merge" in lines
     assert execute("build", "--quiet", code=3).lines == [
-        "ladder: 1 conflict, 5 changes waiting for that",
+        "ladder: 1 conflict, 5 files wait until the conflict is resolved",
         f"  conflict   {model}  the changes fit together: --merge takes both",
         "",
         "  urdfsync resolve --all --robot ladder --merge  merges it",

@@ -66,14 +66,14 @@ def test_options_are_named_only_if_nothing_else_changed(project: Path, execute: 
     assert "a template, an option or urdfsync itself changed" in execute("build", "--dry-run").words
 
 
-@pytest.mark.parametrize("line", ['frames = "none"', "frames = 3", 'roof = "red"'])
+@pytest.mark.parametrize("option", ['["frames","none"]', '["frames",3]', '["roof","red"]'])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
-    project: Path, execute: Execute, line: str
+    project: Path, execute: Execute, option: str
 ) -> None:
-    recorded = project / ".urdfsync/robots/arm.toml"
+    recorded = project / ".urdfsync/robots/arm.state"
     text = recorded.read_text()
-    assert 'frames = "leaves"\n' in text
-    recorded.write_text(text.replace('frames = "leaves"', line))
+    assert 'option ["frames","leaves"]\n' in text
+    recorded.write_text(text.replace('["frames","leaves"]', option))
     configure(project, "driven = []\n")
     assert "connector-changed" not in execute("build").words
-    assert 'frames = "leaves"\n' in recorded.read_text()
+    assert 'option ["frames","leaves"]\n' in recorded.read_text()

@@ -32,7 +32,8 @@ from urdfsync.domain import (
 from urdfsync.engine import generate
 from urdfsync.files import digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
-from urdfsync.state import modelfile
+from urdfsync.state import statefile
+from urdfsync.state.record import Generator, Record
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>
@@ -120,8 +121,15 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
     text = json.dumps(reading.snapshot, allow_nan=False, sort_keys=True)
     assert json.loads(text) == reading.snapshot, "a tuple becomes a list"
     assert json.dumps(reading.snapshot) == text, "a record has sorted keys"
-    model = modelfile.of(case.snapshot, case.imports)
-    assert modelfile.loads(modelfile.dumps(model), "sample.json") == model
+    record = Record(
+        package="Sample",
+        class_="Sample",
+        folder="Sample",
+        generator=Generator("sample", 1, ""),
+        snapshots=(case.snapshot,),
+        imports={key: (one,) for key, one in case.imports.items()},
+    )
+    assert statefile.loads(statefile.dumps(record), "sample.state") == record
 
 
 def test_an_earlier_reading_and_thoroughness_make_no_difference(case: Case) -> None:

@@ -99,7 +99,7 @@ def a_link_to_nothing(path: Path, outside: Path) -> None:
     path.symlink_to(outside / "nothing")
 
 
-FILES = (MODEL, RECORD, f"{LADDER}/package.order", MANIFEST, ".urdfsync/robots/ladder.json")
+FILES = (MODEL, RECORD, f"{LADDER}/package.order", MANIFEST)
 FOLDERS = (LADDER, f"{LADDER}/Elements", ".urdfsync", ".urdfsync/robots")
 COMMANDS = (["build"], ["resolve", "--all", "--take"])
 LINKS = (a_link, a_link_to_nothing)

@@ -26,7 +26,7 @@ ROBOTS = 6
 """So many stale robots are planned in several processes."""
 PATIENCE = 120.0
 READING = (["build", "--check"], ["build", "--dry-run"], ["status", "--verbose"], ["diff"], ["hook", "check"])
-WRITING = (["build"], ["build", "--repair"], ["resolve", "--all", "--take"], ["hook", "build"])
+WRITING = (["build"], ["resolve", "--all", "--take"], ["hook", "build"])
 OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
 """Commands that read no configuration and no state."""
 SOURCES = ("source", "chain", "entities", "numbers", "terminal", "meshes")

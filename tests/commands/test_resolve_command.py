@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, MANIFEST, ROBOT, configure, edit
+from support.networks import LADDER, ROBOT, configure, edit
 
 from urdfsync import cli
-from urdfsync.engine.rules import sides_hash
-from urdfsync.files import digest
 from urdfsync.state.lock import build_lock
 
 MODEL = f"{LADDER}/Ladder.mo"
@@ -141,7 +138,7 @@ def test_several_files_are_settled_together_or_not_at_all(several: Path, execute
 
 
 def test_all_that_can_be_merged_is_merged(several: Path, execute: Execute) -> None:
-    assert execute("resolve", "--all", "--merge", code=3).lines[0] == "ladder: 2 conflicts, 4 changes waiting for that"
+    assert execute("resolve", "--all", "--merge", code=3).lines[0] == "ladder: 2 conflicts, 4 files wait until all conflicts are resolved"
     assert conflicts(execute) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
     execute("resolve", "--all", "--keep")
     text = Path(MODEL).read_text()
@@ -158,54 +155,6 @@ def test_a_choice_that_waits_can_be_made_again(several: Path, execute: Execute) 
 
 
 # Imported files
-
-
-@pytest.fixture
-def unsourced(execute: Execute, project: Path) -> Path:
-    """An imported file that both sides changed, and whose source is gone since: nobody has what it gave."""
-    execute("build")
-    edit(SIGNAL, "#1", "#1 ")
-    edit("step.csv", "0.1,5", "0.1,7")
-    execute("build", code=3)
-    Path("step.csv").rename("elsewhere.csv")
-    return project
-
-
-@pytest.mark.parametrize("options", [[], ["--dry-run"]])
-def test_what_nobody_has_cant_be_taken(unsourced: Path, options: list[str], execute: Execute) -> None:
-    with unchanged(unsourced, but=".urdfsync/lock"):
-        assert execute("resolve", SIGNAL, "--take", *options, code=2).err == (
-            f"{Path(SIGNAL)}: error: it can't be taken: the file it is made from is not here; "
-            f"bring it back, or keep yours with `urdfsync resolve {Path(SIGNAL)} --keep` [no-take]\n"
-        )
-        assert [
-            found["code"]
-            for found in execute("resolve", LADDER, "--take", *options, "--json", code=2).json["diagnostics"]
-        ] == ["no-take"]
-        execute("resolve", "--all", "--take", *options, code=3)
-
-
-def test_what_nobody_has_is_not_offered(unsourced: Path, execute: Execute) -> None:
-    out = execute("build", code=3).out
-    assert "It is no text that could be merged, and the file it is made from is not here." in out
-    assert "--take" not in out
-    execute("resolve", SIGNAL, "--keep")
-    assert conflicts(execute) == []
-    assert "#1 \n" in Path(SIGNAL).read_text()
-
-
-def test_a_choice_waits_for_what_nobody_has(unsourced: Path, execute: Execute) -> None:
-    """Whatever has recorded it: `resolve` itself takes an imported file at once, or not at all."""
-    manifest = Path(MANIFEST)
-    generated = tomllib.loads(manifest.read_text())["dependencies"]["step.csv"]["target_hash"]
-    chosen_for = sides_hash(digest(Path(SIGNAL).read_bytes()), generated)
-    edit(manifest, 'state = "conflict"', f'state = "conflict"\nchoice = "take"\nchosen_for = "{chosen_for}"')
-    edit("ladder.json", '"ohm": 100', '"ohm": 120')
-    execute("build", code=3)
-    assert conflicts(execute) == ["Resources/step.txt"]
-    Path("elsewhere.csv").rename("step.csv")
-    execute("build")
-    assert "0.1 7.0" in Path(SIGNAL).read_text()
 
 
 # What a path may be
@@ -225,7 +174,7 @@ def test_paths_count_from_the_working_folder(
 def test_a_path_that_is_no_conflict(execute: Execute, clean: Path) -> None:
     with unchanged(clean, but=".urdfsync/lock"):
         for typed in ("nothing.mo", f"{LADDER}/Elements/R1.mo", "", "ladder.json"):
-            words = f"error: `{typed}` is not in conflict; these are: {Path(MODEL)} [no-conflict]\n"
+            words = f"error: `{typed}` has no conflict; in conflict: {Path(MODEL)} [no-conflict]\n"
             assert execute("resolve", typed, "--keep", code=2).err == words
 
 
@@ -234,7 +183,7 @@ def test_of_many_conflicts_a_few_are_named(clean: Path, execute: Execute) -> Non
         more(f"T{number}")
         Path(f"{LADDER}/Elements/T{number}.mo").write_text("model mine\n")
     words = execute("resolve", "nothing.mo", "other.mo", "--keep", code=2).err
-    assert words.startswith("error: `nothing.mo` and `other.mo` are not in conflict; these are: ")
+    assert words.startswith("error: `nothing.mo` and `other.mo` have no conflict; in conflict: ")
     assert words.endswith("T4.mo and 3 more [no-conflict]\n")
 
 
@@ -349,7 +298,7 @@ def test_a_broken_robot_hinders_no_other(clean: Path, execute: Execute) -> None:
     second_robot("{")
     errors = execute("resolve", "modelica/Other/Other.mo", "--keep", code=2).err
     assert "other.json:1: error: " in errors
-    assert f"`modelica/Other/Other.mo` is not in conflict; these are: {Path(MODEL)}" in errors
+    assert f"`modelica/Other/Other.mo` has no conflict; in conflict: {Path(MODEL)}" in errors
     execute("resolve", MODEL, "--merge")
     execute("resolve", "--all", "--keep", code=2)
     execute("resolve", "--all", "--keep", "--robot", "ladder")

@@ -44,7 +44,7 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
             "  a build: 1 file to write, 1 to restore",
             "  edited     modelica/Ladder/Ladder.mo",
             "  missing    modelica/Ladder/Elements/C1.mo  it was deleted; written again",
-            "  stale      modelica/Ladder/Elements/R2Parameters.mo  what it is made from changed",
+            "  stale      modelica/Ladder/Elements/R2Parameters.mo  its generated text changed",
         ]
         everything = execute("status", "--verbose").lines
         assert len(everything) == 3 + 14
@@ -190,5 +190,5 @@ def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
     found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
-    assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 changes waiting for that"
-    assert sum("waits until the conflict is settled" in line for line in shown) == 2
+    assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
+    assert sum("waits until the other conflicts are resolved" in line for line in shown) == 2

@@ -33,7 +33,7 @@ def outside(project: Path, tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("command", ["build", "build --full --repair", "build --svg"])
+@pytest.mark.parametrize("command", ["build", "build --full", "build --svg"])
 def test_a_build_needs_the_users_word(execute: Execute, outside: Path, trusted: Path, command: str) -> None:
     said = execute(*command.split(), code=2).words
     assert list(outside.iterdir()) == []

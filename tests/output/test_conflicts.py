@@ -26,7 +26,7 @@ BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
 EDITED = BASE.replace("a = 1;", "a = 1; // measured")
 EXPORTED = BASE.replace("b = 2;", "b = 3;")
 FOLDER = "you made a folder of the class"
-CHANGED = "You edited it, and what it is made from changed too."
+CHANGED = "You edited it, and its generated text changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
 
 
@@ -70,7 +70,7 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
     assert seen(texts_of(EDITED, EXPORTED), width=100) == [
         "",
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
-        "    You edited it, and what it is made from changed too. The changes fit together: --merge takes",
+        "    You edited it, and its generated text changed too. The changes fit together: --merge takes",
         "    both.",
         "",
         "    -- lines 1 to 6: your edit and what is new",

@@ -1,32 +1,31 @@
-"""The folder of the last build: nothing in it is deleted or moved unless a build in this very checkout wrote it."""
+"""The folder of the last build: nothing in it is deleted or moved but what can be generated here."""
 
 from __future__ import annotations
 
-import os
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
-import tomli
-import tomli_w
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, configure, edit
 from support.replay import contents
 
-from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
+from urdfsync.state import statefile
+from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Store
 
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
 """A package of the user's own."""
 
 
-def rewrite(manifest: Path, **changes: Any) -> None:
-    document = tomli.loads(manifest.read_text())
-    manifest.write_text(tomli_w.dumps({**document, **changes}))
+def rewrite(state: Path, **changes: Any) -> None:
+    record = statefile.loads(state.read_text(), state.name)
+    state.write_text(statefile.dumps(msgspec.structs.replace(record, **changes)))
 
 
 def move(project: Path, package: str = "Filter") -> None:
@@ -35,28 +34,18 @@ def move(project: Path, package: str = "Filter") -> None:
 
 @pytest.fixture
 def hostile(execute: Execute, project: Path) -> Path:
-    """A clone whose manifest says that a package of the user's is where the robot was; with a forged local state."""
+    """A clone whose record says that a package of the user's is where the robot was."""
     execute("build")
     for name, content in OWN.items():
         (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
         (project / "modelica/Mine" / name).write_bytes(content)
-    rewrite(
-        project / MANIFEST,
-        package="Mine",
-        folder="modelica/Mine",
-        orders={"package.order": ["Pump"]},
-        files={
-            "Pump.mo": {"owner": "", "role": "model", "base": digest(OWN["Pump.mo"])},
-            "Resources/table.csv": {"owner": "", "role": "import", "base": digest(OWN["Resources/table.csv"])},
-        },
-    )
-    noted = project / ".urdfsync/folders.json"
-    noted.write_text(noted.read_text().replace("modelica/Ladder", "modelica/Mine"))
+    files = {f"modelica/Mine/{name}": FileRecord((digest(OWN[name]),)) for name in ("Pump.mo", "Resources/table.csv")}
+    rewrite(project / MANIFEST, package="Mine", folder="modelica/Mine", files=files)
     shutil.rmtree(project / "modelica/Ladder")
     return project
 
 
-COMMANDS = "build, build --full, build --repair, build --dry-run, build --check, status, diff, resolve --all --take"
+COMMANDS = "build, build --full, build --dry-run, build --check, status, diff, resolve --all --take"
 HOOKS = [pytest.param(command, marks=NEEDS_GIT) for command in ("hook build", "hook check")]
 
 
@@ -75,48 +64,32 @@ def test_a_strangers_manifest_deletes_nothing_of_the_users(
 def test_a_strangers_manifest_moves_no_edits(execute: Execute, hostile: Path) -> None:
     mine = hostile / "modelica/Mine/Ladder.mo"
     mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
-    written = digest(b"what urdfsync wrote")
-    rewrite(hostile / MANIFEST, files={"Ladder.mo": {"owner": "circuit ladder", "role": "model", "base": written}})
+    written = FileRecord((digest(b"what urdfsync wrote"),))
+    rewrite(hostile / MANIFEST, files={"modelica/Mine/Ladder.mo": written})
     execute("build")
     assert mine.read_text() == "within Mine;\nmodel Ladder\nend Ladder;\n"
 
 
-def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path, execute: Execute) -> None:
+def test_what_stays_is_told_once(hostile: Path, execute: Execute) -> None:
     said = " ".join(execute("build").err.split())
     assert (
-        "the package moved from modelica/Mine to modelica/Ladder; the old folder was not built in this checkout, so it "
-        "stays as it is; take over what you need, then delete it: `rm -r -- modelica/Mine` [left-behind]"
+        "the package moved from modelica/Mine to modelica/Ladder; these files are not deleted, since urdfsync did not "
+        "write them: modelica/Mine/Pump.mo, modelica/Mine/Resources/table.csv, modelica/Mine/package.order; take over "
+        "what you need, then delete the old folder [left-behind]"
     ) in said
     assert "left-behind" not in execute("build").err
 
 
-def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(
-    execute: Execute, project: Path, tmp_path: Path
-) -> None:
-    execute("build")
-    built = contents(project / "modelica/Ladder")
-    clone = tmp_path / "clone"
-    shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
-    for folder in (clone, project):
-        move(folder)
-        execute("build", "--config", str(folder / "urdfsync.toml"))
-    assert contents(clone / "modelica/Ladder") == built
-    assert not (project / "modelica/Ladder").exists()
-    assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
-
-
-@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
-def test_a_clone_that_has_built_moves_its_package(
-    execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]
-) -> None:
+@pytest.mark.parametrize("left_out", [("base", "stamp"), ()], ids=["clone", "copy"])
+def test_a_clone_moves_its_package(execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
     execute("build")
     clone = tmp_path / "clone"
     shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
-    config = str(clone / "urdfsync.toml")
-    execute("build", "--config", config)
-    move(clone)
-    execute("build", "--config", config)
-    assert not (clone / "modelica/Ladder").exists()
+    for folder in (clone, project):
+        move(folder)
+        execute("build", "--config", str(folder / "urdfsync.toml"))
+        assert not (folder / "modelica/Ladder").exists()
+    assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
 
 
 def _rename_robot(project: Path) -> None:
@@ -137,63 +110,15 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
         execute("build")
     (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
     assert package.name == ("Filter" if move in steps else "Ladder")
-    robot = "filter" if _rename_robot in steps else "ladder"
-    assert package.relative_to(project).as_posix() in Store(project).written_folders(robot)
-
-
-def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, execute: Execute) -> None:
-    configure("create_parents = true\n")
-    move(project, "Plant.Ladder")
-    execute("build")
-    order = project / "modelica/Plant/package.order"
-    order.write_text("Ladder\nPump\n")
-    rewrite(project / MANIFEST, orders={"../package.order": ["Ladder", "Pump"]})
-    assert "[broken-state]" in execute("build", code=2).err
-    assert order.read_text() == "Ladder\nPump\n"
+    assert Store(project).names() == ["filter" if _rename_robot in steps else "ladder"]
 
 
 def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Execute, project: Path) -> None:
     execute("build")
-    (project / ".urdfsync/robots/...toml").write_text((project / MANIFEST).read_text())
+    (project / ".urdfsync/robots/...state").write_text((project / MANIFEST).read_text())
     _rename_robot(project)
     (project / MANIFEST).unlink()
     ignore = (project / ".urdfsync/.gitignore").read_bytes()
     execute("build")
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
-
-
-@pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])
-def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: str) -> None:
-    Store(tmp_path).note_folders("arm", ["m/Arm"])
-    file = tmp_path / ".urdfsync/folders.json"
-    copy = file.with_name("copy")
-    shutil.copy2(file, copy)
-    if change == "touched":
-        os.utime(file)
-    elif change == "cut short":
-        file.write_bytes(b"{")
-    else:
-        file.unlink()
-        if change == "copied":
-            copy.rename(file)
-        elif change == "link":
-            file.symlink_to(copy)
-        else:
-            file.mkdir()
-    assert Store(tmp_path).written_folders("arm") == frozenset()
-
-
-def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
-    outside, root = tmp_path / "outside", tmp_path / "root"
-    (root / ".urdfsync").mkdir(parents=True)
-    outside.mkdir()
-    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
-        (root / ".urdfsync" / name).symlink_to(outside / "victim")
-    Store(root).note_folders("arm", ["m/Arm"])
-    assert Store(root).written_folders("arm") == {"m/Arm"}
-    shutil.rmtree(root / ".urdfsync")
-    (root / ".urdfsync").symlink_to(outside)
-    with pytest.raises(OutputError, match="symbolic link"):
-        Store(root).note_folders("arm", ["m/Arm"])
-    assert list(outside.iterdir()) == []

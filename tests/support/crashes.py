@@ -203,10 +203,9 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
 
 
 def _needed(project: Path, robot: str) -> bytes:
-    """The bases that a manifest needs, by their hashes, and whether its folder is noted."""
+    """The bases that a record needs, by their hashes."""
     store = Store(project)
     state, bases = store.load(robot), store.bases(robot)
     assert state is not None
-    needed = {record.base for record in state.manifest.files.values() if record.base}
-    is_noted = state.manifest.folder in store.written_folders(robot)
-    return repr([is_noted, [(digest, bases.get(digest)) for digest in sorted(needed)]]).encode()
+    needed = {sha256 for file in state.files.values() for sha256 in file.hashes}
+    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()

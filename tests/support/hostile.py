@@ -9,6 +9,7 @@ import dataclasses
 import hashlib
 import json
 import os
+import re
 import shutil
 import sys
 from collections.abc import Callable, Mapping
@@ -18,8 +19,7 @@ from support.meshes import write_hostile
 from support.urdfs import joint, limit, link, robot
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
-MANIFEST = ".urdfsync/robots/arm.toml"
-MODEL = ".urdfsync/robots/arm.json"
+MANIFEST = ".urdfsync/robots/arm.state"
 RECORD = "modelica/Arm/Links/TipParameters.mo"
 MINE = "modelica/Other/Mine.mo"
 """A file of the user's own beside the package."""
@@ -66,9 +66,12 @@ class Stranger:
         assert old in text, f"{place} has no {old!r}"
         (self.project / place).write_text(text.replace(old, new, 1))
 
-    def configure(self, line: str) -> None:
-        with (self.project / "urdfsync.toml").open("a") as file:
+    def append(self, place: str, line: str) -> None:
+        with (self.project / place).open("a") as file:
             file.write(f"{line}\n")
+
+    def configure(self, line: str) -> None:
+        self.append("urdfsync.toml", line)
 
     def out(self, name: str = "") -> str:
         """A path that leads out of the project, as state has it."""
@@ -117,24 +120,13 @@ class Stranger:
             self.write(f"{path}.12.urdfsync-tmp", b"evil")
 
     def manifest_file(self, path: str) -> None:
-        """A manifest that has a file as one of urdfsync's, with the right hash, which is no longer generated."""
+        """A record that has a file as one of urdfsync's, with the right hash, which is no longer generated."""
         digest, name = _digest((self.project / path).read_bytes()), os.path.relpath(path, "modelica/Arm")
-        with (self.project / MANIFEST).open("a") as file:
-            file.write(f'\n[files."{name}"]\nbase = "{digest}"\nowner = "link gone"\nrole = "model"\n')
+        self.append(MANIFEST, f"file {digest}  {name}")
 
     def manifest_folder(self, folder: str) -> None:
-        """A manifest whose package was elsewhere before."""
-        self.edit(MANIFEST, 'folder = "modelica/Arm"', f"folder = {json.dumps(folder)}")
-
-    def former_folder(self) -> None:
-        """A manifest and a list of folders, both of which say that the user's package is a former place of ours."""
-        self.manifest_folder("modelica/Other")
-        entry = {"modelica/Other": ["Mine.mo"], "arm": ["modelica/Other"]}
-        file, bound = ".urdfsync/folders.json", {"inode": 1, "written": 1}
-        for _ in range(2):  # the second time as it was where the stranger wrote it
-            self.write(file, json.dumps({"folders": entry, **bound}))
-            status = (self.project / file).stat()
-            bound = {"inode": status.st_ino, "written": status.st_mtime_ns}
+        """A record whose package was elsewhere before."""
+        self.edit(MANIFEST, 'folder "modelica/Arm"', f"folder {json.dumps(folder)}")
 
     def linked_journal(self) -> None:
         """A link in the place of the journals, to a folder of files that could be those of another urdfsync."""
@@ -159,10 +151,10 @@ class Stranger:
         self.show("pipe.obj", "sparse.stl")
 
     def base_that_is_no_text(self) -> None:
-        """What is no text, kept under the hash that the manifest has for a file."""
-        text, manifest = b"\xff\xfe", (self.project / MANIFEST).read_text()
-        begin = manifest.index("base = ", manifest.index(f'[files."{Path(RECORD).relative_to("modelica/Arm")}"]'))
-        self.write(MANIFEST, manifest[:begin] + f'base = "{_digest(text)}"' + manifest[manifest.index("\n", begin) :])
+        """What is no text, kept under the hash that the record has for a file."""
+        text, name = b"\xff\xfe", Path(RECORD).relative_to("modelica/Arm")
+        manifest = (self.project / MANIFEST).read_text()
+        self.write(MANIFEST, re.sub(rf"file \w+  {name}", f"file {_digest(text)}  {name}", manifest))
         self.write(".urdfsync/base/arm/texts", f"{_digest(text)} ".encode() + b'"%s"\n' % text)
 
     def entities(self) -> None:
@@ -181,7 +173,7 @@ class Stranger:
         """Files and robots whose names a terminal would obey."""
         self.write("\x1b]0;evil\x07.urdf", urdf())
         self.write("\x1b[2J.xml", "no robot")
-        shutil.copy(self.project / MANIFEST, self.project / ".urdfsync/robots/\x1b[31m.toml")
+        shutil.copy(self.project / MANIFEST, self.project / ".urdfsync/robots/\x1b[31m.state")
         self.edit("urdfsync.toml", '"arm.urdf"', '"\\u001b]0;evil\\u0007.urdf"')
 
     def bare_repository(self) -> None:
@@ -225,8 +217,6 @@ COMMITTED: Mapping[str, Attack] = {
     "a manifest with the configuration": lambda one: one.manifest_file("urdfsync.toml"),
     "a manifest of a package outside": lambda one: one.manifest_folder(one.out()),
     "a manifest of the user's package": lambda one: one.manifest_folder("modelica/Other"),
-    "a list of former folders": Stranger.former_folder,
-    "a deep list of former folders": lambda one: one.write(".urdfsync/folders.json", '{"x":' + "[" * 200_000),
     "state that is a link": lambda one: one.link(".urdfsync", "state"),
     "manifests that are a link": lambda one: one.link(".urdfsync/robots", "state"),
     "a manifest that is a link": lambda one: one.link(MANIFEST, "victim.mo"),
@@ -243,8 +233,7 @@ COMMITTED: Mapping[str, Attack] = {
     "an output that is a link": lambda one: one.link(RECORD, "victim.mo"),
     "an output folder outside": lambda one: one.configure(f"output = {json.dumps(one.out())}"),
     "a base that is no text": Stranger.base_that_is_no_text,
-    "a deep model": lambda one: one.write(MODEL, '{"snapshot":' + "[" * 200_000),
-    "a deep manifest": lambda one: one.write(MANIFEST, "a = " + "[" * 200_000),
+    "a deep manifest": lambda one: one.append(MANIFEST, 'option ["a",' + "[" * 200_000),
     "entities": Stranger.entities,
     "a deep source": lambda one: one.write(
         "arm.urdf", "<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>"
@@ -253,7 +242,7 @@ COMMITTED: Mapping[str, Attack] = {
     "huge numbers": lambda one: one.edit("arm.urdf", 'mass value="1.5"', f'mass value="{"9" * 100_000}"'),
     "names for the terminal": lambda one: one.write("arm.urdf", _STRANGE),
     "files for the terminal": Stranger.terminal_files,
-    "a manifest for the terminal": lambda one: one.edit(MANIFEST, 'tip = "tip"', '"\\u001b[31mtip" = "\\u009b2J"'),
+    "a manifest for the terminal": lambda one: one.append(MANIFEST, 'option ["\\u001b[31mtip","\\u009b2J"]'),
     "a repository in the repository": Stranger.bare_repository,
     "attributes of git": Stranger.git_files,
     "meshes without end": lambda one: one.meshes(
@@ -279,10 +268,10 @@ TOGETHER = (
     *("modules", "a template that leaves the sandbox", "a template without end", "a template that is a link"),
     *("a journal about git's hooks", "a journal about a file outside", "a journal about the user's file"),
     *("a manifest with a file outside", "a manifest with the user's file", "a manifest with the configuration"),
-    *("a manifest of a package outside", "a deep list of former folders", "a temporary journal that is a link"),
+    *("a manifest of a package outside", "a temporary journal that is a link"),
     *("bases that are a link", "an answer that is a link", "a lock that is a link", "conflicts that are a link"),
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
-    *("a deep model", "huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),
+    *("huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),
 )
 """Those that one project can have at once, without one of them hiding most others."""
 

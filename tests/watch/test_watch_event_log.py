@@ -231,7 +231,7 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert told(CONFLICT, built(action(Kind.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
     waiting = built(action(Kind.UPDATE), action(Kind.CONFLICT), action(Kind.UPDATE, "Base", held=True))
-    assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 change waiting for that"
+    assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
 
 
 def test_files_that_are_kept_are_listed_once() -> None:

@@ -14,7 +14,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.output.conflicts import NOT_HERE, DisputedFile, describe, find_conflicts, saved_texts, shown_path
+from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result, show_results
 from urdfsync.state.record import Choice
@@ -73,10 +73,10 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             failed = [result for result in found if result.failed]
             for result in failed:
                 show_result(console, result)
-            message = f"{' and '.join(f'`{path}`' for path in unknown)} {'is' if len(unknown) == 1 else 'are'}"
-            hint = f"these are: {listed}" if listed else "nothing is"
+            message = f"{' and '.join(f'`{path}`' for path in unknown)} {'has' if len(unknown) == 1 else 'have'} no conflict"
+            hint = f"in conflict: {listed}" if listed else "no file is in conflict"
             code = exit_code(failed) if failed else Exit.ERROR
-            no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{message} not in conflict", hint=hint)
+            no_conflict = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
             console.end("resolve", code, [no_conflict])
             return code
         if problems := [problem for target in targets for problem in _problems(target, args.choice)]:
@@ -124,10 +124,7 @@ def _places(action: Action, root: Path) -> set[Path]:
 
 def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
-    if choice is Choice.TAKE and not target.action.at_hand:
-        message = f"it can't be taken: {NOT_HERE}"
-        hint = f"bring it back, or keep yours with `urdfsync resolve {target.shown} --keep`"
-    elif choice is Choice.TAKE and not target.replaceable:
+    if choice is Choice.TAKE and not target.replaceable:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
     elif choice is Choice.MERGE and target.action.kind is Kind.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"

@@ -84,8 +84,6 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the merged text; None if nothing is merged."""
     held: bool = False
     """Waits until the robot's other conflicts are resolved."""
-    at_hand: bool = True
-    """Whether the generated content is available on this machine."""
 
     @property
     def reason(self) -> str:
@@ -101,7 +99,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def replaceable(self) -> bool:
         """Whether the generated content can replace what is there, which must be a file."""
-        return self.mine is not None and self.at_hand
+        return self.mine is not None
 
     @property
     def writes(self) -> bool:

@@ -108,8 +108,7 @@ def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple
         path = inputs.old_path(action.path)
         if action.role is Role.IMPORT:
             return action.mine in imported
-        packages = (package for package in generation.last_packages if path in package.artifacts)
-        return any(package.hash(path) == action.base for package in packages)
+        return generation.is_rendered(path, (action.base or "",))
 
     return tuple(
         msgspec.structs.replace(action, kind=Kind.ORPHAN)

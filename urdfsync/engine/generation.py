@@ -6,7 +6,7 @@ Of the package of the last complete build, texts whose template and data are sti
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -86,6 +86,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
                     return package.content(path).decode()
         return None
 
+    def is_rendered(self, path: str, hashes: Collection[str]) -> bool:
+        """Whether one of these hashes is that of a text of the last package, as it is rendered here."""
+        packages = (package for package in self.last_packages if path in package.artifacts)
+        return any(package.hash(path) in hashes for package in packages)
+
     def desired_files(self) -> dict[str, DesiredFile]:
         """Return every file that the package should have, by key."""
         found = {
@@ -93,8 +98,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             for path, artifact in self.package.artifacts.items()
         }
         for name, entry in self.imported.imports.items():
-            at_hand = entry.target not in self.imported.hashes_only
-            found[self.inputs.key(entry.target)] = DesiredFile(Role.IMPORT, name, entry.target_hash, at_hand)
+            found[self.inputs.key(entry.target)] = DesiredFile(Role.IMPORT, name, entry.target_hash)
         return found
 
     def recorded_roles(self) -> dict[str, tuple[Role, str]]:
@@ -154,7 +158,10 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     def moves(self) -> dict[str, str]:
         """Return new and old key of text files whose element was renamed, or whose package moved."""
         inputs, last = self.inputs, self.last_package
-        texts = {inputs.old_path(key) for key in inputs.recorded_files}
+        hashes = {inputs.old_path(key): one.hashes for key, one in inputs.recorded_files.items() if not one.is_users}
+        texts = set(hashes)
+        if inputs.folder != inputs.old_folder:  # the record may be a stranger's, and the folder the user's
+            texts = {path for path in texts if self.is_rendered(path, hashes[path])}
         before = {path: (a.owner, a.template) for path, a in last.artifacts.items() if path in texts} if last else {}
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
         if before == now and inputs.folder == inputs.old_folder:

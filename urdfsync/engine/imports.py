@@ -60,8 +60,6 @@ class Imported(msgspec.Struct):
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
-    hashes_only: set[str] = msgspec.field(default_factory=set)
-    """Targets of which nobody has the bytes that should be there: the copy has others, and the source is gone."""
 
     def add(self, dependency: Dependency, entry: Import, content: bytes | None = None) -> None:
         """Add an import. `content` is what is to be written; None if the copy in the package serves."""
@@ -200,8 +198,6 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
     moves = recorded.moved or record.target != dependency.target
     if moves:
         written = copied
-    elif written != copied:
-        result.hashes_only.add(dependency.target)
     entry = Import(dependency.target, record.source_hash, written, converter, facts)
     result.add(dependency, entry, copy if moves else None)
     message = f"{trouble.message}; the imported copy is kept"

@@ -23,8 +23,6 @@ class DesiredFile(msgspec.Struct, frozen=True):
     role: Role
     owner: str
     hash: str
-    at_hand: bool = True
-    """Whether its content is available; otherwise only the hash is known."""
 
 
 class ClassFolder(enum.Enum):
@@ -100,9 +98,8 @@ def decide(
         if kind is Kind.FORGET and (record.is_users or not record.hashes):
             continue  # it was never written, and is not wanted any more; or it is the user's
         role, owner = (target.role, target.owner) if target else known[path]
-        at_hand = target is None or target.at_hand
         on_disk_hash = mine if isinstance(mine, str) else None
-        actions.append(Action(path, kind, role, owner, base, generated, origin, mine=on_disk_hash, at_hand=at_hand))
+        actions.append(Action(path, kind, role, owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
 
 

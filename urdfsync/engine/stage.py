@@ -110,9 +110,10 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
         return encode(decision.texts[key])
     if action.role is Role.IMPORT:
         content = generation.imported.contents.get(generation.inputs.path(key))
-        if content is None:  # its copy was to serve, and has changed since
-            message, file = "it changed while urdfsync looked at it", shown(files.path(key))
-            raise OutputError(Diagnostic(Severity.ERROR, "restless", message, file, hint="build again"))
+        if content is None:
+            message, file = "it can't be written: the file it is made from is not here", shown(files.path(key))
+            hint = "bring that back, or put the copy back that was there"
+            raise OutputError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint))
         return content
     generated = generation.content(key)
     state = files.state(key)

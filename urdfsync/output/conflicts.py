@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
-NOT_HERE = "the file it is made from is not here"
 
 
 class DisputedFile(msgspec.Struct, frozen=True):
@@ -74,7 +73,7 @@ def describe(target: DisputedFile) -> str:
     """How the sides stand to each other, as a clause."""
     texts = target.texts
     if texts is None:
-        return f"it is no text that could be merged{'' if target.action.at_hand else f', and {NOT_HERE}'}"
+        return "it is no text that could be merged"
     if texts.merge is None:
         is_unowned = target.action.kind is Kind.UNOWNED
         lost = "without a base" if is_unowned else "what urdfsync wrote last is lost: without it"
