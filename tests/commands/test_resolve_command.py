@@ -138,7 +138,10 @@ def test_several_files_are_settled_together_or_not_at_all(several: Path, execute
 
 
 def test_all_that_can_be_merged_is_merged(several: Path, execute: Execute) -> None:
-    assert execute("resolve", "--all", "--merge", code=3).lines[0] == "ladder: 2 conflicts, 4 files wait until all conflicts are resolved"
+    assert (
+        execute("resolve", "--all", "--merge", code=3).lines[0]
+        == "ladder: 2 conflicts, 4 files wait until all conflicts are resolved"
+    )
     assert conflicts(execute) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
     execute("resolve", "--all", "--keep")
     text = Path(MODEL).read_text()

@@ -101,7 +101,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     open: Open | None = None
     """None if nothing is: the last build was complete."""
     is_ambiguous: bool = False
-    """Whether git has united two states so that options, templates or model are not known for sure."""
+    """Whether git has united two states, or lines are lost: then generator and model are not known for sure."""
 
     @property
     def snapshot(self) -> Snapshot | None:

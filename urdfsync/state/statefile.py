@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import, Snapshot
+from urdfsync.files import digest
 from urdfsync.state.record import RESOURCES, Choice, FileRecord, Generator, Open, Record
 
 FORMAT = 1
@@ -31,6 +32,7 @@ _HINT = "restore it from version control, or let `urdfsync build --full` make it
 
 _FACTS: Mapping[str, Any] = {
     "format": int,
+    "sum": str,
     "package": str,
     "class": str,
     "folder": str,
@@ -46,6 +48,8 @@ _FACTS: Mapping[str, Any] = {
     "renamed": tuple[str, str, str],
 }
 """The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
+_SUM = "sum "
+"""Begins the line with the hash of all others. Where git has united two states, it does not fit."""
 _HEADINGS = ("package", "class", "folder", "domain", "revision", "templates")
 _PLACE = ("package", "class", "folder")
 
@@ -53,17 +57,21 @@ _PLACE = ("package", "class", "folder")
 def dumps(record: Record) -> str:
     """The record as text: the same value gives the same text everywhere."""
     below = len(record.folder) + 1
-    lines = {line(word, value) for word, value in _facts(record)}
+    lines = {_line(word, value) for word, value in _facts(record)}
     files = set()
     for key, file in record.files.items():
         files |= {(key[below:], one) for one in ((_USERS,) if file.is_users else file.hashes)}
     listed = [f"file {sha256}  {path}" for path, sha256 in sorted(files)]
+    lines.add(_line("sum", _sum([*lines, *listed])))
     return "\n".join(f"{one}\n" for one in [_HEADER.rstrip(), *sorted(lines), *listed])
 
 
-def line(word: str, value: object) -> str:
-    """One fact."""
+def _line(word: str, value: object) -> str:
     return f"{word} {msgspec.json.encode(value, order='sorted').decode()}"
+
+
+def _sum(lines: Collection[str]) -> str:
+    return digest("\n".join(sorted(lines)).encode())
 
 
 def _facts(record: Record) -> Iterator[tuple[str, object]]:
@@ -98,16 +106,17 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
     newer urdfsync wrote. Unless `strict`, lines that can't be read are passed over.
     """
     found: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
-    is_damaged = False
+    facts = set()
     for number, content in enumerate(text.split("\n"), 1):
         if not content or content.startswith("#"):
             continue
+        if not content.startswith(_SUM):
+            facts.add(content)
         try:
             word, value = _parse(content)
         except (KeyError, ValueError, RecursionError) as error:
             if strict:
                 raise _broken(file, number, _what_is_wrong(content, error)) from None
-            is_damaged = True
             continue
         if word == "format" and value > FORMAT:
             message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
@@ -117,7 +126,7 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
     missing = [word for word in ("format", *_HEADINGS) if not found[word]]
     if missing:
         raise _broken(file, 1, f"it has no {' and no '.join(missing)}")
-    record = _record(found, is_damaged)
+    record = _record(found, is_whole=found["sum"] == [_sum(facts)])
     for path in _strange_paths(record):
         number = next((n for n, one in enumerate(text.split("\n"), 1) if path in one), 1)
         message = f"the recorded path {path!r} does not belong to the package `{record.package}`"
@@ -136,13 +145,12 @@ def _parse(content: str) -> tuple[str, Any]:
     return word, msgspec.json.decode(rest, type=_FACTS[word])
 
 
-def _record(found: Mapping[str, list[Any]], is_damaged: bool) -> Record:
+def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     """The record that facts make; of headings that are there twice, the last ones."""
     package, class_, folder, domain, _, templates = (found[word][-1] for word in _HEADINGS)
     is_placed = all(len(found[word]) == 1 for word in _PLACE)
     options = dict(found["option"])
     snapshots, seen = _snapshots(found["model"]), _snapshots(found["seen"])
-    is_sure = all(len(found[word]) == 1 for word in _HEADINGS) and len(options) == len(found["option"])
     hashes: dict[str, list[str]] = {}
     for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
@@ -170,7 +178,7 @@ def _record(found: Mapping[str, list[Any]], is_damaged: bool) -> Record:
         },
         texts=dict(found["text"]),
         open=open_,
-        is_ambiguous=is_damaged or not is_sure or len(snapshots) > 1,
+        is_ambiguous=not is_whole,
     )
 
 

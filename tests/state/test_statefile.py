@@ -1,0 +1,112 @@
+"""The recorded state as text: what is written comes back, what git unites is told, and what is no state is refused."""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.diagnostics import StateError
+from urdfsync.domain import Import
+from urdfsync.state.record import Choice, FileRecord, Generator, Open, Record
+from urdfsync.state.statefile import dumps, loads
+
+A, B = "a" * 64, "b" * 64
+ARM = Record(
+    package="Plant.Arm",
+    class_="Arm",
+    folder="modelica/Plant/Arm",
+    generator=Generator("urdf", 3, "0123"),
+    options={"base": "fixed", "frames": ["tip"]},
+    snapshots=({"links": {"tip": {"mass": 1.5}}, "joints": {}, "name": "arm"},),
+    imports={"tip.stl": (Import("Resources/tip.stl", A, B, 2, {"hull": [[0.0, 1.0]]}),)},
+    files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,)), "modelica/Plant/Arm/Mine.mo": FileRecord((), is_users=True)},
+    texts={A: "model Arm\nend Arm;\n"},
+)
+OPEN = Open({("Arm.mo", B): Choice.MERGE}, {"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})
+TEXT = dumps(ARM)
+
+names = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)
+values = st.recursive(st.none() | st.booleans() | st.floats(allow_nan=False, allow_infinity=False) | names, st.lists)
+snapshots = st.dictionaries(names, values | st.dictionaries(names, values, max_size=3), min_size=1, max_size=3)
+
+
+@given(snapshots, snapshots, st.dictionaries(names, values.filter(lambda value: value is not None)))
+def test_a_record_comes_back(snapshot: dict[str, object], seen: dict[str, object], options: dict[str, object]) -> None:
+    record = msgspec.structs.replace(ARM, snapshots=(snapshot,), options=options, open=Open({}, seen, {}))
+    assert loads(dumps(record), "arm.state") == record
+
+
+@pytest.mark.parametrize("record", [ARM, msgspec.structs.replace(ARM, open=OPEN)], ids=["complete", "open"])
+def test_each_line_stands_alone(record: Record) -> None:
+    lines = dumps(record).split("\n")
+    assert not any(lines[1::2]), "between neighbours is a blank line"
+    shuffled = "\n".join([*reversed(lines), *lines, "# a remark"])
+    assert loads(shuffled, "arm.state") == record
+
+
+def united(*more: str) -> Record:
+    return loads("\n\n".join([TEXT, *more]), "arm.state")
+
+
+@pytest.mark.parametrize(
+    "line",
+    ['class "Leg"', "revision 4", 'option ["base","floating"]', 'model ["links","tip",{"mass":3.0}]'],
+)
+def test_what_git_united_is_not_known_for_sure(line: str) -> None:
+    record = united(line)
+    assert record.is_ambiguous
+    assert record.snapshot is None
+
+
+def test_both_models_that_git_united_are_at_hand() -> None:
+    record = united('model ["links","tip",{"mass":3.0}]')
+    assert [snapshot["links"]["tip"]["mass"] for snapshot in record.snapshots] == [1.5, 3.0]
+
+
+def test_a_file_has_every_hash_that_a_branch_recorded_and_is_the_users_if_one_says_so() -> None:
+    record = united(f"file {B}  Arm.mo", f"file {B}  Mine.mo")
+    assert record.files["modelica/Plant/Arm/Arm.mo"] == FileRecord((A, B))
+    assert record.files["modelica/Plant/Arm/Mine.mo"].is_users
+    assert record.is_ambiguous
+
+
+def test_where_the_files_of_two_folders_are_is_not_known() -> None:
+    assert united('folder "packages/Plant/Arm"').files == {}
+
+
+BROKEN = {
+    "<<<<<<< ours": "unresolved merge markers",
+    "files 3": "this is no state of urdfsync",
+    "revision true": "this is no state of urdfsync: expected `int`, got `bool`",
+    'model ["links"]': "this is no state of urdfsync",
+    f"file {A[:9]}  Arm.mo": "this is no state of urdfsync: no hash and path",
+    f"file {A}  ../Arm.mo": "the recorded path '../Arm.mo' does not belong to the package `Plant.Arm`",
+    f"file {A}  .git/config.mo": "does not belong to the package",
+    f"file {A}  package.order": "does not belong to the package",
+    'import ["x",{"target":"../x","source_hash":"","target_hash":"","converter":1,"facts":{}}]': "'../x' does not",
+    "format 2": "a newer urdfsync wrote this state (format 2; this one knows 1)",
+}
+
+
+@pytest.mark.parametrize("line", BROKEN)
+def test_what_is_no_state_is_refused_with_its_line(line: str) -> None:
+    with pytest.raises(StateError, match=re.escape(BROKEN[line])) as caught:
+        united(line)
+    assert caught.value.diagnostics[0].line == TEXT.count("\n") + 3
+
+
+@pytest.mark.parametrize(
+    "line", [line for line in BROKEN if "does not" not in BROKEN[line] and "newer" not in BROKEN[line]]
+)
+def test_a_full_build_passes_over_what_can_not_be_read(line: str) -> None:
+    record = loads(f"{line}\n{TEXT}", "arm.state", strict=False)
+    assert record == msgspec.structs.replace(ARM, is_ambiguous=True)
+
+
+def test_a_state_without_its_heading_is_none() -> None:
+    with pytest.raises(StateError, match="it has no folder"):
+        loads(TEXT.replace("\nfolder ", "\n# "), "arm.state")

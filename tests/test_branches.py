@@ -1,0 +1,303 @@
+"""Two branches that both export, edit and build: git unites the recorded states, and one build brings all in step."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+from support import replay
+from support.git import NEEDS_GIT, Repository
+from support.networks import C1, LADDER, R2, RECORD, configure, edit, kinds, run
+
+from urdfsync.engine.actions import Kind
+from urdfsync.state.record import Choice
+
+pytestmark = NEEDS_GIT
+STATE = ".urdfsync/robots/ladder.state"
+EPISODES = replay.STEPS // 8 or 6
+
+
+def elements() -> list[dict[str, Any]]:
+    network: list[dict[str, Any]] = json.loads(Path("ladder.json").read_text())["elements"]
+    return network
+
+
+def export(change: Callable[[list[dict[str, Any]]], object]) -> None:
+    """Change the elements of the source, which has a blank line between two of them, so that git merges it."""
+    network = json.loads(Path("ladder.json").read_text())
+    change(network["elements"])
+    lines = ",\n\n".join(json.dumps(element) for element in network["elements"])
+    head = json.dumps({**network, "elements": []}).removesuffix("]}")
+    Path("ladder.json").write_text(f"{head}\n\n{lines}\n\n]}}\n")
+
+
+def set_value(name: str, value: float) -> None:
+    def change(found: list[dict[str, Any]]) -> None:
+        (element,) = (one for one in found if one["name"] == name)
+        element["ohm" if "ohm" in element else "farad"] = value
+
+    export(change)
+
+
+def drop(name: str) -> None:
+    export(lambda found: found.remove(next(one for one in found if one["name"] == name)))
+
+
+def add(name: str) -> None:
+    export(lambda found: found.append({"name": name, "between": ["in", "ground"], "ohm": 5}))
+
+
+def note(path: str, text: str) -> None:
+    """An edit: a line before the end of a class."""
+    found = Path(path).read_text()
+    Path(path).write_text(re.sub(r"\nend (\w+);\n$", rf"\n  // {text}\nend \1;\n", found))
+
+
+@pytest.fixture
+def repository(project: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+    """The network, built and committed."""
+    export(list)
+    run()
+    repository = Repository(project, monkeypatch)
+    repository.commit()
+    return repository
+
+
+def branch(repository: Repository, name: str, *steps: Callable[[], object], start: str = "main") -> None:
+    """A branch from another one: each step is built and committed."""
+    repository.git("checkout", "-q", "-B", name, start)
+    for step in steps:
+        step()
+        run()
+        repository.commit()
+
+
+def unmerged(repository: Repository) -> list[str]:
+    return sorted(set(repository.git("diff", "--name-only", "--diff-filter=U").split()))
+
+
+def unite(repository: Repository, how: str) -> None:
+    """Bring the branch `theirs` together with `ours`, which is checked out then."""
+    start = repository.git("merge-base", "ours", "theirs").strip()
+    repository.git("checkout", "-q", "ours")
+    if how == "merge":
+        repository.git("merge", "-q", "--no-edit", "theirs")
+    elif how == "cherry-pick":
+        repository.git("cherry-pick", f"{start}..theirs")
+    else:
+        repository.git("rebase", "-q", "theirs")
+
+
+def fresh(folder: Path) -> dict[str, str]:
+    """The package as it is built from the source alone."""
+    if folder.exists():
+        shutil.rmtree(folder)
+    shutil.copytree(Path.cwd(), folder, ignore=shutil.ignore_patterns(".git", ".urdfsync", "modelica", "fresh"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        run()
+        return texts()
+
+
+def texts() -> dict[str, str]:
+    return {path.as_posix(): path.read_text() for path in sorted(Path(LADDER).rglob("*.mo"))}
+
+
+def without_notes(found: Mapping[str, str]) -> dict[str, str]:
+    return {path: re.sub(r"  // .*\n", "", text) for path, text in found.items()}
+
+
+@pytest.mark.parametrize("how", ["merge", "cherry-pick", "rebase"])
+def test_exports_and_edits_of_two_branches_meet(repository: Repository, tmp_path: Path, how: str) -> None:
+    branch(repository, "ours", lambda: set_value("R1", 150), lambda: note(C1, "ours"))
+    branch(repository, "theirs", lambda: set_value("C2", 5e-6), lambda: note(R2, "theirs"), start="main")
+    unite(repository, how)
+    result = run()
+    assert result.in_step
+    assert kinds(result) == {C1: Kind.KEEP, R2: Kind.KEEP}
+    assert without_notes(texts()) == fresh(tmp_path / "fresh")
+    assert "ours" in Path(C1).read_text()
+    assert "theirs" in Path(R2).read_text()
+
+
+CASES: Mapping[str, tuple[Callable[[], object], Callable[[], object]]] = {
+    "neighbouring elements": (lambda: set_value("R1", 150), lambda: set_value("C1", 2e-6)),
+    "new elements": (lambda: add("R8"), lambda: set_value("R1", 150)),
+    "a deletion and a change elsewhere": (lambda: drop("C2"), lambda: set_value("R1", 150)),
+    "the same change": (lambda: set_value("R1", 150), lambda: set_value("R1", 150)),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_git_merges_is_in_step_after_one_build(repository: Repository, tmp_path: Path, case: str) -> None:
+    ours, theirs = CASES[case]
+    branch(repository, "ours", ours)
+    branch(repository, "theirs", theirs)
+    unite(repository, "merge")
+    assert not run().conflicts
+    with replay.in_haste():
+        assert run().in_step
+    assert texts() == fresh(tmp_path / "fresh")
+
+
+def merge_and_settle(repository: Repository, side: str) -> None:
+    """Merge `theirs` into `ours`; what git can't merge is taken from one side, but never the recorded state."""
+    repository.git("checkout", "-q", "ours")
+    subprocess.run(["git", "merge", "-q", "--no-edit", "theirs"], cwd=repository.folder, capture_output=True)
+    conflicts = unmerged(repository)
+    assert STATE not in conflicts
+    for path in conflicts:
+        done = subprocess.run(["git", "checkout", f"--{side}", path], cwd=repository.folder, capture_output=True)
+        if done.returncode:  # that side has deleted it
+            Path(path).unlink(missing_ok=True)
+    repository.commit("merged")
+
+
+@pytest.mark.parametrize("side", ["ours", "theirs"])
+def test_of_two_values_of_one_number_the_one_in_the_source_counts(
+    repository: Repository, tmp_path: Path, side: str
+) -> None:
+    branch(repository, "ours", lambda: set_value("R1", 150))
+    branch(repository, "theirs", lambda: set_value("R1", 170))
+    merge_and_settle(repository, side)
+    assert not run().conflicts
+    assert texts() == fresh(tmp_path / "fresh")
+    assert run().in_step
+
+
+def test_an_edit_with_an_ambiguous_base_is_never_kept_in_silence(repository: Repository) -> None:
+    branch(repository, "ours", lambda: set_value("R1", 150), lambda: note(RECORD, "ours"))
+    branch(repository, "theirs", lambda: set_value("R1", 170))
+    merge_and_settle(repository, "ours")
+    edit("ladder.json", "150", "170")
+    (found,) = run().conflicts
+    assert found.path == RECORD
+    run(choices={RECORD: Choice.TAKE})
+    assert "170" in Path(RECORD).read_text()
+    assert run().in_step
+
+
+def test_a_deletion_against_a_change_and_its_return(repository: Repository, tmp_path: Path) -> None:
+    branch(repository, "ours", lambda: drop("C2"))
+    branch(repository, "theirs", lambda: set_value("C2", 5e-6))
+    merge_and_settle(repository, "ours")
+    assert not run().conflicts
+    wanted = fresh(tmp_path / "fresh")
+    assert {path: text for path, text in texts().items() if path in wanted} == wanted
+    export(lambda found: found.append({"name": "C2", "between": ["out", "ground"], "farad": 5e-6}))
+    assert not run().conflicts
+    assert texts() == fresh(tmp_path / "fresh")
+    assert run().in_step
+
+
+def test_a_source_that_goes_back_to_an_earlier_export_after_the_merge(repository: Repository, tmp_path: Path) -> None:
+    earlier = Path("ladder.json").read_text()
+    branch(repository, "ours", lambda: set_value("R1", 150))
+    branch(repository, "theirs", lambda: add("R8"))
+    unite(repository, "merge")
+    Path("ladder.json").write_text(earlier)
+    assert not run().conflicts
+    assert texts() == fresh(tmp_path / "fresh")
+
+
+def test_an_orphan_that_one_branch_keeps_stays_the_users(repository: Repository) -> None:
+    """The other branch still generates it, and records another text."""
+
+    def keep() -> None:
+        note(C1, "ours")
+        drop("C1")
+        run()
+        run(choices={C1: Choice.KEEP})
+
+    branch(repository, "ours", keep)
+    branch(repository, "theirs", lambda: set_value("C2", 5e-6))
+    merge_and_settle(repository, "ours")
+    run()
+    assert "// ours" in Path(C1).read_text()
+    assert run().in_step
+
+
+def test_branches_that_merge_each_other(repository: Repository, tmp_path: Path) -> None:
+    branch(repository, "ours", lambda: set_value("R1", 150))
+    branch(repository, "theirs", lambda: set_value("C2", 5e-6))
+    repository.git("branch", "-q", "before", "ours")
+    unite(repository, "merge")
+    set_value("R2", 330)
+    run()
+    repository.commit()
+    repository.git("checkout", "-q", "theirs")
+    repository.git("merge", "-q", "--no-edit", "before")
+    set_value("C1", 3e-6)
+    run()
+    repository.commit()
+    unite(repository, "merge")
+    assert not run().conflicts
+    assert texts() == fresh(tmp_path / "fresh")
+    assert run().in_step
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(EPISODES))
+def test_a_random_walk_of_branches_and_merges(repository: Repository, tmp_path: Path, seed: int) -> None:
+    """Every edit that git leaves is there after the build, and every other line is that of a fresh build."""
+    random, count = Random(seed), 0
+    configure('on_conflict = "merge"\n')
+    repository.commit()
+
+    def step() -> None:
+        nonlocal count
+        count += 1
+        found = [one["name"] for one in elements()]
+        match random.choice(["value", "value", "add", "drop", "note", "note"]):
+            case "value":
+                set_value(random.choice(found), count)
+            case "add" if f"R{count}" not in found:
+                add(f"R{count}")
+            case "drop" if len(found) > 2:
+                drop(random.choice(found))
+            case _:
+                path = random.choice(sorted(Path(LADDER, "Elements").glob("[RC]*.mo")))
+                note(path.as_posix(), f"note {count}")
+
+    def settled() -> None:
+        result = run()
+        if result.conflicts:
+            run(choices={action.path: Choice.TAKE for action in result.conflicts})
+
+    for _ in range(8):
+        for name in ("ours", "theirs"):
+            repository.git("checkout", "-q", "-B", name, "main")
+            for _ in range(random.choice([1, 2, 3])):
+                step()
+                settled()
+                repository.commit()
+        merge_and_settle(repository, random.choice(["ours", "theirs"]))
+        try:
+            elements()
+        except ValueError:  # git has merged the source to something else
+            repository.git("checkout", "-q", "theirs", "--", "ladder.json")
+        notes = {path: re.findall(r"// note \d+", text) for path, text in texts().items()}
+        result = run()
+        taken = {action.path for action in result.conflicts}
+        left = texts()
+        for path, lines in notes.items():
+            assert not lines or (path in left and set(lines) <= set(re.findall(r"// note \d+", left[path])))
+        if taken:
+            run(choices=dict.fromkeys(taken, Choice.TAKE))
+        assert run().in_step
+        wanted = fresh(tmp_path / "fresh")
+        kept = {a.path for a in run().actions if a.kind is Kind.KEEP}
+        for path, text in wanted.items():
+            found = Path(path).read_text()
+            assert found == text or path in kept
+            if path in kept and re.findall(r"// note", found):
+                assert without_notes({path: found})[path] == text, "an export is lost"
+        repository.commit()
+        repository.git("checkout", "-q", "-B", "main")
