@@ -257,7 +257,7 @@ def test_a_clone_reaches_the_same_result(
     if built:
         run()
         run()
-    local = ("base", "conflicts", "lock", "journal", "undo", "folders.json")
+    local = ("base", "conflicts", "lock", "folders.json")
     other = shutil.copytree(project, tmp_path / "clone", ignore=shutil.ignore_patterns(*local))
     first = run()
     run(choices={RECORD: Choice.MERGE})

@@ -208,7 +208,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         with contextlib.suppress(*NO_MODEL):
             recovered.append(_package(inputs, inputs.version(model), robot.target))
     changed = frozenset(package.artifacts)
-    if last_package and recorded and recorded.generator == inputs.generator and not options.full:
+    if last_package and recorded and recorded.generator == inputs.generator and not (options.full or inputs.written):
         changed = package.changed_since(last_package)
     found = (*found, *imported.diagnostics)
     return Generation(inputs, now, reading.lines, found, imported, package, last_package, tuple(recovered), changed)

@@ -46,6 +46,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Name of the robot in the last build, if it has another one now."""
     recovered: repair.RecoveredState | None
     """What `--repair` could read of a broken state."""
+    written: Mapping[str, FileRecord | None]
+    """What builds that are not complete have written since, by key; None for a file that they deleted."""
     templates: Templates
     content: bytes
     """Bytes of the source."""
@@ -53,8 +55,13 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def recorded(self) -> Manifest | None:
-        """The manifest of the last build; None if there was none."""
-        return self.state.manifest if self.state else None
+        """The manifest of the last build, with what was written since; None if there was none."""
+        recorded = self.state.manifest if self.state else None
+        if not self.written:
+            return recorded
+        recorded = recorded or self.heading("")
+        files = {**recorded.files, **self.written}
+        return msgspec.structs.replace(recorded, files={key: one for key, one in files.items() if one is not None})
 
     @cached_property
     def model(self) -> Model | None:
@@ -235,8 +242,32 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         file = shown(store.folder / "robots" / f"{robot.name}.toml")
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
     return Inputs(
-        config, robot, options, domain, files, around, store, state, former, recovered, templates, content, generator
+        config,
+        robot,
+        options,
+        domain,
+        files,
+        around,
+        store,
+        state,
+        former,
+        recovered,
+        _find_written(store, files),
+        templates,
+        content,
+        generator,
     )
+
+
+def _find_written(store: Store, files: PackageFiles) -> dict[str, FileRecord | None]:
+    """Return the files that builds which are not complete have written or deleted: they are as was planned."""
+    found: dict[str, FileRecord | None] = {}
+    for one in store.planned_files():
+        if (one.new is None or one.record) and files.is_inside(one.path):
+            state = files.state(one.path)
+            if (state.sha256 if state else None) == one.new:
+                found[one.path] = one.record
+    return found
 
 
 def _load(

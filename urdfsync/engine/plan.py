@@ -58,7 +58,7 @@ def plan_if_current(config: Config, robot: RobotConfig, options: BuildOptions) -
 def _plan_if_current(inputs: Inputs) -> Plan | None:
     """Return the plan if the last build's result is still wanted, and on disk; None otherwise."""
     state, options, store = inputs.state, inputs.options, inputs.store
-    if options.full or options.draw or options.choices or inputs.former_name:
+    if options.full or options.draw or options.choices or inputs.former_name or inputs.written:
         return None
     if state is None or state.model is None or not state.intact or inputs.parents.shared:
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -14,12 +14,12 @@ from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Actions
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import PackageFiles, encode
+from urdfsync.engine.package_files import encode
 from urdfsync.engine.parents import SharedFile
 from urdfsync.files import shown, text_digest
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.record import FileRecord, RecordState
-from urdfsync.state.store import State, Store, Witness
+from urdfsync.state.store import State, Witness
 from urdfsync.state.transaction import FileChange
 
 _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
@@ -121,34 +121,9 @@ def _file_changes(generation: Generation, decision: Decision) -> list[FileChange
             content = None if action.kind in DELETES else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            found.append(FileChange(files.path(action.path), content, state.sha256 if state else None, is_moved))
+            old, record = state.sha256 if state else None, decision.files.get(action.path)
+            found.append(FileChange(files.path(action.path), content, old, is_moved, record))
     return found
-
-
-def partly_done(
-    plan: Plan, robot: str, not_done: Collection[Path], store: Store, files: PackageFiles
-) -> list[FileChange]:
-    """Return how to record a plan of which some files are not as planned, since somebody saved one in between.
-
-    Those keep the records that they had, as conflicts. So the next plan compares them with what was written there
-    before, and all others with what this plan wrote.
-    """
-    path, last = store.paths(robot)[0], store.load(plan.former_name or robot)
-    state = {change.path: change for change in plan.writes if change.path.parent == path.parent}
-    if path not in state:
-        return []
-    new = manifest.loads((state[path].content or b"").decode(), shown(path))
-    old_files, old_orders = (last.manifest.files, last.manifest.orders) if last else ({}, {})
-    left = {files.key(one) for one in not_done}
-    records = {key: record for key, record in new.files.items() if key not in left}
-    for key in left & old_files.keys():
-        record = old_files[key]
-        records[key] = msgspec.structs.replace(record, state=RecordState.CONFLICT) if key in new.files else record
-    orders = {key: names for key, names in new.orders.items() if key not in left}
-    orders |= {key: names for key, names in old_orders.items() if key in left}
-    source = msgspec.structs.replace(new.source, hash="")  # so that the next build generates everything
-    text = manifest.dumps(msgspec.structs.replace(new, files=records, orders=orders, source=source))
-    return list({**state, path: msgspec.structs.replace(state[path], content=text.encode())}.values())
 
 
 def _content(generation: Generation, decision: Decision, action: Action) -> bytes:

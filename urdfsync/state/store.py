@@ -12,10 +12,11 @@ from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import is_folder, list_folder
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, shown, text_digest
-from urdfsync.state import file_operations, manifest, modelfile
+from urdfsync.state import file_operations, manifest, modelfile, planned
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.modelfile import Model
+from urdfsync.state.planned import PlannedFile
 from urdfsync.state.transaction import FileChange
 
 _IGNORE = """\
@@ -78,6 +79,12 @@ class Store:
             return State(recorded, None, intact=False)
         model = modelfile.loads(content, shown(beside))
         return State(recorded, model, intact=text_digest(content.encode()) == recorded.source.snapshot)
+
+    def planned_files(self) -> tuple[PlannedFile, ...]:
+        """What builds that are not complete were about to write, in their order. Raises OutputError for a link."""
+        path = self.folder / planned.FILE
+        build = planned.parse(path, self._bytes(path))
+        return (*build.earlier, *build.files) if build else ()
 
     def texts(self, robot: str) -> tuple[str | None, str | None]:
         """The text of the robot's manifest and of its model, whatever they are; None for what is not there."""
