@@ -168,7 +168,7 @@ def _damage(work: Workplace, random: Random) -> None:
 
 
 _NAMES = (
-    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp", "folders.json", "folders.json"),
+    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp"),
     *("lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
     *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
     *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),

@@ -1,8 +1,7 @@
-"""The folder of the last build: nothing in it is deleted or moved unless a build in this very checkout wrote it."""
+"""The folder of the last build: a build deletes in it only what it can render itself."""
 
 from __future__ import annotations
 
-import os
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -16,7 +15,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, configure, edit
 from support.replay import contents
 
-from urdfsync.diagnostics import OutputError
+from urdfsync.engine.result import Exit
 from urdfsync.files import digest
 from urdfsync.state.store import Store
 
@@ -35,7 +34,7 @@ def move(project: Path, package: str = "Filter") -> None:
 
 @pytest.fixture
 def hostile(execute: Execute, project: Path) -> Path:
-    """A clone whose manifest says that a package of the user's is where the robot was; with a forged local state."""
+    """A clone whose manifest says that a package of the user's is where the robot was."""
     execute("build")
     for name, content in OWN.items():
         (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -50,8 +49,6 @@ def hostile(execute: Execute, project: Path) -> Path:
             "Resources/table.csv": {"owner": "", "role": "import", "base": digest(OWN["Resources/table.csv"])},
         },
     )
-    noted = project / ".urdfsync/folders.json"
-    noted.write_text(noted.read_text().replace("modelica/Ladder", "modelica/Mine"))
     shutil.rmtree(project / "modelica/Ladder")
     return project
 
@@ -77,46 +74,42 @@ def test_a_strangers_manifest_moves_no_edits(execute: Execute, hostile: Path) ->
     mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
     written = digest(b"what urdfsync wrote")
     rewrite(hostile / MANIFEST, files={"Ladder.mo": {"owner": "circuit ladder", "role": "model", "base": written}})
-    execute("build")
+    execute("build", code=Exit.CONFLICT)
     assert mine.read_text() == "within Mine;\nmodel Ladder\nend Ladder;\n"
 
 
-def test_what_stays_is_told_once_with_the_command_that_removes_it(hostile: Path, execute: Execute) -> None:
+def test_what_stays_is_told_once(hostile: Path, execute: Execute) -> None:
     said = " ".join(execute("build").err.split())
     assert (
-        "the package moved from modelica/Mine to modelica/Ladder; the old folder was not built in this checkout, so it "
-        "stays as it is; take over what you need, then delete it: `rm -r -- modelica/Mine` [left-behind]"
+        "the package moved from modelica/Mine to modelica/Ladder; what you wrote or edited, and what that needs, "
+        "stayed behind: modelica/Mine/Pump.mo, modelica/Mine/Resources/table.csv, modelica/Mine/package.order; "
+        "take over what you need, then delete the old folder [left-behind]"
     ) in said
     assert "left-behind" not in execute("build").err
 
 
-def test_a_fresh_clone_leaves_a_former_folder_and_this_checkout_does_not(
-    execute: Execute, project: Path, tmp_path: Path
-) -> None:
-    execute("build")
-    built = contents(project / "modelica/Ladder")
-    clone = tmp_path / "clone"
-    shutil.copytree(project, clone, ignore=shutil.ignore_patterns("base", "folders.json", "stamp"))
-    for folder in (clone, project):
-        move(folder)
-        execute("build", "--config", str(folder / "urdfsync.toml"))
-    assert contents(clone / "modelica/Ladder") == built
-    assert not (project / "modelica/Ladder").exists()
-    assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
-
-
-@pytest.mark.parametrize("left_out", [("base", "folders.json", "stamp"), ()], ids=["clone", "copy"])
-def test_a_clone_that_has_built_moves_its_package(
+@pytest.mark.parametrize("left_out", [("base", "stamp"), ()], ids=["clone", "copy"])
+def test_a_clone_takes_its_package_along(
     execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]
 ) -> None:
     execute("build")
     clone = tmp_path / "clone"
     shutil.copytree(project, clone, ignore=shutil.ignore_patterns(*left_out))
-    config = str(clone / "urdfsync.toml")
-    execute("build", "--config", config)
-    move(clone)
-    execute("build", "--config", config)
-    assert not (clone / "modelica/Ladder").exists()
+    for folder in (clone, project):
+        move(folder)
+        execute("build", "--config", str(folder / "urdfsync.toml"))
+        assert not (folder / "modelica/Ladder").exists()
+    assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
+
+
+def test_an_edited_file_is_taken_along_and_stays_behind(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(project / "modelica/Ladder/Elements/C1.mo", "end C1;", "// mine\nend C1;")
+    move(project)
+    assert "stayed behind: modelica/Ladder/Elements/C1.mo" in " ".join(execute("build").err.split())
+    for package in ("Ladder", "Filter"):
+        assert "// mine" in (project / "modelica" / package / "Elements/C1.mo").read_text()
+    execute("build", "--check")
 
 
 def _rename_robot(project: Path) -> None:
@@ -137,8 +130,6 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
         execute("build")
     (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
     assert package.name == ("Filter" if move in steps else "Ladder")
-    robot = "filter" if _rename_robot in steps else "ladder"
-    assert package.relative_to(project).as_posix() in Store(project).written_folders(robot)
 
 
 def test_a_recorded_line_of_the_parents_order_is_the_packages_own(project: Path, execute: Execute) -> None:
@@ -161,39 +152,3 @@ def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Exec
     execute("build")
     assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
     assert Store(project).names() == ["filter"]
-
-
-@pytest.mark.parametrize("change", ["copied", "touched", "cut short", "link", "folder"])
-def test_folders_that_were_not_noted_here_do_not_count(tmp_path: Path, change: str) -> None:
-    Store(tmp_path).note_folders("arm", ["m/Arm"])
-    file = tmp_path / ".urdfsync/folders.json"
-    copy = file.with_name("copy")
-    shutil.copy2(file, copy)
-    if change == "touched":
-        os.utime(file)
-    elif change == "cut short":
-        file.write_bytes(b"{")
-    else:
-        file.unlink()
-        if change == "copied":
-            copy.rename(file)
-        elif change == "link":
-            file.symlink_to(copy)
-        else:
-            file.mkdir()
-    assert Store(tmp_path).written_folders("arm") == frozenset()
-
-
-def test_folders_are_not_noted_through_a_link(tmp_path: Path) -> None:
-    outside, root = tmp_path / "outside", tmp_path / "root"
-    (root / ".urdfsync").mkdir(parents=True)
-    outside.mkdir()
-    for name in ("folders.json", ".folders.json.urdfsync-tmp"):
-        (root / ".urdfsync" / name).symlink_to(outside / "victim")
-    Store(root).note_folders("arm", ["m/Arm"])
-    assert Store(root).written_folders("arm") == {"m/Arm"}
-    shutil.rmtree(root / ".urdfsync")
-    (root / ".urdfsync").symlink_to(outside)
-    with pytest.raises(OutputError, match="symbolic link"):
-        Store(root).note_folders("arm", ["m/Arm"])
-    assert list(outside.iterdir()) == []

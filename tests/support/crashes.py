@@ -167,14 +167,14 @@ def copy(project: Path, to: Path) -> Path:
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
-    for place in ("planned.json", ".planned.json.urdfsync-tmp", "folders.json"):
+    for place in ("planned.json", ".planned.json.urdfsync-tmp"):
         if (to / ".urdfsync" / place).is_file():
             bind(to / ".urdfsync" / place)
     return to
 
 
 def bind(file: Path) -> None:
-    """Let a copy of planned hashes, or of the noted folders, be one that was written in its place."""
+    """Let a copy of planned hashes be one that was written in its place."""
     with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged to something else
         status, text = file.stat(), json.loads(file.read_bytes())
         file.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
@@ -187,17 +187,16 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = (".urdfsync/lock", ".urdfsync/base", ".urdfsync/folders.json")
+    left_out = (".urdfsync/lock", ".urdfsync/base")
     names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
     return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
 
 def _needed(project: Path, robot: str) -> bytes:
-    """The bases that a manifest needs, by their hashes, and whether its folder is noted."""
+    """The bases that a manifest needs, by their hashes."""
     store = Store(project)
     state, bases = store.load(robot), store.bases(robot)
     assert state is not None
     needed = {record.base for record in state.manifest.files.values() if record.base}
-    is_noted = state.manifest.folder in store.written_folders(robot)
-    return repr([is_noted, [(digest, bases.get(digest)) for digest in sorted(needed)]]).encode()
+    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()

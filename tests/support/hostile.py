@@ -127,16 +127,6 @@ class Stranger:
         """A manifest whose package was elsewhere before."""
         self.edit(MANIFEST, 'folder = "modelica/Arm"', f"folder = {json.dumps(folder)}")
 
-    def former_folder(self) -> None:
-        """A manifest and a list of folders, both of which say that the user's package is a former place of ours."""
-        self.manifest_folder("modelica/Other")
-        entry = {"modelica/Other": ["Mine.mo"], "arm": ["modelica/Other"]}
-        file, bound = ".urdfsync/folders.json", {"inode": 1, "written": 1}
-        for _ in range(2):  # the second time as it was where the stranger wrote it
-            self.write(file, json.dumps({"folders": entry, **bound}))
-            status = (self.project / file).stat()
-            bound = {"inode": status.st_ino, "written": status.st_mtime_ns}
-
     def show(self, *names: str) -> None:
         """Let the robot show meshes."""
         shapes = "".join(f'<visual><geometry><mesh filename="{name}"/></geometry></visual>' for name in names)
@@ -221,8 +211,6 @@ COMMITTED: Mapping[str, Attack] = {
     "a manifest with the configuration": lambda one: one.manifest_file("urdfsync.toml"),
     "a manifest of a package outside": lambda one: one.manifest_folder(one.out()),
     "a manifest of the user's package": lambda one: one.manifest_folder("modelica/Other"),
-    "a list of former folders": Stranger.former_folder,
-    "a deep list of former folders": lambda one: one.write(".urdfsync/folders.json", '{"x":' + "[" * 200_000),
     "state that is a link": lambda one: one.link(".urdfsync", "state"),
     "manifests that are a link": lambda one: one.link(".urdfsync/robots", "state"),
     "a manifest that is a link": lambda one: one.link(MANIFEST, "victim.mo"),
@@ -274,9 +262,8 @@ ATTACKS = {**COMMITTED, **LOCAL}
 
 TOGETHER = (
     *("modules", "a template that leaves the sandbox", "a template without end", "a template that is a link"),
-    *("planned hashes of git's hooks",),
     *("a manifest with a file outside", "a manifest with the user's file", "a manifest with the configuration"),
-    *("a manifest of a package outside", "a deep list of former folders"),
+    *("a manifest of a package outside", "deep planned hashes"),
     *("bases that are a link", "an answer that is a link", "a lock that is a link", "conflicts that are a link"),
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
     *("a deep model", "huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),

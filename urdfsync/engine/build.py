@@ -20,7 +20,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity,
 from urdfsync.engine.actions import DELETES, Actions, Kind
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles, key_of
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan
@@ -107,7 +107,7 @@ class _Builder:
                 continue
             told = _joined(first, plan) if first else plan
             writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
-            if not writes and self._is_noted(robot) and not self._transactions.is_pending():
+            if not writes and not self._transactions.is_pending():
                 return told
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)
@@ -121,10 +121,6 @@ class _Builder:
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
-    def _is_noted(self, robot: RobotConfig) -> bool:
-        """Return whether it is recorded that a build in this checkout wrote the package's folder."""
-        return key_of(robot.folder, self._config.root) in Store(self._config.root).written_folders(robot.name)
-
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
         files, store = PackageFiles(self._config, robot), Store(self._config.root)
@@ -132,8 +128,6 @@ class _Builder:
         changes = [*shared, *store.ignoring(), *plan.writes]
         bases = store.bases(robot.name)
         bases.add(plan.bases)
-        former = {plan.former_folder} & store.written_folders(robot.name)
-        store.note_folders(robot.name, {files.key(robot.folder), *former}, plan.former_name)
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         if plan.mentioned is not None and not applied.not_done:

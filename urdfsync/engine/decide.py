@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, USERS, Action, Actions, Kind
@@ -85,11 +86,15 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         staying = _staying(inputs, actions, choices, left)
         conflicts = {action.path: _conflict(generation, names, action, staying) for action in disputed}
         actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    if generation is not None:
+        actions = tuple(_stay_behind(generation, action) for action in actions)
     actions = keep_needed(actions, files.has_classes, _mentioned_records(inputs, actions, left, merged))
 
     old_orders = {key: files.text(key) for key in sorted(owned.keys() | desired_orders.keys())}
     _refuse_markers(inputs, actions, old_orders)
     removable = _removable_lines(owned, actions)
+    if inputs.folder != inputs.old_folder:
+        removable = _lines_of_gone_classes(inputs, actions, removable)
     order_actions, texts, shared = _decide_orders(inputs, old_orders, removable, desired_orders)
     renumbered: set[str] = set()
     waits = any(action.kind in CONFLICTS for action in actions)
@@ -112,6 +117,31 @@ def decide_package(inputs: Inputs, generation: Generation | None, names: Danglin
         tuple(".".join(path) for path in names.gone) if names and waits else (),
         {inputs.path(key): inputs.path(left[key]) for key in waiting & left.keys() - desired.keys()},
     )
+
+
+def _stay_behind(generation: Generation, action: Action) -> Action:
+    """Return what to do with a file of a former folder: only what can be rendered is deleted."""
+    inputs = generation.inputs
+    if action.kind not in DELETES or action.path.startswith(f"{inputs.folder}/") or generation.can_render(action):
+        return action
+    return msgspec.structs.replace(action, kind=Kind.ORPHAN)
+
+
+def _lines_of_gone_classes(
+    inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
+) -> dict[str, tuple[str, ...]]:
+    """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
+    deleted, inside, found = {one.path for one in actions if one.kind in DELETES}, f"{inputs.folder}/", {}
+    for key, names in lines.items():
+        folder = key.removesuffix("package.order")
+        files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
+        standing = {
+            name
+            for name, keys in files.items()
+            if any(one not in deleted and is_file(inputs.files.path(one)) for one in keys)
+        }
+        found[key] = names if key.startswith(inside) else tuple(name for name in names if name not in standing)
+    return found
 
 
 def _staying(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator
 
 from urdfsync.config import Config
@@ -52,9 +51,6 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     message = f"the package moved from {shown(old)} to {shown(new)}"
     if not is_inside:
         message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
-    elif inputs.old_folder not in inputs.own_folders:
-        message += "; the old folder was not built in this checkout, so it stays as it is"
-        hint = f"take over what you need, then delete it: `rm -r -- {shlex.quote(shown(old))}`"
     else:
         named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
         message += f"; what you wrote or edited, and what that needs, stayed behind: {', '.join(named)}"

@@ -16,6 +16,7 @@ from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Role, Target, Version
 from urdfsync.engine import imports, source
+from urdfsync.engine.actions import Action
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
@@ -86,6 +87,16 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
                     return package.content(path).decode()
         recorded_texts = inputs.model.bases.values() if inputs.model else ()
         return next((text for text in recorded_texts if text_digest(text.encode()) == sha256), None)
+
+    def can_render(self, action: Action) -> bool:
+        """Return whether a file is as the recorded model or today's imports give it, whatever is recorded of it."""
+        path = self.inputs.old_path(action.path)
+        if action.role is Role.IMPORT:
+            imports = self.imported.imports.values()
+            made = {one.target: one.target_hash for one in imports if one.target not in self.imported.hashes_only}
+            return action.mine is not None and made.get(path) == action.mine
+        package = self.last_package
+        return package is not None and path in package.artifacts and package.hash(path) == action.mine
 
     def desired_files(self) -> dict[str, DesiredFile]:
         """Return every file that the package should have, by key."""
@@ -195,7 +206,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         inputs.dependencies(snapshot, reading.lines),
         inputs.recorded_imports(),
         shown(robot.source),
-        options.full,
+        options.full or inputs.old_folder != inputs.folder,  # no copy of a former folder serves: it may be the user's
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)

@@ -80,15 +80,12 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def own_folders(self) -> tuple[str, ...]:
-        """Keys of the folders in which a build may delete and move files: the package's, now and in the last build.
+        """Keys of the package's folders now and in the last build.
 
-        A former folder counts only if a build in this checkout wrote it: a manifest may be a stranger's.
+        In a former one a build deletes only what it can render itself: a manifest may be a stranger's.
         """
         manifests = self.recovered.manifests if self.recovered else filter(None, [self.recorded])
-        former = {manifest.folder for manifest in manifests} - {self.folder}
-        if former:
-            former &= self.store.written_folders(self.former_name or self.robot.name)
-        return self.folder, *sorted(former)
+        return self.folder, *sorted({manifest.folder for manifest in manifests} - {self.folder})
 
     def own(self, recorded: Manifest) -> tuple[dict[str, FileRecord], dict[str, tuple[str, ...]]]:
         """Return the recorded files that a build may delete and move, and the lines that it may take out of orders."""

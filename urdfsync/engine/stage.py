@@ -46,8 +46,6 @@ class Plan(msgspec.Struct, frozen=True):
     """Texts to keep as bases that are not kept yet, by their hashes."""
     mentioned: frozenset[str] | None = None
     """Hashes of all bases that the manifest mentions then; None if others may be needed as well."""
-    former_folder: str = ""
-    """Key of the package's folder in the last build, if it has another one now."""
     former_name: str | None = None
     """The name that the robot had in the last build, if it has another one now."""
     drawing: Path | None = None
@@ -106,7 +104,6 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         bases=bases,
         mentioned=mentioned,
-        former_folder=inputs.old_folder if inputs.old_folder != inputs.folder else "",
         former_name=former,
         drawing=drawing,
     )

@@ -10,9 +10,9 @@ import msgspec
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import is_folder, list_folder
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
-from urdfsync.files import TEMPORARY, Tree, digest, failure, shown, text_digest
-from urdfsync.state import file_operations, manifest, modelfile, planned
+from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.files import Tree, digest, shown, text_digest
+from urdfsync.state import manifest, modelfile, planned
 from urdfsync.state.bases import BaseStore
 from urdfsync.state.manifest import Manifest
 from urdfsync.state.modelfile import Model
@@ -25,15 +25,6 @@ _IGNORE = """\
 !/.gitignore
 !/robots/
 """
-
-_FOLDERS = "folders.json"
-
-
-class _WrittenFolders(file_operations.Bound, frozen=True):
-    """A file that says where builds in this checkout wrote, by robot."""
-
-    folders: dict[str, tuple[str, ...]]
-
 
 Witness: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
@@ -101,44 +92,6 @@ class Store:
         tree = Tree(self._tree.root)  # which finds folders that have come since
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
-
-    def written_folders(self, robot: str) -> frozenset[str]:
-        """The keys of the folders that hold the robot's package, by what builds in this checkout noted.
-
-        A manifest may come from somebody else, together with the hashes of files that are the user's own. So what it
-        says of other folders than the configured one counts only if this says the same.
-        """
-        return frozenset(self._noted_folders().get(robot, ()))
-
-    def note_folders(self, robot: str, folders: Collection[str], former: str | None = None) -> None:
-        """Note which folders hold a robot's package; `former` is a name of the robot that is no more.
-
-        Raises OutputError. For the holder of the build lock only.
-        """
-        noted = self._noted_folders()
-        new = {name: paths for name, paths in noted.items() if name != former} | {robot: tuple(sorted(folders))}
-        if new == noted:
-            return
-        file = self.folder / _FOLDERS
-        temporary = file.with_name(f".{_FOLDERS}{TEMPORARY}")
-        Tree(self._tree.root).check_folder(self.folder)
-        try:
-            file_operations.make_folder(self.folder)
-            file_operations.remove(temporary)  # of a build that was killed here
-            file_operations.write_bound(temporary, _WrittenFolders(new))
-            file_operations.replace(temporary, file)
-        except OSError as error:
-            raise failure(error, file) from None
-
-    def _noted_folders(self) -> Mapping[str, tuple[str, ...]]:
-        """The packages' folders by robot; empty if the file is not there, or was not written in this checkout."""
-        file = self.folder / _FOLDERS
-        try:
-            content = Tree(self._tree.root).read(file)  # finds a folder that this build has made
-            noted = msgspec.json.decode(content or b"", type=_WrittenFolders)
-            return noted.folders if file_operations.is_bound(file, noted) else {}
-        except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
-            return {}
 
     def has_bases(self, robot: str) -> bool:
         """Whether the texts that were written last are kept."""
