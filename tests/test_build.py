@@ -92,16 +92,18 @@ def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(pro
     configure(package='"Filter"')
     result = run()
     left = {path.relative_to(project / LADDER).as_posix() for path in (project / LADDER).rglob("*.*")}
-    assert left == {"package.mo", "package.order", "Bench.mo"}
+    kept = {"Ladder.mo", "Elements/R1.mo", "Elements/R1Parameters.mo", "Elements/package.mo", "Elements/package.order"}
+    assert left == {"package.mo", "package.order", "Bench.mo", *kept}
     moved = (project / "modelica/Filter/Elements/R1.mo").read_text()
     assert moved.startswith("within Filter.Elements;\n")
     assert moved.endswith("// mine\nend R1;\n")
     assert (project / "modelica/Filter/Filter.mo").read_text().endswith("// mine, too\nend Filter;\n")
-    assert (project / LADDER / "package.order").read_text() == "Bench\n"
+    assert (project / LADDER / "package.order").read_text() == "Elements\nBench\nLadder\n"
     assert said(result) == [
         "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; what you wrote or "
-        "edited, and what that needs, stayed behind: modelica/Ladder/Bench.mo, modelica/Ladder/package.mo, "
-        "modelica/Ladder/package.order; take over what you need, then delete the old folder [left-behind]"
+        "edited, and what that needs, stayed behind: modelica/Ladder/Bench.mo, "
+        "modelica/Ladder/Elements/R1.mo, modelica/Ladder/Elements/R1Parameters.mo, 5 more; "
+        "take over what you need, then delete the old folder [left-behind]"
     ]
     assert run().in_step
     assert run().diagnostics == ()

@@ -102,16 +102,6 @@ def test_a_clone_takes_its_package_along(
     assert contents(clone / "modelica/Filter") == contents(project / "modelica/Filter")
 
 
-def test_an_edited_file_is_taken_along_and_stays_behind(execute: Execute, project: Path) -> None:
-    execute("build")
-    edit(project / "modelica/Ladder/Elements/C1.mo", "end C1;", "// mine\nend C1;")
-    move(project)
-    assert "stayed behind: modelica/Ladder/Elements/C1.mo" in " ".join(execute("build").err.split())
-    for package in ("Ladder", "Filter"):
-        assert "// mine" in (project / "modelica" / package / "Elements/C1.mo").read_text()
-    execute("build", "--check")
-
-
 def _rename_robot(project: Path) -> None:
     edit(project / "urdfsync.toml", "[robots.ladder]", "[robots.filter]")
 
