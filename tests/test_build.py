@@ -444,8 +444,7 @@ def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypat
 
     with monkeypatch.context() as patch:
         patch.setattr(imports, "bring_in", and_then_it_is_gone)
-        words = "it changed while urdfsync looked at it; build again [restless]"
-        assert failure() == f"{LADDER}/Resources/step.txt: error: {words}"
+        assert failure().startswith(f"{LADDER}/Resources/step.txt: error: it can't be written")
     assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
 
 

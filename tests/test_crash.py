@@ -18,12 +18,12 @@ from unittest import mock
 
 import pytest
 from support import crashes
-from support.crashes import Operation, before_each, contents, killed, recorded, run, sample
+from support.crashes import CHANGES, Operation, before_each, contents, kill, operations, run
 from support.networks import LADDER, configure, edit
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
-from urdfsync.state.journal import FORMAT
+from urdfsync.state.planned import is_interrupted
 from urdfsync.state.record import Choice
 
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
@@ -116,34 +116,44 @@ def expected(project: Path, work: Path, before: Callable[[Path], object] = lambd
     return build(clean)
 
 
-CHANGES = ("exchange", "place", "replace")
-"""Operations on targets, and between the phases of a batch."""
-
-
-def every(project: Path, work: Path, names: Sequence[str] = crashes.NAMES) -> Iterator[tuple[Operation, Path]]:
-    """Operations of a build of the project, of these names, and for each a copy of the project."""
-    found = recorded(crashes.copy(project, work))
-    for operation in sample([operation for operation in found if operation.name in names]):
+def every(project: Path, work: Path, names: Sequence[str]) -> Iterator[tuple[Operation, Path]]:
+    """Operations of these names in a build of the project, and for each a copy of the project."""
+    for operation in operations(crashes.copy(project, work), names):
         yield operation, crashes.copy(project, work)
 
 
 # Kills
 
 
-def assert_finished(start: Path, work: Path, names: Sequence[str] = crashes.NAMES, *, half: bool = False) -> None:
+ALWAYS = ("exchange", "replace", "write", "append", "write_bound", "remove", "sync")
+"""Operations of every build that writes."""
+IN_SCENARIO = {
+    "changed": (*ALWAYS, "place"),
+    "project": ("place", "replace", "write", "append", "write_bound", "make_folder", "remove", "sync"),
+    "moved": crashes.NAMES,
+    "renamed": (*ALWAYS, "place", "make_folder"),
+    "edited": (*ALWAYS, "place", "make_folder"),
+}
+
+
+def assert_finished(start: Path, work: Path, names: Sequence[str], *, half: bool = False) -> None:
     """A build that is killed before an operation, or with `half` in the middle of it, is finished by the next one."""
     wanted = expected(start, work / "clean")
     for operation, project in every(start, work / "work", names):
-        assert killed(project, operation.number, half=half)
+        kill(project, operation.number, half=half)
         assert build(project) == wanted, operation
 
 
-def test_a_killed_build_is_finished_by_the_next(scenario: Path, tmp_path: Path) -> None:
-    assert_finished(scenario, tmp_path)
+@pytest.mark.parametrize(("scenario", "names"), IN_SCENARIO.items(), indirect=["scenario"])
+def test_a_killed_build_is_finished_by_the_next(scenario: Path, tmp_path: Path, names: Sequence[str]) -> None:
+    assert_finished(scenario, tmp_path, names)
 
 
-def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed: Path, tmp_path: Path) -> None:
-    assert_finished(changed, tmp_path, ["write"], half=True)
+@pytest.mark.parametrize("name", ["write", "write_bound", "append"])
+def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(
+    changed: Path, tmp_path: Path, name: str
+) -> None:
+    assert_finished(changed, tmp_path, [name], half=True)
 
 
 @pytest.mark.parametrize("missing", ["links", "renames"])
@@ -157,13 +167,19 @@ def test_killed_builds_on_lesser_file_systems(
     assert_finished(changed, tmp_path, CHANGES)
 
 
-def test_a_recovery_may_be_killed_too(changed: Path, tmp_path: Path) -> None:
-    wanted = expected(changed, tmp_path / "clean")
-    found = [op for op in recorded(crashes.copy(changed, tmp_path / "work")) if op.name in ("exchange", "place")]
-    crashed = crashes.copy(changed, tmp_path / "crashed")
-    assert killed(crashed, found[len(found) // 2].number)
-    for operation, project in every(crashed, tmp_path / "work"):
-        killed(project, operation.number)
+@pytest.fixture
+def crashed(changed: Path, tmp_path: Path) -> Path:
+    """The changed network after a build that was killed when half of its files were in place."""
+    swaps = operations(crashes.copy(changed, tmp_path / "work"), ["exchange"])
+    kill(changed, swaps[len(swaps) // 2].number)
+    assert is_interrupted(changed / ".urdfsync")
+    return changed
+
+
+def test_a_recovery_may_be_killed_too(crashed: Path, tmp_path: Path) -> None:
+    wanted = expected(crashed, tmp_path / "clean")
+    for operation, project in every(crashed, tmp_path / "work", ["exchange", "replace", "remove", "sync"]):
+        kill(project, operation.number)
         assert build(project) == wanted, operation
 
 
@@ -174,7 +190,7 @@ def test_what_the_user_does_after_a_crash_is_kept(changed: Path, tmp_path: Path)
     for path in (RECORD, f"{LADDER}/Ladder.mo"):
         new = (clean / path).read_bytes()
         for operation, project in every(changed, tmp_path / "work", (*CHANGES, "sync")):
-            assert killed(project, operation.number)
+            kill(project, operation.number)
             was_new = (project / path).read_bytes() == new
             (project / path).write_bytes((project / path).read_bytes() + MINE)
             mine = (project / path).read_bytes()
@@ -192,15 +208,12 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
 
     wanted = expected(changed, tmp_path / "clean", change)
     for operation, project in every(changed, tmp_path / "work", CHANGES):
-        killed(project, operation.number)
+        kill(project, operation.number)
         change(project)
         assert build(project) == wanted, operation
 
 
 # Errors of the system
-
-
-FALLIBLE = [name for name in crashes.NAMES if name != "remove_folder"]  # which passes over every error
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
@@ -210,7 +223,7 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
     scenario: Path, tmp_path: Path, tally: Tally, number: int, lasting: bool
 ) -> None:
     before, wanted = contents(scenario), expected(scenario, tmp_path / "clean")
-    for operation, project in every(scenario, tmp_path / "work", FALLIBLE):
+    for operation, project in every(scenario, tmp_path / "work", ALWAYS):
 
         def refuse(found: Operation, first: int = operation.number) -> None:
             if found.number == first or (lasting and found.number > first):
@@ -221,14 +234,14 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
         assert result.failed, operation
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
         assert result.unfinished or contents(project) == before, operation
-        assert lasting or not result.unfinished or crashes.phase(project), operation
+        assert lasting or not result.unfinished or is_interrupted(project / ".urdfsync"), operation
         tally[f"{errno.errorcode[number]}"] += 1
         assert build(project) == wanted, operation
 
 
 def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> None:
     before, wanted = contents(changed), expected(changed, tmp_path / "clean")
-    for operation, project in every(changed, tmp_path / "work"):
+    for operation, project in every(changed, tmp_path / "work", ALWAYS):
 
         def interrupt(found: Operation, first: int = operation.number) -> None:
             if found.number == first:
@@ -289,6 +302,7 @@ def test_a_save_between_plan_and_replacement_survives(
         saves = Saves(project / path, operation.number, save)
         with before_each(saves):
             result = run(project)
+        assert saves.mine
         assert not result.failed, operation
         tally["saves"] += 1
         tally["conflicts"] += len(result.conflicts)
@@ -310,14 +324,13 @@ def test_a_save_in_the_instant_of_a_kill_survives(
     scenario: Path, tmp_path: Path, tally: Tally, save: Callable[[Path, bytes], None]
 ) -> None:
     """Each target is saved just before it changes, and the build is killed before each of the next operations."""
-    found = recorded(crashes.copy(scenario, tmp_path / "work"))
-    for operation in [op for op in sample(found) if op.name in CHANGES]:
+    for operation in operations(crashes.copy(scenario, tmp_path / "work"), CHANGES):
         targets = [path for path in operation.paths if path.suffix in (".mo", ".order", ".txt")]
         targets = [path for path in targets if ".urdfsync" not in path.parts]
         for killed_at in range(operation.number + 1, operation.number + 4) if targets else ():
             project = crashes.copy(scenario, tmp_path / "work")
             saves = Saves(targets[0], operation.number, save)
-            killed(project, killed_at, earlier=_passing_on(saves, tmp_path / "mine"))
+            kill(project, killed_at, earlier=_passing_on(saves, tmp_path / "mine"))
             tally["saves and kills"] += 1
             mine = (tmp_path / "mine").read_bytes()
             (tmp_path / "mine").unlink()
@@ -326,7 +339,8 @@ def test_a_save_in_the_instant_of_a_kill_survives(
                 assert MINE in targets[0].read_bytes(), operation
             else:
                 assert targets[0].read_bytes() == mine, (operation, killed_at)
-            assert not list(project.rglob("*.urdfsync-tmp*")), operation
+            assert not list(project.rglob(f"*{TEMPORARY}*")), operation
+    assert tally["saves and kills"]
 
 
 def _passing_on(saves: Saves, place: Path) -> Callable[[Operation], None]:
@@ -342,9 +356,7 @@ def _passing_on(saves: Saves, place: Path) -> Callable[[Operation], None]:
 
 def test_what_is_written_through_an_open_handle_survives(changed: Path, tmp_path: Path) -> None:
     """An editor may have opened the old file before it was exchanged."""
-    found = recorded(crashes.copy(changed, tmp_path / "work"))
-    for operation in [op for op in sample(found) if op.name in CHANGES]:
-        project = crashes.copy(changed, tmp_path / "work")
+    for operation, project in every(changed, tmp_path / "work", CHANGES):
         with (project / RECORD).open("r+b", buffering=0) as handle:
             handle.seek(0, os.SEEK_END)
 
@@ -356,6 +368,7 @@ def test_what_is_written_through_an_open_handle_survives(changed: Path, tmp_path
                 run(project)
             handle.seek(0)
             mine = handle.read()
+        assert mine.endswith(MINE), operation
         files = [path.read_bytes() for path in project.rglob("*") if path.is_file()]
         assert mine in files, operation
 
@@ -377,31 +390,15 @@ def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> Non
 # What is found after a crash
 
 
-@pytest.fixture
-def crashed(changed: Path, tmp_path: Path) -> Path:
-    """The changed network after a build that was killed when half of its files were in place."""
-    swaps = [op for op in recorded(crashes.copy(changed, tmp_path / "work")) if op.name == "exchange"]
-    assert killed(changed, swaps[len(swaps) // 2].number)
-    assert crashes.phase(changed) == "apply"
-    return changed
-
-
-def refused(project: Path, **request: bool) -> list[Diagnostic]:
-    """What a build says that fails and changes nothing."""
-    before = contents(project)
-    result = run(project, **request)
-    assert result.failed
-    assert contents(project) == before
-    return list(result.diagnostics)
-
-
 def test_what_was_recovered_is_said(crashed: Path) -> None:
     codes = [(found.code, found.message) for found in run(crashed).diagnostics]
     assert codes[0] == ("recovered", "the last build of robot `ladder` was interrupted; it is finished")
 
 
 def test_a_dry_run_says_that_a_build_was_interrupted(crashed: Path) -> None:
-    assert [found.code for found in refused(crashed, dry=True)] == ["interrupted"]
+    before = contents(crashed)
+    assert [found.code for found in run(crashed, dry=True).diagnostics] == ["interrupted"]
+    assert contents(crashed) == before
 
 
 def test_another_robot_recovers_as_well(crashed: Path) -> None:
@@ -411,77 +408,36 @@ def test_another_robot_recovers_as_well(crashed: Path) -> None:
     result = run(crashed)
     assert {"recovered", "stray-state"} == {found.code for found in result.diagnostics}
     assert "R3" in (crashed / LADDER / "Elements/package.order").read_text()
-    assert crashes.phase(crashed) is None
+    assert not is_interrupted(crashed / ".urdfsync")
 
 
-def rewrite(journal: Path, old: str = "", new: str = "") -> None:
-    """Change a journal, bound to its file as urdfsync would."""
-    edit(journal, old, new)
-    crashes.bind(journal)
-
-
-@pytest.mark.parametrize(
-    ("place", "code"),
-    [
-        ("../victim.mo", "broken-journal"),
-        (".git/hooks/pre-commit", "broken-journal"),
-        ("modelica/.git/Resources/victim", "broken-journal"),
-        ("urdfsync.toml", "broken-journal"),
-        ("modelica/Ladder/notes.txt", "broken-journal"),
-        ("Resources/victim", "broken-journal"),
-        (".urdfsync/stamp", "broken-journal"),
-        (".urdfsync/robots/a/b.toml", "broken-journal"),
-        ("linked/victim.mo", "output-in-the-way"),
-    ],
-)
-def test_a_journal_can_not_reach_other_files(crashed: Path, tmp_path: Path, place: str, code: str) -> None:
-    (tmp_path / "victim.mo").write_text("precious")
-    (crashed / "linked").symlink_to(tmp_path)
-    rewrite(crashed / ".urdfsync/journal/apply.json", "modelica/Ladder/Elements/R3.mo", place)
-    assert [found.code for found in refused(crashed)] == [code]
-    assert (tmp_path / "victim.mo").read_text() == "precious"
-
-
-@pytest.mark.parametrize("phase", ["prepare", "apply", "done"])
-@pytest.mark.parametrize("change", ["copied", "touched", "cut short", "another token"])
-def test_a_journal_that_was_not_written_here_is_refused(crashed: Path, phase: str, change: str) -> None:
-    """As one that came with a repository, or a copy. `--repair` is the way on, and nothing is done of the journal."""
-    apply = crashed / ".urdfsync/journal/apply.json"
-    journal = apply.rename(apply.with_name(f"{phase}.json"))
+@pytest.mark.parametrize("change", ["copied", "touched", "cut short"])
+def test_planned_hashes_of_another_place_are_not_believed(crashed: Path, change: str) -> None:
+    file, left = crashed / ".urdfsync/planned.json", sorted(crashed.rglob(f"*{TEMPORARY}"))
     if change == "copied":
-        shutil.copy2(journal, journal.with_name("copy"))
-        journal.with_name("copy").replace(journal)
+        shutil.copy2(file, file.with_name("copy"))
+        file.with_name("copy").replace(file)
     elif change == "touched":
-        os.utime(journal)
-    elif change == "cut short":
-        journal.write_text("{")
+        os.utime(file)
     else:
-        rewrite(journal, '"token":"', '"token":"../')
-    (found,) = refused(crashed)
-    assert (found.code, found.file) == ("broken-journal", str(Path(f".urdfsync/journal/{phase}.json")))
-    assert "--repair" in found.hint
-    left = sorted(crashed.rglob("*.urdfsync-tmp"))
-    repaired = run(crashed, repair=True)
-    assert "refused-journal" in [found.code for found in repaired.diagnostics]
-    assert sorted(crashed.rglob("*.urdfsync-tmp")) == left, "they may hold a save"
+        file.write_text("{")
+    assert "unknown-build" in [found.code for found in run(crashed).diagnostics]
+    assert sorted(crashed.rglob(f"*{TEMPORARY}")) == left, "they may hold a save"
+    assert left
     assert not run(crashed).failed
 
 
-@pytest.mark.parametrize("name", ["apply.json", "undo.json"])
-def test_a_journal_of_an_older_urdfsync_is_refused(project: Path, name: str) -> None:
-    run(project)
-    journal = project / ".urdfsync/journal" / name
-    journal.write_text('{"robot":"ladder","token":"12","steps":[],"format":2}')
-    (found,) = refused(project)
-    assert (found.code, found.message) == ("broken-journal", "an older urdfsync was interrupted here")
-    assert not run(project, repair=True).failed
-    assert journal.with_name("refused.json").read_text().endswith('"format":2}')
-    assert run(project).in_step
-
-
-def test_a_journal_of_a_newer_urdfsync_is_left_alone(crashed: Path) -> None:
-    rewrite(crashed / ".urdfsync/journal/apply.json", f'"format":{FORMAT}', f'"format":{FORMAT + 1}')
-    assert [found.code for found in refused(crashed, repair=True)] == ["newer-state"]
+@pytest.mark.parametrize("place", ["../victim.mo", "linked/victim.mo"])
+def test_planned_hashes_can_not_reach_files_outside(crashed: Path, tmp_path: Path, place: str) -> None:
+    (tmp_path / "victim.mo").write_text("precious")
+    (crashed / "linked").symlink_to(tmp_path)
+    file = crashed / ".urdfsync/planned.json"
+    edit(file, "modelica/Ladder/Elements/R3.mo", place)
+    crashes.bind(file)
+    before = contents(crashed)
+    assert run(crashed).failed
+    assert contents(crashed) == before
+    assert (tmp_path / "victim.mo").read_text() == "precious"
 
 
 @pytest.fixture
@@ -504,11 +460,11 @@ def test_a_package_on_another_file_system(project: Path, output: Path, tmp_path:
     edit(project / "ladder.json", '"R2"', '"R3"')
     built = crashes.copy(output, tmp_path / "built")
     clean = crashes.copy(project, tmp_path / "clean")
-    found = recorded(clean)
+    found = operations(clean, CHANGES)
     wanted = contents(clean), contents(output)
-    for operation in sample([op for op in found if op.name in CHANGES]):
+    for operation in found:
         copied = crashes.copy(project, tmp_path / "work")
         crashes.copy(built, output)
-        assert killed(copied, operation.number)
+        kill(copied, operation.number)
         assert not run(copied).failed, operation
         assert (contents(copied), contents(output)) == wanted, operation

@@ -24,13 +24,13 @@ from support.networks import (
     edit,
     kinds,
     own_model,
-    portable,
     rename,
     resistor,
     run,
     run_all,
     source,
 )
+from support.replay import contents
 
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -90,10 +90,10 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
     merge = (ASIDE / "R1.merge.mo").read_text()
     assert "annotation (Documentation);" in merge
     assert "parameters.C*der(v)" in merge
-    aside = portable(conflict)
+    aside = contents(conflict)
     shutil.rmtree(".urdfsync/conflicts")
     assert run().conflict_texts[0].base == base
-    assert portable(conflict) == aside
+    assert contents(conflict) == aside
 
 
 def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
@@ -255,14 +255,14 @@ def test_a_clone_reaches_the_same_result(
     if built:
         run()
         run()
-    local = ("base", "conflicts", "lock", "journal", "undo", "folders.json")
+    local = ("base", "conflicts", "lock")
     other = shutil.copytree(project, tmp_path / "clone", ignore=shutil.ignore_patterns(*local))
     first = run()
     run(choices={RECORD: Choice.MERGE})
     monkeypatch.chdir(other)
     assert run().conflict_texts == first.conflict_texts
     run(choices={RECORD: Choice.MERGE})
-    assert portable(other) == portable(project)
+    assert contents(other) == contents(project)
     assert "150" in (other / RECORD).read_text()
 
 

@@ -168,7 +168,7 @@ DENIED = [
     (f"{LADDER}/Elements", 0o000, f"{LADDER}/Elements/"),
     (RECORD, 0o000, f"{RECORD}: error: "),
     (MODEL, 0o000, f"{MODEL}: error: "),
-    (".urdfsync/journal", 0o500, ".urdfsync/journal/prepare.json: error: "),
+    (".urdfsync", 0o500, ".urdfsync/planned.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
     (".urdfsync/base/ladder/texts", 0o400, ".urdfsync/base/ladder: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),

@@ -378,7 +378,7 @@ def test_outside_of_a_repository(project: Path, capsys: Capture, monkeypatch: py
 
 def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
     staged(repo)
-    with build_lock(repo.folder, repo.folder / ".urdfsync", wait=0) as lock:
+    with build_lock(repo.folder / ".urdfsync", wait=0) as lock:
         lock.acquire()
         assert "is building here" in said(capsys, "build", "--wait", "0", code=4)[0]
 

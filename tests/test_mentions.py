@@ -14,7 +14,8 @@ from typing import Any
 
 import pytest
 from support import replay
-from support.networks import LADDER, configure, own_model, portable, run
+from support.networks import LADDER, configure, own_model, run
+from support.replay import contents
 
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Result
@@ -97,10 +98,10 @@ class Episode:
         """Build twice. What a merged text mentions was there before, and must be there afterwards."""
         before, mentioned = set(declared()), set(mentions())
         result = run()
-        files = portable(Path.cwd())
+        files = contents(Path.cwd())
         again = run()
         assert verdict(again) == verdict(result)
-        assert portable(Path.cwd()) == files
+        assert contents(Path.cwd()) == files
         if any(Path(action.path) == WHOLE and action.kind is Kind.MERGE for action in result.actions):
             assert set(mentions()) & mentioned & before <= set(declared())
         return result

@@ -17,7 +17,6 @@ from support.replay import Files, Fresh, Project, Stamps
 
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.result import Result
-from urdfsync.state.store import Store
 from urdfsync.urdf.domain import DOMAIN
 
 SMALL = ("turtlebot3_burger", "so101_old_calib", "urdf_spirit_meshes")
@@ -110,7 +109,5 @@ def test_edits_follow_elements_with_another_name(corpus: Path, tmp_path: Path, n
 
 
 def model_of(project: Project, owner: str) -> Path:
-    state = Store(project.root).load("bot")
-    assert state is not None
-    (path,) = (p for p, record in state.manifest.files.items() if (record.owner, record.role) == (owner, "model"))
+    (path,) = (one.path for one in project.build().actions if (one.owner, one.role) == (owner, "model"))
     return project.root / path

@@ -308,7 +308,7 @@ def test_a_broken_robot_hinders_no_other(clean: Path, execute: Execute) -> None:
 
 
 def test_another_build_is_waited_for(clean: Path, execute: Execute) -> None:
-    with build_lock(clean, clean / ".urdfsync", 0) as lock:
+    with build_lock(clean / ".urdfsync", 0) as lock:
         lock.acquire()
         execute("resolve", MODEL, "--merge", "--wait", "0", code=4)
     assert "parameter Real mine = 1;" in Path(MODEL).read_text()

@@ -98,7 +98,7 @@ def test_without_its_state_a_package_is_not_known_as_built(built: Path, execute:
 
 
 def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) -> None:
-    with build_lock(built, built / ".urdfsync", 0) as lock:
+    with build_lock(built / ".urdfsync", 0) as lock:
         lock.acquire()
         assert execute("status").lines == ["ladder: in step, 14 files"], "it only reads, and nothing is half written"
 

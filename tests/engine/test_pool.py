@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import edit, portable, run_all
+from support.networks import edit, run_all
+from support.replay import contents
 
 from urdfsync import config
 from urdfsync.diagnostics import ConfigError
@@ -51,12 +52,12 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, started: list[int]) -> None:
     alone = run_all(jobs=1)
     assert started == []
-    result = portable(robots)
+    result = contents(robots)
     for name in ("modelica", ".urdfsync"):
         shutil.rmtree(robots / name)
     together = run_all(jobs=2)
     assert started == [2]
-    assert portable(robots) == result
+    assert contents(robots) == result
     assert [one.robot for one in together] == [one.robot for one in alone]
     assert [one.actions for one in together if one.robot == "n0"] == [one.actions for one in alone if one.robot == "n0"]
     assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
@@ -113,11 +114,11 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
         together = run_all(executor=cluster.scheduler_address)
     assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
     assert together[2].diagnostics == run_all(jobs=1)[2].diagnostics
-    result = portable(robots / "modelica")
+    result = contents(robots / "modelica")
     for name in ("modelica", ".urdfsync"):
         shutil.rmtree(robots / name)
     run_all(jobs=1)
-    assert portable(robots / "modelica") == result
+    assert contents(robots / "modelica") == result
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -70,9 +70,8 @@ def run(count: int, seed: int) -> int:
 
 def _case(work: Workplace, templates: Sequence[Path], random: Random) -> str:
     work.fill(random.choice(templates))
-    for journal in (work.project / ".urdfsync/journal").glob("*.json"):
-        if random.random() < 0.8:
-            crashes.bind(journal)
+    if (planned := work.project / ".urdfsync/planned.json").is_file() and random.random() < 0.8:
+        crashes.bind(planned)
     for _ in range(random.choice((1, 1, 2, 4))):
         _damage(work, random)
     code = 0
@@ -112,10 +111,8 @@ def _templates(folder: Path) -> Sequence[Path]:
     (work.project / "bot.urdf").write_text(_urdf(2.0))
     crashed = shutil.copytree(work.project, folder / "templates/killed")
     with contextlib.chdir(crashed):
-        swaps = [
-            op for op in crashes.recorded(crashes.copy(crashed, folder / "copy")) if op.name in ("exchange", "place")
-        ]
-        crashes.killed(crashed, swaps[len(swaps) // 2].number)
+        swaps = crashes.operations(crashes.copy(crashed, folder / "copy"), ["exchange"])
+        crashes.kill(crashed, swaps[len(swaps) // 2].number)
     found.append(crashed)
     work.run(["build"])
     found.append(shutil.copytree(work.project, folder / "templates/conflict"))
@@ -166,14 +163,13 @@ def _damage(work: Workplace, random: Random) -> None:
     with contextlib.suppress(OSError, ValueError, RecursionError):  # the damage before has left something else
         path.parent.mkdir(parents=True, exist_ok=True)
         _damage_place(path, work, random)
-        if path.parent.name == "journal" and path.is_file() and not path.is_symlink() and random.random() < 0.5:
+        if path.name == "planned.json" and path.is_file() and not path.is_symlink() and random.random() < 0.5:
             crashes.bind(path)
 
 
 _NAMES = (
-    *("journal/prepare.json", "journal/apply.json", "journal/done.json", "journal/undo.json", "undo/1", "stamp"),
-    *("folders.json", "folders.json"),
-    *("journal/new.urdfsync-tmp", "lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
+    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp"),
+    *("lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
     *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
     *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
 )
@@ -209,7 +205,7 @@ def _damage_place(path: Path, work: Workplace, random: Random) -> None:
         case "folder":
             path.mkdir()
             if random.random() < 0.5:
-                (path / random.choice(("x", "bot.toml", "apply.json"))).write_text("precious")
+                (path / random.choice(("x", "bot.toml", "planned.json"))).write_text("precious")
         case "link":
             places = [work.outside / name for name in ("victim.mo", "folder", "", "new")]
             path.symlink_to(random.choice((*places, path, *map(Path, ("/dev/zero", "/dev/tty", "/")))))
@@ -226,12 +222,12 @@ def _remove(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-_JOURNAL = '{"robot":"bot","token":"12","steps":[{"path":"x"}],"made":[],"emptied":[],"format":3}'
+_PLANNED = '{"robot":"bot","token":"12","files":[{"path":"x"}],"emptied":[],"inode":1,"written":1}'
 
 
 def _with_other_values(path: Path, text: str, random: Random) -> bytes:
-    """A manifest, model or journal that stays one."""
-    document = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text or _JOURNAL)
+    """A manifest, model or planned hashes that stay one."""
+    document = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text or _PLANNED)
     for _ in range(random.choice((1, 1, 3))):
         _change(document, random)
     changed = tomli_w.dumps(document) if path.suffix == ".toml" else json.dumps(document)

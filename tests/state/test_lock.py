@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import errno
 import os
-import shutil
-import stat
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,14 +19,13 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.state.lock import Lock, LockedError, _try, build_lock
+from urdfsync.state.lock import LockedError, build_lock
 
 HOLD = """
 import sys
 from pathlib import Path
-from urdfsync.state.lock import Lock, build_lock
-path = Path(sys.argv[1])
-with build_lock(path, path / ".urdfsync", 0) if path.is_dir() else Lock(path, 0) as lock:
+from urdfsync.state.lock import build_lock
+with build_lock(Path(sys.argv[1]) / ".urdfsync", 0) as lock:
     lock.acquire()
     print("held", flush=True)
     sys.stdin.read()
@@ -38,10 +33,10 @@ with build_lock(path, path / ".urdfsync", 0) if path.is_dir() else Lock(path, 0)
 
 
 @contextmanager
-def holder(path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Another process that holds the lock of a file, or of the builds below a folder."""
+def holder(project: Path) -> Iterator[subprocess.Popen[str]]:
+    """Another process that holds the lock of the builds below a folder."""
     environment = os.environ | {"PYTHONPATH": str(Path(urdfsync.__file__).parents[1])}
-    command = [sys.executable, "-c", HOLD, str(path)]
+    command = [sys.executable, "-c", HOLD, str(project)]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=environment) as process:
         assert process.stdout is not None
@@ -52,48 +47,36 @@ def holder(path: Path) -> Iterator[subprocess.Popen[str]]:
             process.kill()
 
 
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    return tmp_path / "state" / "lock"
-
-
-def test_waiting_ends_when_the_holder_does(path: Path) -> None:
-    waited = 0
-
-    def wait() -> None:
-        nonlocal waited
-        waited += 1
-        if waited == 2:
-            process.kill()
-
-    with holder(path) as process, Lock(path, 60) as lock:
-        lock.acquire(waiting=wait)
-        assert waited >= 2
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no shared locks on this system")
-def test_readers_wait_for_writers_only(path: Path) -> None:
-    with Lock(path, 0) as writer:
-        writer.acquire()
-        with pytest.raises(LockedError):
-            Lock(path, 0).acquire(shared=True)
-    with Lock(path, 0) as one, Lock(path, 0) as two:
-        one.acquire(shared=True)
-        two.acquire(shared=True)
-
-
-def test_without_a_lock_file_there_is_no_writer_to_wait_for(path: Path) -> None:
-    with Lock(path, 0) as reader:
-        reader.acquire(shared=True)
-    assert not path.exists(), "who only reads makes no file"
-
-
-# Builds
-
-
 def run(project: Path, **request: object) -> Result:
     (result,) = run_all(wait=0.1, **request)
     return result
+
+
+def test_waiting_ends_when_the_holder_does(tmp_path: Path) -> None:
+    with holder(tmp_path) as process, build_lock(tmp_path / ".urdfsync", 60) as lock:
+        lock.acquire(waiting=process.kill)
+
+
+def test_waiting_ends_once_for_all(tmp_path: Path) -> None:
+    """The robots of one command wait together."""
+    waits: list[int] = []
+    with holder(tmp_path):
+        lock = build_lock(tmp_path / ".urdfsync", 0.2)
+        for _ in range(2):
+            with pytest.raises(LockedError):
+                lock.acquire(waiting=lambda: waits.append(len(waits)))
+            if len(waits) > 1:
+                waits[1:] = []
+    assert waits == [0]
+
+
+def test_a_lock_whose_file_is_deleted_is_taken_again(tmp_path: Path) -> None:
+    with build_lock(tmp_path / ".urdfsync", 0) as one, build_lock(tmp_path / ".urdfsync", 0) as other:
+        one.acquire()
+        (tmp_path / ".urdfsync/lock").unlink()
+        one.acquire()
+        with pytest.raises(LockedError, match=f"process {os.getpid()} is building here"):
+            other.acquire()
 
 
 def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path) -> None:
@@ -113,10 +96,9 @@ def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path) 
 def test_a_dry_run_waits_for_a_build_that_is_writing(
     project: Path, arguments: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    journal = project / ".urdfsync/journal/apply.json"
-    journal.parent.mkdir(parents=True)
-    journal.write_text("{}")
-    assert cli.main(arguments) == Exit.ERROR, "without a lock file"
+    planned = project / ".urdfsync/planned.json"
+    planned.parent.mkdir()
+    planned.write_text("{}")
     if arguments[0] == "build":
         with holder(project):
             assert cli.main([*arguments, "--wait", "0"]) == Exit.LOCKED
@@ -132,60 +114,36 @@ def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
     for result in build(loaded, loaded.robots, BuildOptions()):
         results.append(result)
         with pytest.raises(LockedError):
-            build_lock(project, project / ".urdfsync", 0).acquire()
+            build_lock(project / ".urdfsync", 0).acquire()
     assert exit_code(results) is Exit.IN_STEP
-    build_lock(project, project / ".urdfsync", 0).acquire()
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="an open file can't be deleted there")
-def test_a_lock_whose_file_is_deleted_is_still_held(project: Path) -> None:
-    """As by `git clean -fdX`."""
-    with holder(project):
-        shutil.rmtree(project / ".urdfsync")
-        (found,) = run(project).diagnostics
-        assert (found.code, found.message.split(" is ")[0]) == ("locked", "another process")
+    build_lock(project / ".urdfsync", 0).acquire()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no links, no pipes")
 @pytest.mark.parametrize("kind", ["link", "hard link", "pipe", "folder", "linked state"])
 def test_what_stands_in_the_place_of_the_lock_file_is_left_alone(project: Path, tmp_path: Path, kind: str) -> None:
-    """It only says who builds."""
     outside, place = tmp_path / "outside", project / ".urdfsync/lock"
     outside.mkdir()
+    (outside / "file").write_text("precious")
     if kind == "linked state":
         (project / ".urdfsync").symlink_to(outside)
     else:
         place.parent.mkdir()
-        if kind == "hard link":
-            (outside / "file").write_text("precious")
         actions: dict[str, Callable[[], None]] = {
             "link": lambda: place.symlink_to(outside / "lock"),
             "hard link": lambda: place.hardlink_to(outside / "file"),
             "pipe": lambda: os.mkfifo(place),
         }
         actions.get(kind, place.mkdir)()
-    with build_lock(project, project / ".urdfsync", 0) as one, build_lock(project, project / ".urdfsync", 0) as other:
-        one.acquire()
-        with pytest.raises(LockedError, match="another process"):
-            other.acquire()
-    assert [path.read_text() for path in outside.iterdir()] == (["precious"] if kind == "hard link" else [])
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders there anyway")
-def test_where_no_folder_can_be_locked_a_file_is(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As on NFS."""
-
-    def refuse(descriptor: int, shared: bool) -> None:
-        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
-            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
-        _try(descriptor, shared)
-
-    monkeypatch.setattr("urdfsync.state.lock._try", refuse)
-    with build_lock(project, project / ".urdfsync", 0) as one, build_lock(project, project / ".urdfsync", 0) as other:
-        one.acquire()
-        with pytest.raises(LockedError, match=f"process {os.getpid()} is building"):
-            other.acquire()
-    assert not run(project).failed
+    with build_lock(project / ".urdfsync", 0) as one, build_lock(project / ".urdfsync", 0) as other:
+        if kind in ("hard link", "pipe"):
+            one.acquire()
+            with pytest.raises(LockedError, match="another process"):
+                other.acquire()
+        else:
+            with pytest.raises(OutputError):
+                one.acquire()
+    assert {path.name: path.read_text() for path in outside.iterdir()} == {"file": "precious"}
 
 
 def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
@@ -203,23 +161,3 @@ def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
     assert run(project).in_step
     assert run(project, full=True).in_step
     assert not list(project.rglob("*.urdfsync-tmp"))
-
-
-def test_a_lock_file_that_cant_be_one(path: Path) -> None:
-    path.mkdir(parents=True)
-    with pytest.raises(OutputError, match="it can't be written"):
-        Lock(path, 0).acquire()
-
-
-def test_patience_ends_once_for_all(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pauses: list[float] = []
-    monkeypatch.setattr(time, "sleep", pauses.append)
-    with Lock(path, 0) as other:
-        other.acquire()
-        lock = Lock(path, 0.01)
-        with pytest.raises(LockedError):
-            lock.acquire()
-        pauses.clear()
-        with pytest.raises(LockedError):
-            lock.acquire()
-        assert pauses == []

@@ -23,13 +23,11 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
-from urdfsync.state.journal import JournalFolder, Phase
 from urdfsync.state.store import Store
 
-NAMES = (
-    *("make_folder", "remove_folder", "write", "append", "write_bound", "exchange", "complete_exchange"),
-    *("replace", "place", "remove", "sync"),
-)
+CHANGES = ("exchange", "place", "replace")
+"""Operations on targets, and on the planned hashes."""
+NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "append", "write_bound", "remove", "sync")
 WRITES = ("write", "append", "write_bound")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
 ALL = "URDFSYNC_CRASHES"
@@ -47,7 +45,7 @@ class Operation:
     @property
     def kind(self) -> tuple[str, ...]:
         """What is the same for all operations that differ in the file only."""
-        places = ("journal", "base", "robots") if self.paths[-1:] else ()
+        places = ("base", "robots") if self.paths[-1:] else ()
         return (self.name, *(next((p for p in places if p in path.parts), path.suffix) for path in self.paths))
 
 
@@ -85,18 +83,19 @@ def run(project: Path, **request: Any) -> Result:
     return result
 
 
-def recorded(project: Path) -> list[Operation]:
-    """Build, and return what that consisted of."""
+def operations(project: Path, names: Sequence[str]) -> list[Operation]:
+    """Build, and return operations of these names that it consists of: of each kind the first and the last.
+
+    All of them if the environment asks for that. Each name must be there, or a test would try nothing.
+    """
     found: list[Operation] = []
     with before_each(found.append):
         assert not run(project).failed
-    return found
-
-
-def sample(found: Sequence[Operation]) -> list[Operation]:
-    """The first and the last operation of each kind, or all if the environment asks for that."""
+    found = [operation for operation in found if operation.name in names]
+    assert found
+    assert {operation.name for operation in found} == set(names)
     if os.environ.get(ALL):
-        return list(found)
+        return found
     kinds: dict[tuple[str, ...], list[Operation]] = {}
     for operation in found:
         kinds.setdefault(operation.kind, []).append(operation)
@@ -104,11 +103,10 @@ def sample(found: Sequence[Operation]) -> list[Operation]:
     return sorted(chosen, key=lambda operation: operation.number)
 
 
-def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambda operation: None) -> bool:
+def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda operation: None) -> None:
     """Build in a process that kills itself before an operation, or with `half` of the content written.
 
-    `earlier` is called before that operation and each one before it. Returns whether it came to that; otherwise the
-    process has built without an error.
+    `earlier` is called before that operation and each one before it. A build that does not come to it fails the test.
     """
 
     def hook(operation: Operation) -> None:
@@ -120,11 +118,8 @@ def killed(project: Path, number: int, half: bool = False, earlier: Hook = lambd
             os.kill(os.getpid(), signal.SIGKILL)
 
     _, status = os.waitpid(forked(project, hook), 0)
-    if os.WIFSIGNALED(status):
-        assert os.WTERMSIG(status) == signal.SIGKILL
-        return True
-    assert status == 0
-    return False
+    assert os.WIFSIGNALED(status)
+    assert os.WTERMSIG(status) == signal.SIGKILL
 
 
 def forked(project: Path, hook: Hook) -> int:
@@ -167,23 +162,19 @@ def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
     (project / "bot.urdf").write_text(robot(*elements))
 
 
-def phase(project: Path) -> Phase | None:
-    """How far the last build has come, if it was interrupted."""
-    return JournalFolder(project, project / ".urdfsync/journal").phase()
-
-
 def copy(project: Path, to: Path) -> Path:
     """The project at a place where nothing is left of another one."""
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
-    for file in (*(to / ".urdfsync/journal").glob("*.json"), *(to / ".urdfsync").glob("folders.json")):
-        bind(file)
+    for place in ("planned.json", ".planned.json.urdfsync-tmp"):
+        if (to / ".urdfsync" / place).is_file():
+            bind(to / ".urdfsync" / place)
     return to
 
 
 def bind(file: Path) -> None:
-    """Let a copy of a journal, or of the noted folders, be one that was written in its place."""
+    """Let a copy of planned hashes be one that was written in its place."""
     with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged to something else
         status, text = file.stat(), json.loads(file.read_bytes())
         file.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
@@ -191,12 +182,12 @@ def bind(file: Path) -> None:
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
-    """All files and folders of a project, but for the lock and an empty journal; folders have no content.
+    """All files and folders of a project, but for the lock; folders have no content.
 
     Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = (".urdfsync/lock", ".urdfsync/journal", ".urdfsync/base", ".urdfsync/folders.json")
+    left_out = (".urdfsync/lock", ".urdfsync/base")
     names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
     return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}

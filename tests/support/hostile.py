@@ -111,13 +111,14 @@ class Stranger:
         self.write("evil-1.0.dist-info/entry_points.txt", "[urdfsync.domains]\nevil = selectors:DOMAIN\n")
         self.write("evil.pth", f"import os; os.mkdir({str(self.outside / 'pth')!r})\n")
 
-    def journal(self, path: str) -> None:
-        """A journal half way through the change of a file, with the file's new content beside it."""
-        steps = [{"path": path, "old": None, "new": _digest(b"evil")}]
-        values = {"robot": "arm", "token": "12", "steps": steps, "made": [], "emptied": ["modelica/Other"], "format": 3}
-        self.write(".urdfsync/journal/apply.json", json.dumps({**values, "inode": 1, "written": 1}))
+    def planned(self, path: str) -> None:
+        """Planned hashes of a build that is half way through the change of a file, whose new content is beside it."""
+        old = _digest((self.project / path).read_bytes()) if (self.project / path).exists() else None
+        files = [{"path": path, "old": old, "new": _digest(b"evil")}]
+        values = {"robot": "arm", "token": "12", "files": files, "emptied": ["modelica/Other"]}
+        self.write(".urdfsync/planned.json", json.dumps({**values, "inode": 1, "written": 1}))
         if not path.startswith(("..", ".git/")):
-            self.write(f"{path}.12.urdfsync-tmp", b"evil")
+            self.write(f"{Path(path).parent}/.12-0.urdfsync-tmp", b"evil")
 
     def manifest_file(self, path: str) -> None:
         """A record that has a file as one of urdfsync's, with the right hash, which is no longer generated."""
@@ -127,12 +128,6 @@ class Stranger:
     def manifest_folder(self, folder: str) -> None:
         """A record whose package was elsewhere before."""
         self.edit(MANIFEST, 'folder "modelica/Arm"', f"folder {json.dumps(folder)}")
-
-    def linked_journal(self) -> None:
-        """A link in the place of the journals, to a folder of files that could be those of another urdfsync."""
-        for name in ("notes", "plans"):
-            (self.outside / "folder" / f"{name}.json").write_text(f'"{name}"')
-        self.link(".urdfsync/journal", "folder")
 
     def show(self, *names: str) -> None:
         """Let the robot show meshes."""
@@ -209,9 +204,10 @@ COMMITTED: Mapping[str, Attack] = {
         "<% macro m() %><< m() >><% endmacro %><< m() >>", "link/model.mo.jinja"
     ),
     "a template that is a link": lambda one: one.link(one.template("", "robot/model.mo.jinja"), "victim.mo"),
-    "a journal about git's hooks": lambda one: one.journal(".git/hooks/pre-commit"),
-    "a journal about a file outside": lambda one: one.journal(one.out("victim.mo")),
-    "a journal about the user's file": lambda one: one.journal(MINE),
+    "planned hashes of git's hooks": lambda one: one.planned(".git/hooks/pre-commit"),
+    "planned hashes of a file outside": lambda one: one.planned(one.out("victim.mo")),
+    "planned hashes of the user's file": lambda one: one.planned(MINE),
+    "deep planned hashes": lambda one: one.write(".urdfsync/planned.json", '{"files":' + "[" * 200_000),
     "a manifest with a file outside": lambda one: one.manifest_file(one.out("victim.mo")),
     "a manifest with the user's file": lambda one: one.manifest_file(MINE),
     "a manifest with the configuration": lambda one: one.manifest_file("urdfsync.toml"),
@@ -220,9 +216,10 @@ COMMITTED: Mapping[str, Attack] = {
     "state that is a link": lambda one: one.link(".urdfsync", "state"),
     "manifests that are a link": lambda one: one.link(".urdfsync/robots", "state"),
     "a manifest that is a link": lambda one: one.link(MANIFEST, "victim.mo"),
-    "a journal that is a link": lambda one: one.link(".urdfsync/journal", "folder"),
-    "journals that are the user's files": Stranger.linked_journal,
-    "a temporary journal that is a link": lambda one: one.link(".urdfsync/journal/new.urdfsync-tmp", "victim.mo"),
+    "planned hashes that are a link": lambda one: one.link(".urdfsync/planned.json", "victim.mo"),
+    "temporary planned hashes that are a link": lambda one: one.link(
+        ".urdfsync/.planned.json.urdfsync-tmp", "victim.mo"
+    ),
     "bases that are a link": lambda one: one.link(".urdfsync/base/arm", "folder"),
     "an answer that is a link": lambda one: one.link(".urdfsync/stamp", "victim.mo"),
     "a lock that is a link": lambda one: one.link(".urdfsync/lock", "victim.mo"),
@@ -266,9 +263,8 @@ ATTACKS = {**COMMITTED, **LOCAL}
 
 TOGETHER = (
     *("modules", "a template that leaves the sandbox", "a template without end", "a template that is a link"),
-    *("a journal about git's hooks", "a journal about a file outside", "a journal about the user's file"),
     *("a manifest with a file outside", "a manifest with the user's file", "a manifest with the configuration"),
-    *("a manifest of a package outside", "a temporary journal that is a link"),
+    *("a manifest of a package outside", "deep planned hashes"),
     *("bases that are a link", "an answer that is a link", "a lock that is a link", "conflicts that are a link"),
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
     *("huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),

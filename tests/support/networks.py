@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from support.replay import contents
 from urdfsync import config
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
@@ -86,8 +85,3 @@ def kinds(result: Result, folder: str = "") -> dict[str, Kind]:
     """What happens to each file that does not just stay and does not wait, by its path below a folder."""
     actions = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.held)
     return {action.path.removeprefix(folder): action.kind for action in actions}
-
-
-def portable(folder: Path) -> dict[str, bytes]:
-    """All files but the list of folders, which is bound to its inode and time."""
-    return {name: content for name, content in contents(folder).items() if not name.endswith("folders.json")}

@@ -73,10 +73,10 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             failed = [result for result in found if result.failed]
             for result in failed:
                 show_result(console, result)
-            message = f"{' and '.join(f'`{path}`' for path in unknown)} {'has' if len(unknown) == 1 else 'have'} no conflict"
+            named, have = " and ".join(f"`{path}`" for path in unknown), "has" if len(unknown) == 1 else "have"
             hint = f"in conflict: {listed}" if listed else "no file is in conflict"
             code = exit_code(failed) if failed else Exit.ERROR
-            no_conflict = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
+            no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{named} {have} no conflict", hint=hint)
             console.end("resolve", code, [no_conflict])
             return code
         if problems := [problem for target in targets for problem in _problems(target, args.choice)]:

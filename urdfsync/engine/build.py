@@ -26,6 +26,7 @@ from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError, build_lock
+from urdfsync.state.planned import is_interrupted
 from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError
 
@@ -40,7 +41,7 @@ _ATTEMPTS = 5
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
     """Build robots one after the other; one that fails does not stop the others."""
     with contextlib.ExitStack() as stack:
-        lock = stack.enter_context(build_lock(config.root, config.root / STATE_FOLDER, options.wait))
+        lock = stack.enter_context(build_lock(config.root / STATE_FOLDER, options.wait))
         pool = None
         if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
@@ -106,15 +107,16 @@ class _Builder:
                 continue
             told = _joined(first, plan) if first else plan
             writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
-            if writes:
-                dependencies.mark_incomplete()  # what was read is about to change
-                self._lock.acquire(waiting=self._wait)
-                if not self._is_current(plan):
-                    continue
-                if not_done := self._write(robot, plan):
-                    saved, first = not_done[0], told
-                    continue
-            return told
+            if not writes and not self._transactions.is_pending():
+                return told
+            dependencies.mark_incomplete()  # what was read is about to change
+            self._lock.acquire(self._wait)
+            if not self._is_current(plan):
+                continue
+            not_done = self._write(robot, plan)
+            if not not_done:
+                return told
+            saved, first = not_done[0], told
         message = "it changes all the time while urdfsync builds"
         hint = "close what writes to it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
@@ -126,8 +128,6 @@ class _Builder:
         changes = [*shared, *store.for_git(), *plan.writes]
         bases = store.bases(robot.name)
         bases.add(plan.bases)
-        if not changes:
-            return ()
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         if not applied.not_done:
@@ -139,24 +139,23 @@ class _Builder:
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 
-        Nearly every build writes the record as its last file, so it is read again here; the others are when they are
+        Nearly every build writes the manifest as its last file, so it is read again here; the others are when they are
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}
-        store = Store(self._config.root)
-        return not self._transactions.pending() and store.is_unchanged(plan.witness, targets)
+        return Store(self._config.root).is_unchanged(plan.witness, targets)
 
     def _recover(self) -> None:
         """Wait for a build that is writing; finish what a killed build left."""
-        if not self._transactions.pending():
+        if not self._transactions.is_pending():
             return
         if not self._options.dry:
-            self._lock.acquire(waiting=self._wait)
+            self._lock.acquire(self._wait)
             self.notes += self._transactions.recover()
             return
-        with build_lock(self._config.root, self._state_folder, self._options.wait) as lock:
-            lock.acquire(shared=True, waiting=self._wait)
-        if self._transactions.pending():
+        with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
+            lock.acquire(self._wait)  # where that can't be, nobody is writing
+        if is_interrupted(self._state_folder):
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(self._state_folder), hint=hint))
 

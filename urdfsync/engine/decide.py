@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
@@ -203,6 +204,23 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
     return {key: tuple(name for name in names if (key, name) not in staying) for key, names in lines.items()}
 
 
+def _lines_of_gone_classes(
+    inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
+) -> dict[str, tuple[str, ...]]:
+    """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
+    deleted, inside, found = {one.path for one in actions if one.kind in DELETES}, f"{inputs.folder}/", {}
+    for key, names in lines.items():
+        folder = key.removesuffix("package.order")
+        files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
+        standing = {
+            name
+            for name, keys in files.items()
+            if any(one not in deleted and is_file(inputs.files.path(one)) for one in keys)
+        }
+        found[key] = names if key.startswith(inside) else tuple(name for name in names if name not in standing)
+    return found
+
+
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
@@ -213,6 +231,8 @@ def _decide_orders(
     inputs, files = generation.inputs, generation.inputs.files
     recorded, desired = generation.recorded_orders(), generation.desired_orders()
     removable = _removable_lines(recorded, actions)
+    if inputs.folder != inputs.old_folder:
+        removable = _lines_of_gone_classes(inputs, actions, removable)
     inside = (f"{inputs.folder}/", f"{inputs.old_folder}/")
     found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):

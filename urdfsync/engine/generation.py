@@ -211,20 +211,15 @@ def generate_robot(inputs: Inputs) -> Generation:
         inputs.dependencies(snapshot, reading.lines),
         inputs.recorded_imports,
         shown(robot.source),
-        options.full,
+        options.full or inputs.old_folder != inputs.folder,  # no copy of a former folder serves: it may be the user's
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports)
     last_packages = tuple(_recorded_packages(inputs))  # first: the cache keeps one package: that of now takes its place
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
-    if (
-        inputs.record
-        and inputs.record.open is None
-        and last_packages
-        and inputs.has_same_generator
-        and not options.full
-    ):
+    is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written
+    if is_complete and last_packages and inputs.has_same_generator and not options.full:
         changed = package.changed_since(last_packages[0])
     return Generation(
         inputs, now, reading.lines, (*found, *imported.diagnostics), imported, package, last_packages, changed

@@ -40,6 +40,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """The last complete build, and what is open since; None if there is no record, or it is lost."""
     former_name: str | None
     """Name of the robot in the last build, if it has another one now."""
+    written: Mapping[str, FileRecord | None]
+    """What builds that are not complete have written since, by key; None for a file that they deleted."""
     templates: Templates
     content: bytes
     """Bytes of the source."""
@@ -62,9 +64,9 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def recorded_files(self) -> Mapping[str, FileRecord]:
-        """The recorded files by key; those that a build may not touch are left out."""
-        found = self.record.files if self.record else {}
-        return {key: one for key, one in found.items() if self.files.is_inside(key)}
+        """The recorded files by key, with what was written since; those that a build may not touch are left out."""
+        found = {**(self.record.files if self.record else {}), **self.written}
+        return {key: one for key, one in found.items() if one is not None and self.files.is_inside(key)}
 
     def key(self, path: str) -> str:
         """Return the key of a file by its path below the package."""
@@ -181,7 +183,21 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
         file = shown(store.path(robot.name))
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
-    return Inputs(config, robot, options, domain, files, around, store, record, former, templates, content, generator)
+    written = _find_written(store, files)
+    return Inputs(
+        *(config, robot, options, domain, files, around, store, record, former, written, templates, content, generator)
+    )
+
+
+def _find_written(store: Store, files: PackageFiles) -> dict[str, FileRecord | None]:
+    """Return the files that builds which are not complete have written or deleted: they are as was planned."""
+    found: dict[str, FileRecord | None] = {}
+    for one in store.planned_files():
+        if (one.new is None or one.record) and files.is_inside(one.path):
+            state = files.state(one.path)
+            if (state.sha256 if state else None) == one.new:
+                found[one.path] = one.record
+    return found
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:

@@ -59,7 +59,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
     if inputs.options.dry and not inputs.options.compares_state:
         return plan
-    changes = _file_changes(generation, decision)
+    record = _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
+    changes = _file_changes(generation, decision, record)
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
     aside = {path: encode(text) for version in versions for path, text in version}
     changes += store.conflicts(robot.name, aside, former)
@@ -72,7 +73,6 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing, more = store.drawing(robot.name, picture)
             changes += more
 
-    record = _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
     changes += store.changes(robot.name, record, former)
     hashes = (file.hashes for key, file in record.files.items() if role_of(inputs.old_path(key)) is not Role.IMPORT)
 
@@ -91,7 +91,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     )
 
 
-def _file_changes(generation: Generation, decision: Decision) -> list[FileChange]:
+def _file_changes(generation: Generation, decision: Decision, record: Record) -> list[FileChange]:
     """Return the changes of the package's files, but for those in which other robots may have a part."""
     files, found = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
@@ -100,7 +100,8 @@ def _file_changes(generation: Generation, decision: Decision) -> list[FileChange
             content = None if action.kind in DELETES else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            found.append(FileChange(files.path(action.path), content, state.sha256 if state else None, is_moved))
+            old, file = state.sha256 if state else None, record.files.get(action.path)
+            found.append(FileChange(files.path(action.path), content, old, is_moved, file))
     return found
 
 

@@ -102,24 +102,20 @@ def is_bound(path: Path, content: Bound) -> bool:
 
 
 def exchange(path: Path, target: Path) -> None:
-    """Swap two files of one folder. Raises FileNotFoundError or FileExistsError if somebody got in between.
+    """Swap two files of one folder, or do the rest of it if that was cut short.
 
     Where the system can't swap, three renames do it, and the target is missing for some microseconds. Replacing the
     target at once would be shorter, and would lose what somebody saves after the last look at it.
+
+    Raises FileNotFoundError or FileExistsError if somebody got in between.
     """
-    if _rename(path, target, _EXCHANGE):
-        return
-    replace(target, spare(path))
-    place(path, target)
+    if not os.path.lexists(spare(path)):
+        if _rename(path, target, _EXCHANGE):
+            return
+        replace(target, spare(path))
+    if os.path.lexists(path):
+        place(path, target)
     replace(spare(path), path)
-
-
-def complete_exchange(path: Path, target: Path) -> None:
-    """Do the rest of an exchange of three renames that was cut short. Raises FileExistsError as `exchange`."""
-    if os.path.lexists(spare(path)):
-        if os.path.lexists(path):
-            place(path, target)
-        replace(spare(path), path)
 
 
 def spare(path: Path) -> Path:

@@ -1,38 +1,21 @@
-"""A lock that the operating system holds for a process, and lets go when the process ends, however it ends."""
+"""A lock that one process holds. The operating system lets it go when the process ends, however it ends."""
 
 from __future__ import annotations
 
 import contextlib
-import errno
 import os
-import sys
-import time
+import stat
 from collections.abc import Callable
 from pathlib import Path
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.files import failure, shown
+from urdfsync.files import Tree, failure, shown
 
-_PAUSE = 0.05
-"""Seconds between two attempts."""
-_BUSY = {errno.EACCES, errno.EAGAIN, errno.EWOULDBLOCK, errno.EDEADLK}
-_NO_FOLDER_LOCKS = {errno.EBADF, errno.EINVAL, errno.EISDIR, errno.ENOTSUP}
-"""What NFS says: it locks bytes, for which a file must be open for writing, and no folder can be."""
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
 
-if sys.platform == "win32":
-    import msvcrt
-
-    _FAR = 1 << 30  # past the text, which others must be able to read
-
-    def _try(descriptor: int, shared: bool) -> None:  # noqa: ARG001 - there are no shared locks here
-        os.lseek(descriptor, _FAR, os.SEEK_SET)
-        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
-else:
-    import fcntl
-
-    def _try(descriptor: int, shared: bool) -> None:
-        fcntl.flock(descriptor, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+_FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 
 
 class LockedError(UrdfsyncError):
@@ -42,57 +25,50 @@ class LockedError(UrdfsyncError):
 
 
 class Lock:
-    """A lock on a file, which then holds the number of the process that had the lock last."""
+    """A lock file in a state folder. It stays there, and has the number of the process that held the lock last."""
 
-    def __init__(self, path: Path, wait: float, folder: Path | None = None) -> None:
-        """`wait` is in seconds. With a `folder`, that is locked, and the file only says by whom: see `build_lock`."""
-        self._path, self._wait, self._folder = path, wait, folder
-        self._descriptor: int | None = None
-        self._expired = False
+    def __init__(self, file: Path, wait: float) -> None:
+        """`wait` is in seconds."""
+        self._file, self._wait = file, wait
+        self._lock: BaseFileLock | None = None
 
-    def acquire(self, shared: bool = False, waiting: Callable[[], None] = lambda: None) -> None:
-        """Take the lock, unless it is held already; `shared` waits for writers only. Calls `waiting` on and on.
+    def acquire(self, waiting: Callable[[], object] = lambda: None) -> None:
+        """Take the lock, unless this object holds it already and the file is still there. Calls `waiting` on and on.
 
-        Where there is no file to lock, no writer holds it, so that `shared` takes nothing.
-
-        Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file or
-        folder can't be locked.
+        Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file can't
+        be locked.
         """
-        if self._descriptor is not None:
+        if self._lock is not None and self._file.exists():
             return
+        self.release()
+        from filelock import FileLock, Timeout  # 40 ms, for builds that write only
+
+        lock = FileLock(self._file, thread_local=False)
         try:
-            if self._folder is not None:
-                descriptor = os.open(self._folder, os.O_RDONLY)
-            elif shared:
-                descriptor = self._open(os.O_RDONLY)
-            else:
-                self._path.parent.mkdir(exist_ok=True)
-                descriptor = self._open(os.O_RDWR | os.O_CREAT)
+            Tree(self._file.parent.parent).check_folder(self._file.parent)  # FileLock follows a link to a folder
+            lock.acquire(self._wait, cancel_check=lambda: bool(waiting()))
+        except Timeout:
+            self._wait = 0
+            message = f"{self.holder()} is building here, and did not finish in time"
+            hint = "wait for it or end it, then build again"
+            raise LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._file), hint=hint)) from None
         except OSError as error:
-            if shared and isinstance(error, FileNotFoundError):
-                return
-            raise failure(error, self._path) from None
-        try:
-            self._wait_for(descriptor, shared, waiting)
-        except OSError as error:
-            os.close(descriptor)
-            if self._folder is None or error.errno not in _NO_FOLDER_LOCKS:
-                raise failure(error, self._folder or self._path, "it can't be locked") from None
-            self._folder = None  # the same for all processes here
-            self.acquire(shared, waiting)
-        except BaseException:
-            os.close(descriptor)
-            raise
-        else:
-            self._descriptor = descriptor
-            if not shared:
-                self._sign()
+            raise failure(error, self._file, "it can't be locked") from None
+        self._lock = lock
+        self._sign()
 
     def release(self) -> None:
         """Let the lock go, if it is held."""
-        if self._descriptor is not None:
-            os.close(self._descriptor)
-            self._descriptor = None
+        if self._lock is not None:
+            self._lock.release()
+            self._lock = None
+
+    def holder(self) -> str:
+        """The process that has the lock, or had it last, in words."""
+        number = ""
+        with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDONLY | _FLAGS), "rb") as file:
+            number = (file.read(20) or b"").decode(errors="replace").strip()
+        return f"process {number}" if number.isdecimal() else "another process"
 
     def __enter__(self) -> Self:
         return self
@@ -100,51 +76,17 @@ class Lock:
     def __exit__(self, *_: object) -> None:
         self.release()
 
-    def _wait_for(self, descriptor: int, shared: bool, waiting: Callable[[], None]) -> None:
-        end = time.monotonic() + (0 if self._expired else self._wait)
-        while True:
-            try:
-                _try(descriptor, shared)
-            except OSError as error:
-                if error.errno not in _BUSY:
-                    raise
-            else:
-                return
-            if time.monotonic() >= end:
-                self._expired = True
-                holder = ""
-                with contextlib.suppress(OSError), os.fdopen(self._open(os.O_RDONLY), errors="replace") as file:
-                    holder = file.read(20).strip()
-                who = f"process {holder}" if holder.isdecimal() else "another process"
-                message = f"{who} is building here, and did not finish within {self._wait:g} s"
-                hint = "wait for it or end it, then build again"
-                raise LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._path), hint=hint))
-            waiting()
-            time.sleep(_PAUSE)
-
     def _sign(self) -> None:
-        """Leave the number of this process in the file, unless it is there: a daemon locks again and again."""
-        number = f"{os.getpid()}\n"
-        with contextlib.suppress(OSError):  # the number is for people only
-            self._path.parent.mkdir(exist_ok=True)
-            with os.fdopen(self._open(os.O_RDWR | os.O_CREAT), "r+", errors="replace") as file:
-                is_alone = os.fstat(file.fileno()).st_nlink < 2  # else it may be a file of the user
-                if is_alone and file.read(len(number) + 1) != number:
-                    file.seek(0)
-                    file.truncate()
-                    file.write(number)
-
-    def _open(self, flags: int) -> int:
-        """Open the file itself: a link is not followed, and a pipe in its place is not waited for."""
-        if self._path.parent.is_symlink():
-            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(self._path.parent))
-        return os.open(self._path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
+        """Leave the number of this process in the file, for people; not in a hard link of a user's file."""
+        number = b"%d\n" % os.getpid()
+        with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDWR | _FLAGS), "r+b") as file:
+            status = os.fstat(file.fileno())
+            if stat.S_ISREG(status.st_mode) and status.st_nlink == 1 and file.read() != number:
+                file.seek(0)
+                file.truncate()
+                file.write(number)
 
 
-def build_lock(root: Path, folder: Path, wait: float) -> Lock:
-    """The lock of all who write below a configuration's folder, `root`; `folder` is the state folder.
-
-    The root itself is locked. A file in the state folder is lost to `git clean -fdX` while it is held, and the next
-    process would lock a new one. Windows has no locks of folders, but does not delete a file that is open.
-    """
-    return Lock(folder / "lock", wait, None if sys.platform == "win32" else root)
+def build_lock(state_folder: Path, wait: float) -> Lock:
+    """The lock of all who write below the folder of a configuration."""
+    return Lock(state_folder / "lock", wait)

@@ -10,8 +10,9 @@ from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest, shown
-from urdfsync.state import statefile
+from urdfsync.state import planned, statefile
 from urdfsync.state.bases import BaseStore
+from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
@@ -72,6 +73,12 @@ class Store:
             if strict or any(found.code == "newer-state" for found in error.diagnostics):
                 raise
             return None
+
+    def planned_files(self) -> tuple[PlannedFile, ...]:
+        """What builds that are not complete were about to write, in their order. Raises OutputError for a link."""
+        path = self.folder / planned.FILE
+        build = planned.parse(path, self._bytes(path))
+        return (*build.earlier, *build.files) if build else ()
 
     def witness(self) -> Witness:
         """What all files were when they were loaded."""

@@ -1,19 +1,17 @@
 """Write a set of files so that a crash, a full disk or somebody's save at any moment loses nothing.
 
-A transaction only goes forward:
+1. The planned hashes are put aside under a temporary name.
+2. All new files are written beside their targets under temporary names, and brought to the disk.
+3. The planned hashes take their place. Until then nothing has changed, and an error leaves no trace.
+4. Each target is exchanged with its new file, deletions last. The old file stands under the temporary name then, where
+   its hash shows whether it is the one that was planned with. If it is not, somebody has saved the target in between:
+   the two are exchanged back, and the target is *overtaken*.
+5. The recorded state takes its place, the manifest last, unless a target was overtaken.
+6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken.
 
-1. All new files are written beside their targets under temporary names.
-2. The journal makes the intent durable. Until then nothing has changed, and an error or a crash leaves no trace.
-3. Each target is exchanged with its new file. The old file stands under the temporary name then, where its hash shows
-   whether it is the one that was planned with. If it is not, somebody has saved the target in between: the two are
-   exchanged back, and the target is *overtaken*.
-4. The recorded state takes its place, the manifest last, unless a target was overtaken: then it stays as it was, and
-   the build records what was done.
-5. What is left under temporary names is removed.
-
-Whoever finds a journal finishes the transaction by the same steps: what stands in a target and under its temporary
-name says how far it is. A temporary name that holds bytes that nobody planned with holds a save of the user's. It is
-put back, or kept beside the target under a name that people see.
+From the fourth on, every write can be done twice: whoever finds planned hashes in their place begins there again. A
+temporary name that holds bytes that nobody planned with holds a save of the user's. It is put back, or kept beside the
+target under a name that people see.
 """
 
 from __future__ import annotations
@@ -23,23 +21,21 @@ import itertools
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import NoReturn
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
-from urdfsync.state import file_operations
-from urdfsync.state.journal import REPAIR, Journal, JournalFolder, Phase, Step
+from urdfsync.state import file_operations, planned
+from urdfsync.state.planned import PlannedBuild, PlannedFile
+from urdfsync.state.record import FileRecord
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
-_STATE_FILES = {"robots": (".state",), "svg": (".svg",)}
-"""Folders and suffixes of the files in the state folder that transactions write, beside those of conflicts."""
 
 
 class UnfinishedError(OutputError):
-    """Some files have changed, and the others could not be; the journal says which, and the next build finishes."""
+    """Some files have changed, and the others could not be; the planned hashes stand, and the next build goes on."""
 
 
 class FileChange(msgspec.Struct, frozen=True):
@@ -52,6 +48,8 @@ class FileChange(msgspec.Struct, frozen=True):
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
     is_moved: bool = False
     """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
+    record: FileRecord | None = None
+    """The file's entry in the manifest then; None if it has none."""
 
 
 class Applied(msgspec.Struct, frozen=True):
@@ -63,17 +61,14 @@ class Applied(msgspec.Struct, frozen=True):
 
 
 class Transactions:
-    """The writer of one configuration, with its journal in the state folder; for the holder of the build lock only."""
+    """The writer of one configuration; for the holder of the build lock only."""
 
-    def __init__(self, root: Path, folder: Path, outputs: Sequence[Path] = ()) -> None:
-        """`root` is the configuration's folder, `folder` the state folder; `outputs` may be written to as well."""
-        self._root, self._folder, self._outputs = root, folder, outputs
+    def __init__(self, root: Path, state_folder: Path, outputs: Sequence[Path] = ()) -> None:
+        """`root` is the configuration's folder; `outputs` may be written to as well."""
+        self._root, self._state_folder, self._outputs = root, state_folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
-        self._journals = JournalFolder(root, folder / "journal")
-
-    def pending(self) -> bool:
-        """Whether a transaction is under way, or was when its process ended. Needs no lock."""
-        return bool(self._journals.names())
+        self._planned = state_folder / planned.FILE
+        self._draft = state_folder / planned.DRAFT
 
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes. `emptied` are folders to remove if they are empty then.
@@ -81,197 +76,171 @@ class Transactions:
         Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows
         only when files have changed already; `recover` goes on.
         """
-        steps = (
-            Step(self._key(c.path), c.old, None if c.content is None else digest(c.content), c.is_moved)
-            for c in changes
+        hashes = (None if change.content is None else digest(change.content) for change in changes)
+        files = tuple(
+            PlannedFile(self._key(one.path), one.old, new, one.is_moved, one.record)
+            for one, new in zip(changes, hashes, strict=True)
         )
-        made: set[Path] = set()
-        for innermost in {change.path.parent for change in changes if change.content is not None}:
-            for folder in (innermost, *innermost.parents):
-                if folder == self._root or folder in made or folder.is_dir():
-                    break
-                made.add(folder)
-        keys = tuple(map(self._key, sorted(made))), tuple(map(self._key, emptied))
-        journal = Journal(robot, os.urandom(8).hex(), tuple(steps), *keys)
-        self._check(journal)
-        files = self._files(journal)
+        before = self._load(self._planned)
+        earlier = (*before.earlier, *before.files) if before else ()
+        build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)), earlier)
+        self._check(build)
+        made, targets, has_begun = self._missing_folders(changes), self._targets(build), False
         try:
-            self._prepare(journal, files, [change.content for change in changes])
-            applied = self._finish(journal, files)
-        except UnfinishedError:
-            raise
+            self._prepare(build, made, targets, [change.content for change in changes])
+            has_begun = True
+            return self._finish(build, targets)
         except BaseException as error:
-            known = error.diagnostics if isinstance(error, OutputError) else ()
-            if self._journals.phase() in (Phase.APPLY, Phase.DONE):  # durable: only forward
-                if known:
-                    raise UnfinishedError(*known) from error
-                self._finish(journal, files)  # Ctrl-C: it takes some milliseconds
-            else:
-                self._discard(journal, files, known)
+            try:
+                if not has_begun:
+                    self._discard(targets, made)
+                elif isinstance(error, OSError):
+                    raise
+                else:
+                    self._finish(build, targets)  # Ctrl-C: it takes some milliseconds
+            except OSError as problem:
+                known = error.diagnostics if isinstance(error, OutputError) else ()
+                raise UnfinishedError(*known, self._unfinished(problem)) from error
             raise
-        return applied
 
-    def recover(self, repair: bool = False) -> tuple[Diagnostic, ...]:
+    def recover(self) -> tuple[Diagnostic, ...]:
         """Finish what a run left that was killed; returns what there is to say about it.
 
-        With `repair`, a journal that can't be believed is set aside. Raises StateError for such a journal otherwise,
-        and UnfinishedError if the transaction can't be finished.
+        Raises UnfinishedError if that can't be done, OutputError for links on the way.
         """
-        if not self.pending():
-            return ()
+        found: tuple[Diagnostic, ...] = ()
         try:
-            journal, phase = self._journals.load()
-            self._check(journal, self._journals.file(phase))
-        except StateError as error:
-            if not repair or {found.code for found in error.diagnostics} != {"broken-journal"}:
-                raise
-            try:
-                aside = self._journals.set_aside()
-            except OSError as problem:
-                self._refuse_to_finish(problem)
-            message = "the journal of an interrupted build was set aside, and nothing was done of it"
-            hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
-            return (Diagnostic(Severity.WARNING, "refused-journal", message, shown(aside), hint=hint),)
-        files = self._files(journal)
-        if phase is Phase.PREPARE:
-            self._discard(journal, files)
-            return ()
-        applied = self._finish(journal, files)
-        message = f"the last build of robot `{journal.robot}` was interrupted; it is finished"
-        return Diagnostic(Severity.NOTE, "recovered", message), *applied.diagnostics
+            if draft := self._load(self._draft):
+                self._discard(self._targets(draft))
+            file_operations.remove(self._draft)
+            build = self._load(self._planned)
+            if build is not None:
+                applied = self._finish(build, self._targets(build))
+                found = applied.diagnostics
+                if not applied.not_done:
+                    message = f"the last build of robot `{build.robot}` was interrupted; it is finished"
+                    found = Diagnostic(Severity.NOTE, "recovered", message), *found
+            elif planned.is_interrupted(self._state_folder):
+                file_operations.remove(self._planned)
+                message = "an interrupted build was none of this very folder, or can't be read; nothing was done of it"
+                hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
+                found = (Diagnostic(Severity.WARNING, "unknown-build", message, shown(self._planned), hint=hint),)
+        except OSError as error:
+            raise UnfinishedError(self._unfinished(error)) from error
+        return found
 
-    def _prepare(self, journal: Journal, files: Sequence[_File], contents: Sequence[bytes | None]) -> None:
-        """Write all new files, and make the intent durable. Raises OutputError."""
-        written, place = [], self._folder
+    def is_pending(self) -> bool:
+        """Whether a build is at work, or was when its process ended."""
+        return planned.is_interrupted(self._state_folder) or os.path.lexists(self._draft)
+
+    def _load(self, file: Path) -> PlannedBuild | None:
+        """The planned hashes of a file, None if there are none, or none of this place. Raises OutputError for links."""
+        build = planned.parse(file, Tree(self._root).read(file))
+        if build is not None:
+            self._check(build)
+        return build
+
+    def _prepare(
+        self, build: PlannedBuild, made: Sequence[Path], targets: Sequence[_Target], contents: Sequence[bytes | None]
+    ) -> None:
+        """Put the planned hashes aside, and write all new files. Raises OutputError."""
+        written, place = [], self._state_folder
         try:
-            file_operations.make_folder(self._folder)
-            place = self._journals.folder
-            file_operations.make_folder(place)
-            place = self._journals.file(Phase.PREPARE)
-            self._journals.save(journal)  # before the first temporary file, or nobody would know of that
-            for place in map(self._path, journal.made):
+            file_operations.make_folder(self._state_folder)
+            place = self._planned
+            file_operations.remove(self._draft)
+            file_operations.write_bound(self._draft, build)  # before the first temporary file, which it names
+            file_operations.sync([self._draft])
+            for place in made:
                 file_operations.make_folder(place)
-            for file, content in zip(files, contents, strict=True):
+            for target, content in zip(targets, contents, strict=True):
                 if content is not None:
-                    place = file.path
-                    file_operations.write(file.temporary, content, file.path)
-                    written.append(file.temporary)
-            place = self._folder
+                    place = target.path
+                    file_operations.write(target.temporary, content, target.path)
+                    written.append(target.temporary)
+            place = self._state_folder
             file_operations.sync(written)
-            self._journals.enter(Phase.APPLY)
-            file_operations.sync([self._journals.folder])
+            file_operations.replace(self._draft, self._planned)
         except OSError as error:
             raise failure(error, place) from None
 
-    def _discard(self, journal: Journal, files: Sequence[_File], known: Sequence[Diagnostic] = ()) -> None:
-        """Remove all traces of a transaction of which no target has changed; `known` is why. Raises UnfinishedError."""
-        try:
-            for file in files:
-                file_operations.remove(file.temporary)
-            for path in reversed(journal.made):
-                file_operations.remove_folder(self._path(path))
-            self._journals.remove()
-        except OSError as error:
-            self._refuse_to_finish(error, known)
+    def _discard(self, targets: Sequence[_Target], made: Sequence[Path] = ()) -> None:
+        """Remove all traces of a build that has changed nothing. Raises OSError."""
+        for target in targets:
+            file_operations.remove(target.temporary)
+        for folder in reversed(made):
+            file_operations.remove_folder(folder)
+        file_operations.remove(self._draft)
 
-    def _finish(self, journal: Journal, files: Sequence[_File]) -> Applied:
-        """Change all targets that have not changed yet, and remove all traces. Raises UnfinishedError."""
-        folders = sorted({file.folder for file in files})
-        not_done: list[Path] = []
-        try:
-            if self._journals.phase() is not Phase.DONE:
-                state_folder = str(self._folder / "robots")
-                others = [file for file in files if file.folder != state_folder]
-                changed = [(file, file.change()) for file in others]
-                # again, since somebody may have written to an old file through a handle that was opened before
-                changed = [(file, done if file.old is None else file.change()) for file, done in changed]
-                not_done = [file.path for file, done in changed if not done]
-                for file in files:  # the recorded state comes last, and stays if a target is not as planned
-                    if file.folder == state_folder and (not_done or not file.change()):
-                        not_done.append(file.path)
-                file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
-                self._journals.enter(Phase.DONE)
-            left = set()
-            for folder in folders:
-                with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-                    names = os.listdir(folder)  # noqa: PTH208 - with those of an exchange of three renames, `….…-tmp~`
-                    left |= {f"{folder}{os.sep}{name}" for name in names if TEMPORARY in name}
-            saved = [(file, name) for file in files for name in file.clear(left)] if left else []
-            for path in journal.emptied:
-                file_operations.remove_folder(self._path(path))
-            self._journals.remove()
-        except OSError as error:
-            self._refuse_to_finish(error)
+    def _finish(self, build: PlannedBuild, targets: Sequence[_Target]) -> Applied:
+        """Change all targets that have not changed yet, and remove all traces. Raises OSError."""
+        file_operations.sync([self._state_folder])
+        state_folder = str(self._state_folder / "robots")
+        state = [target for target in targets if target.folder == state_folder]
+        others = [target for target in targets if target.folder != state_folder]
+        others.sort(key=lambda target: target.new is None)
+        changed = [(target, target.change()) for target in others]
+        # again, since somebody may have written to an old file through a handle that was opened before
+        not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
+        for target in state:
+            if not_done or not target.change():
+                not_done.append(target.path)
+        folders = sorted({target.folder for target in targets})
+        file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
+        found = []
         message = "it was saved in the instant in which a build wrote it; the other text is kept as"
-        return Applied(
-            tuple(not_done),
-            tuple(
-                Diagnostic(Severity.WARNING, "kept-save", f"{message} {shown(name)}", shown(file.path))
-                for file, name in saved
-            ),
-        )
+        left = _temporary_files(folders)
+        for target in targets if left else ():
+            for kept in target.clear(left):
+                text = f"{message} {shown(kept)}"
+                found.append(Diagnostic(Severity.WARNING, "kept-save", text, shown(target.path)))
+        for key in build.emptied:
+            file_operations.remove_folder(Path(placed(self._prefix, key)))
+        if not not_done:
+            file_operations.remove(self._planned)
+        return Applied(tuple(not_done), tuple(found))
 
-    def _check(self, journal: Journal, source: Path | None = None) -> None:
-        """Refuse files and folders that no build writes, and links on the way. Raises StateError or OutputError.
-
-        `source` is the file of a journal that was found; None for a build that is about to write.
-        """
-        trees = [Tree(self._root), *(Tree(output) for output in self._outputs)]
-        paths = [(placed(self._prefix, step.path), False) for step in journal.steps]
-        paths += [(placed(self._prefix, path), True) for path in (*journal.made, *journal.emptied)]
-        for path, is_folder in paths:
-            tree = next((tree for tree in trees if tree.covers(path)), None)
-            if tree is None or not self._is_written(path, tree.root, is_folder):
-                code, hint = ("broken-journal", REPAIR) if source else ("outside", "")
-                if source and tree is None:
-                    hint = f"bring back the `output` that the robot had, and build; {REPAIR}"
-                message = f"{shown(Path(path))} is no file that a build writes"
-                file = shown(source or Path(path))
-                raise StateError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))
+    def _check(self, build: PlannedBuild) -> None:
+        """Refuse files and folders outside of the outputs, and links on the way. Raises OutputError."""
+        trees = [Tree(self._root), *map(Tree, self._outputs)]
+        for key in (*(file.path for file in build.files), *(f"{folder}/x" for folder in build.emptied)):
+            path = placed(self._prefix, key)
+            tree = next((tree for tree in trees if tree.covers(path)), trees[0])
             tree.check_folder(os.path.dirname(path))  # noqa: PTH120 - strings: there are thousands of files
 
-    def _is_written(self, path: str, root: Path, is_folder: bool) -> bool:
-        """Whether a path below a root is of a package, around one, or of the state."""
-        state = str(self._folder)
-        if path == state or path.startswith(state + os.sep):
-            parts = path[len(state) + 1 :].replace(os.sep, "/").split("/")
-            if is_folder or parts in ([".gitignore"], [".gitattributes"]):
-                return True
-            is_state = len(parts) == 2 and parts[1].endswith(_STATE_FILES.get(parts[0], ()))
-            return is_state or (len(parts) > 1 and parts[0] == "conflicts")
-        parts = path[len(str(root)) :].strip(os.sep).replace(os.sep, "/").split("/")
-        if any(part.startswith(".") for part in parts):  # `.git` among them
-            return False
-        return is_folder or parts[-1] == "package.order" or parts[-1].endswith(".mo") or "Resources" in parts[1:-1]
+    def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
+        """The folders to make, outermost first."""
+        missing: set[Path] = set()
+        for innermost in {change.path.parent for change in changes if change.content is not None}:
+            for folder in (innermost, *innermost.parents):
+                if folder == self._root or folder in missing or folder.is_dir():
+                    break
+                missing.add(folder)
+        return sorted(missing)
 
-    def _refuse_to_finish(self, error: OSError, known: Sequence[Diagnostic] = ()) -> NoReturn:
-        place = Path(error.filename) if isinstance(error.filename, str) else self._folder
+    def _unfinished(self, error: OSError) -> Diagnostic:
+        place = Path(error.filename) if isinstance(error.filename, str) else self._state_folder
         message = f"an interrupted build can't be brought to an end: {error.strerror or error}"
-        hint = "repair that, then build again"
-        found = Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint=hint)
-        raise UnfinishedError(*known, found) from error
+        return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="repair that, then build again")
 
-    def _files(self, journal: Journal) -> list[_File]:
+    def _targets(self, build: PlannedBuild) -> list[_Target]:
         found = []
-        for number, step in enumerate(journal.steps):
-            path = placed(self._prefix, step.path)
+        for number, file in enumerate(build.files):
+            path = placed(self._prefix, file.path)
             folder = path.rpartition(os.sep)[0]
-            temporary = f"{folder}{os.sep}.{journal.token}-{number}{TEMPORARY}"
-            found.append(_File(folder, Path(path), Path(temporary), step.old, step.new, step.is_moved))
+            temporary = f"{folder}{os.sep}.{build.token}-{number}{TEMPORARY}"
+            found.append(_Target(folder, Path(path), Path(temporary), file.old, file.new, file.is_moved))
         return found
 
     def _key(self, path: Path) -> str:
-        """A path as journals name it: from the configuration's folder, POSIX."""
+        """A path from the configuration's folder, POSIX."""
         text = str(path)
         key = text[len(self._prefix) :] if text.startswith(self._prefix) else os.path.relpath(path, self._root)
         return key.replace(os.sep, "/")
 
-    def _path(self, key: str) -> Path:
-        return Path(placed(self._prefix, key))
 
-
-class _File(msgspec.Struct, frozen=True):
-    """One target; `old` and `new` are hashes as in `Step`."""
+class _Target(msgspec.Struct, frozen=True):
+    """One file to change; `old`, `new` and `is_moved` as in `PlannedFile`."""
 
     folder: str
     path: Path
@@ -315,7 +284,7 @@ class _File(msgspec.Struct, frozen=True):
 
     def _create(self) -> bool:
         if not os.path.lexists(self.temporary):
-            return True  # it has been placed
+            return os.path.lexists(self.path)
         if os.path.lexists(self.path):
             return hash_of(self.path) == self.new
         file_operations.place(self.temporary, self.path)
@@ -333,7 +302,8 @@ class _File(msgspec.Struct, frozen=True):
         return found == self.old
 
     def _replace(self) -> bool:
-        file_operations.complete_exchange(self.temporary, self.path)
+        if os.path.lexists(file_operations.spare(self.temporary)):
+            file_operations.exchange(self.temporary, self.path)  # the rest of one that was cut short
         found, current = hash_of(self.temporary), hash_of(self.path)
         if found == self.new and current == self.old:
             file_operations.exchange(self.temporary, self.path)
@@ -356,3 +326,12 @@ def hash_of(path: Path) -> str | None:
     except IsADirectoryError:
         return _OTHER
     return None if content is None else digest(content)
+
+
+def _temporary_files(folders: Iterable[str]) -> set[str]:
+    """The paths of all temporary files in some folders, `….urdfsync-tmp~` of an exchange of three renames included."""
+    found = set[str]()
+    for folder in folders:
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            found |= {f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name}  # noqa: PTH208
+    return found

@@ -57,29 +57,6 @@ class WatchOptions(msgspec.Struct, frozen=True):
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)
 
 
-class InstanceLock(Lock):
-    """The lock that a daemon holds for its life: one daemon per configuration."""
-
-    def __init__(self, config_file: Path) -> None:
-        super().__init__(config_file.parent / STATE_FOLDER / "watch.lock", 0)
-        self._config_file = config_file
-
-    def hold(self) -> None:
-        """Take the lock; also when it was taken, but its file was deleted: another daemon could not see it."""
-        with contextlib.suppress(OSError):
-            if self._descriptor is not None and os.path.samestat(os.fstat(self._descriptor), self._path.stat()):
-                return
-        self.release()
-        try:
-            self.acquire()
-        except LockedError:
-            holder = self._path.read_text(errors="replace").strip()
-            who = f"process {holder}" if holder.isdecimal() else "another process"
-            message, hint = f"{who} watches this configuration already", "leave the work to it, or end it first"
-            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._config_file), hint=hint)
-            raise LockedError(found) from None
-
-
 class Daemon:
     """Keeps the packages of one configuration in step until it is told to stop."""
 
@@ -113,15 +90,16 @@ class Daemon:
         """
         loaded = config.load(self._options.file)
         try:
-            with InstanceLock(loaded.file) as lock, contextlib.closing(self._observer), self._checks:
-                lock.hold()
+            lock_file = loaded.root / STATE_FOLDER / "watch.lock"
+            with Lock(lock_file, 0) as lock, contextlib.closing(self._observer), self._checks:
+                self._acquire(lock)
                 self._use(loaded)
                 self._next_rescan = time.monotonic() + self._options.rescan
                 while not self._stop_signal:
                     self._receive()
                     if time.monotonic() >= self._next_rescan:
                         with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
-                            lock.hold()
+                            self._acquire(lock)
                         self._rescan()
                     elif self._is_polling and time.monotonic() >= self._next_poll:
                         self._poll()
@@ -130,6 +108,16 @@ class Daemon:
             if not self._stop_signal:
                 raise
         self._listener.show(events.Stopping(self._stop_signal))
+
+    def _acquire(self, lock: Lock) -> None:
+        """Take the daemon's lock; again if its file was deleted, since another daemon could not see it."""
+        try:
+            lock.acquire()
+        except LockedError:
+            message = f"{lock.holder()} watches this configuration already"
+            hint = "leave the work to it, or end it first"
+            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._options.file.absolute()), hint=hint)
+            raise LockedError(found) from None
 
     def _note(self, diagnostics: tuple[Diagnostic, ...]) -> None:
         if diagnostics:
