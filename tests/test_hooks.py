@@ -1,4 +1,4 @@
-"""The hook that builds with the real pre-commit, in throw-away repositories: real commits, stashes and roll-backs.
+"""The hook that builds, called by git and by the real pre-commit: real commits, stashes and roll-backs.
 
 What differs in the hook that checks is shown by `test_hook_command.py` without commits.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -48,9 +47,7 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
     monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
     repository = Repository(project, monkeypatch)
-    script = project.parent / "urdfsync-hook"
-    script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
-    script.chmod(0o755)
+    script = f"{sys.executable} -P -m urdfsync hook"
 
     def make(also: str = "") -> None:
         cli.main(["build", "--quiet"])
@@ -68,7 +65,7 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
 
 def command(said: str) -> list[str]:
     """The command that a hook has printed."""
-    (line,) = (line for line in said.splitlines() if line.startswith("  "))
+    (line,) = (line for line in said.splitlines() if line.startswith("  git "))
     return line.split()
 
 
@@ -85,16 +82,41 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., N
 
 
 def test_a_staged_source_with_later_changes(make: Callable[..., None]) -> None:
-    """pre-commit stashes the later change: a build would write what does not fit when it is back."""
+    """pre-commit puts the later change aside, so what is staged is built, and brings it back."""
     make()
     resistor(120)
     git("add", ".")
     resistor(130, before=120)
     said = commit(code=1)
-    assert "ladder: out of step: 1 file to write" in said
-    assert "ladder.json has changes that are not staged" in said
+    assert "ladder: out of step: 1 file written" in said
     assert '"ohm": 130}' in Path("ladder.json").read_text()
-    assert git("status", "--porcelain") == "MM ladder.json\n", "nothing was written, nothing is lost"
+    git(*command(said)[1:])
+    commit()
+    assert "120" in git("show", f"HEAD:{RECORD}")
+    assert git("status", "--porcelain") == " M ladder.json\n", "nothing is lost"
+    assert cli.main(["build", "--quiet"]) == 0
+    assert "130" in Path(RECORD).read_text()
+
+
+def test_changes_of_an_output_that_a_build_changes_too_come_back(make: Callable[..., None]) -> None:
+    """pre-commit takes back what the hook wrote, as it does with any formatter."""
+    make()
+    resistor(120)
+    git("add", ".")
+    edit(RECORD, "100", "140")
+    assert "Rolling back fixes" in commit(code=1)
+    assert "140" in Path(RECORD).read_text()
+    assert git("status", "--porcelain") == f"M  ladder.json\n M {RECORD}\n"
+    assert cli.main(["build", "--quiet"]) == 3, "the edit conflicts, as it would have without the hook"
+
+
+def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[..., None]) -> None:
+    make()
+    assert subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True).returncode == 0
+    resistor(120)
+    commit("--all", "--no-verify")
+    done = subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True, text=True)
+    assert "ladder: out of step: 1 file written" in done.stdout
 
 
 def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., None]) -> None:
@@ -137,14 +159,49 @@ def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> N
         assert f"= {number}" in Path(path).read_text()
 
 
-def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., None]) -> None:
+def _by_pre_commit(make: Callable[..., None]) -> None:
     make()
+
+
+def _by_a_script(make: Callable[..., None]) -> None:
+    """The hook that git calls is a script of the user's."""
+    make()
+    script = Path(".git/hooks/pre-commit")
+    script.write_text(f"#!/bin/sh\nexec {sys.executable} -P -m urdfsync hook build\n")
+    script.chmod(0o755)
+
+
+@pytest.mark.parametrize("install", [_by_pre_commit, _by_a_script])
+def test_partial_and_implicit_commits_have_an_index_of_their_own(
+    make: Callable[..., None], install: Callable[[Callable[..., None]], None]
+) -> None:
+    install(make)
     resistor(120)
     Path("README").write_text("one")
     git("add", "README")
     assert "1 file written" in commit("--", "ladder.json", code=1)
     commit("--all")
     assert "120" in git("show", f"HEAD:{RECORD}")
+
+
+def test_unstaged_changes_without_pre_commit(make: Callable[..., None], monkeypatch: pytest.MonkeyPatch) -> None:
+    _by_a_script(make)
+    resistor(120)
+    commit("--amend")
+    Path("README").write_text("one")
+    git("add", "README")
+    commit()
+    git("add", "ladder.json")
+    resistor(130, before=120)
+    assert "ladder: staged in part only: ladder.json" in commit(code=1)
+    Path("folder").mkdir()
+    monkeypatch.chdir("folder")
+    git(*command(commit(code=1))[1:])
+    said = commit(code=1)
+    assert "ladder: out of step: 1 file written" in said
+    git(*command(said)[1:])
+    commit()
+    assert "130" in git("show", f"HEAD:{RECORD}")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
@@ -181,6 +238,4 @@ def test_the_hooks_are_what_pre_commit_expects() -> None:
     done = subprocess.run([PRE_COMMIT, "validate-manifest", manifest], check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     entries = [line.split()[1:] for line in manifest.read_text().splitlines() if line.strip().startswith("entry:")]
-    assert entries == [["urdfsync-hook", "build"], ["urdfsync-hook", "check"]]
-    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
-    assert project["scripts"]["urdfsync-hook"] == "urdfsync.hook:main"
+    assert entries == [["urdfsync", "hook", "build"], ["urdfsync", "hook", "check"]]
