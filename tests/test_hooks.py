@@ -41,7 +41,7 @@ def git(*arguments: str) -> str:
 
 
 @pytest.fixture
-def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
     """A function that makes a repository with a network in step, committed, and the hook installed that builds."""
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER))))
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
@@ -49,13 +49,13 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
     repository = Repository(project, monkeypatch)
     script = f"{sys.executable} -P -m urdfsync hook"
 
-    def make(also: str = "") -> None:
+    def make() -> None:
         cli.main(["build", "--quiet"])
         hook = f"id: urdfsync-build, name: build, entry: {script} build, language: system"
         options = "pass_filenames: false, always_run: true, stages: [pre-commit, pre-merge-commit]"
         Path(".pre-commit-config.yaml").write_text(
             f"default_install_hook_types: [pre-commit, pre-merge-commit]\n"
-            f"repos:\n- repo: local\n  hooks:\n  - {{{hook}, {options}}}\n{also}"
+            f"repos:\n- repo: local\n  hooks:\n  - {{{hook}, {options}}}\n"
         )
         repository.commit()
         subprocess.run([PRE_COMMIT, "install"], check=True, capture_output=True)
@@ -69,7 +69,7 @@ def command(said: str) -> list[str]:
     return line.split()
 
 
-def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., None]) -> None:
+def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], None]) -> None:
     make()
     resistor(120)
     git("add", ".")
@@ -81,7 +81,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., N
     assert git("status", "--porcelain") == ""
 
 
-def test_a_staged_source_with_later_changes(make: Callable[..., None]) -> None:
+def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
     """pre-commit puts the later change aside, so what is staged is built, and brings it back."""
     make()
     resistor(120)
@@ -98,19 +98,25 @@ def test_a_staged_source_with_later_changes(make: Callable[..., None]) -> None:
     assert "130" in Path(RECORD).read_text()
 
 
-def test_changes_of_an_output_that_a_build_changes_too_come_back(make: Callable[..., None]) -> None:
-    """pre-commit takes back what the hook wrote, as it does with any formatter."""
+def test_what_pre_commit_takes_back_leaves_nothing_half_done(make: Callable[[], None]) -> None:
+    """It takes back what hooks wrote to tracked files, if they wrote to lines that have changes put aside."""
     make()
-    resistor(120)
-    git("add", ".")
-    edit(RECORD, "100", "140")
+    edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
+    git("add", "ladder.json")
+    model = Path("modelica/Ladder/Ladder.mo")
+    text = model.read_text()
+    model.write_text(text.replace("Elements.R2 ", "  Elements.R2 "))
     assert "Rolling back fixes" in commit(code=1)
-    assert "140" in Path(RECORD).read_text()
-    assert git("status", "--porcelain") == f"M  ladder.json\n M {RECORD}\n"
-    assert cli.main(["build", "--quiet"]) == 3, "the edit conflicts, as it would have without the hook"
+    assert "  Elements.R2 " in model.read_text(), "the change is back"
+    assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
+    git("checkout", "-q", str(model))
+    assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
+    git("add", ".")
+    commit()
+    assert "R3" in git("show", "HEAD:modelica/Ladder/Ladder.mo")
 
 
-def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[..., None]) -> None:
+def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[[], None]) -> None:
     make()
     assert subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True).returncode == 0
     resistor(120)
@@ -119,26 +125,7 @@ def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[..., Non
     assert "ladder: out of step: 1 file written" in done.stdout
 
 
-def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., None]) -> None:
-    """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
-    fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
-    Path("notes").write_text("one\n")
-    make(f"  - {{{fixer}}}\n")
-    edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
-    git("add", "ladder.json")
-    Path("notes").write_text("two\n")
-    said = commit(code=1)
-    assert "Rolling back fixes" in said
-    assert Path("notes").read_text() == "two\n"
-    assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
-    assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
-    git("add", ".")
-    commit("--no-verify")
-    assert "R3" in git("show", "HEAD:modelica/Ladder/Ladder.mo")
-    assert cli.main(["build", "--check", "--quiet"]) == 0
-
-
-def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> None:
+def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[[], None]) -> None:
     make()
     for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
         git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
@@ -159,23 +146,19 @@ def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> N
         assert f"= {number}" in Path(path).read_text()
 
 
-def _by_pre_commit(make: Callable[..., None]) -> None:
-    make()
-
-
-def _by_a_script(make: Callable[..., None]) -> None:
-    """The hook that git calls is a script of the user's."""
-    make()
+def call_by_script() -> None:
+    """Let git call a script of the user's instead of pre-commit."""
     script = Path(".git/hooks/pre-commit")
     script.write_text(f"#!/bin/sh\nexec {sys.executable} -P -m urdfsync hook build\n")
     script.chmod(0o755)
 
 
-@pytest.mark.parametrize("install", [_by_pre_commit, _by_a_script])
+@pytest.mark.parametrize("install", [lambda: None, call_by_script], ids=["pre-commit", "script"])
 def test_partial_and_implicit_commits_have_an_index_of_their_own(
-    make: Callable[..., None], install: Callable[[Callable[..., None]], None]
+    make: Callable[[], None], install: Callable[[], None]
 ) -> None:
-    install(make)
+    make()
+    install()
     resistor(120)
     Path("README").write_text("one")
     git("add", "README")
@@ -184,8 +167,9 @@ def test_partial_and_implicit_commits_have_an_index_of_their_own(
     assert "120" in git("show", f"HEAD:{RECORD}")
 
 
-def test_unstaged_changes_without_pre_commit(make: Callable[..., None], monkeypatch: pytest.MonkeyPatch) -> None:
-    _by_a_script(make)
+def test_unstaged_changes_without_pre_commit(make: Callable[[], None], monkeypatch: pytest.MonkeyPatch) -> None:
+    make()
+    call_by_script()
     resistor(120)
     commit("--amend")
     Path("README").write_text("one")
@@ -205,7 +189,7 @@ def test_unstaged_changes_without_pre_commit(make: Callable[..., None], monkeypa
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
-def test_the_daemon_beside_it(make: Callable[..., None], project: Path, rc_site: Path) -> None:
+def test_the_daemon_beside_it(make: Callable[[], None], project: Path, rc_site: Path) -> None:
     """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
     make()
     store = os.environ["PRE_COMMIT_HOME"]

@@ -25,21 +25,14 @@ class Index:
     def __init__(self) -> None:
         """Raises GitError if there is no working tree of a repository."""
         self.top = _run("rev-parse", "--show-toplevel").removesuffix("\n")
-        self.tracked: set[str] = set()
-        self.unmerged: set[str] = set()
-        self.unstaged: set[str] = set()
+        entries = _list("ls-files", "-v", "--cached", "--modified", "--full-name", "--", ":/")
+        self.tracked = {entry[2:] for entry in entries}
+        unusual = [(entry[0], entry[2:]) for entry in entries if not entry.startswith("H ")]
+        self.unmerged = {path for tag, path in unusual if tag == "M"}
+        self.unstaged = {path for tag, path in unusual if tag == "C"}
         """Tracked files that the working tree does not have as they are staged, deleted ones included."""
-        self.hidden: set[str] = set()
+        self.hidden = {path for tag, path in unusual if tag not in "MC"}
         """Tracked files that git was told not to look at, so that nobody knows whether they differ."""
-        for entry in _list("ls-files", "-v", "--cached", "--modified", "--full-name", "--", ":/"):
-            tag, path = entry[0], entry[2:]
-            self.tracked.add(path)
-            if tag == "M":
-                self.unmerged.add(path)
-            elif tag == "C":
-                self.unstaged.add(path)
-            elif tag != "H":
-                self.hidden.add(path)
 
     def has_staged(self, paths: Collection[str]) -> bool:
         """Return whether all paths are tracked, and staged as they are; one that ends with `/` is all that is below."""

@@ -35,4 +35,4 @@ def find_configurations(index: git.Index) -> set[str]:
     """Return the configurations that git tracks, and those of tracked states."""
     name, states = uptodate.CONFIGURATION, ".urdfsync/robots/"
     found = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
-    return found | {path.rpartition(states)[0] + name for path in index.tracked if f"/{states}" in f"/{path}"}
+    return found | {path.rpartition(states)[0] + name for path in index.tracked if states in path}

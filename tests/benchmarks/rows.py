@@ -85,7 +85,7 @@ def nothing_to_do(tools: Tools) -> Iterator[Pair]:
             run(["git", *arguments], place)
         run(hook, place)
         what = f"pre-commit hook, {outputs} outputs"
-        yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(), CPU])
+        yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(6), CPU])
 
 
 def one_mass_changed(tools: Tools) -> Iterator[Pair]:
