@@ -143,31 +143,33 @@ class RobotFiles:
     ) -> None:
         """`planned` is the result of a dry run, and `dependencies` are what that has read."""
         self._commit, self.config, self.robot, self.planned = commit, config, robot, planned
-        state, others = config.root / STATE_FOLDER, {one.name for one in config.robots} - {robot.name}
+        state = config.root / STATE_FOLDER
         kept = [*Store(config.root).paths(robot.name), state / ".gitignore", state / ".gitattributes"]
         self.outputs = commit.paths([*kept, *parents.files(robot)])
         """Files that a commit has to have if they exist."""
-        self.note(planned)
-        self.inputs = commit.paths([config.file, robot.source])
+        read = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
+        self.inputs = commit.paths([config.file, *read])
         """Files that a commit has to have unless git is told to ignore them."""
-        self.inputs |= commit.paths(path for check, path in dependencies.entries if check in (LSTAT, STAT))
-        self.files = commit.paths(path for _, path in dependencies.entries)  # also those that could have been there
-        states = f"{commit.path(state / 'robots')}/"  # of robots that are no more, too
-        names = {path: PurePosixPath(path).stem for path in commit.index.tracked if path.startswith(states)}
-        self.files |= {path for path, name in names.items() if name not in others}
+        self.known = self.inputs | commit.paths([robot.source, *(path for _, path in dependencies.entries)])
+        """These, and files that could have been there."""
+        self.note(planned)
+        self.states = f"{commit.path(state / 'robots')}/"
+        self._others = {one.name for one in config.robots} - {robot.name}
         folders = [robot.folder, *([robot.templates] if robot.templates else [])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
     def note(self, result: Result) -> None:
         """Add the outputs of a plan or a build."""
-        places = [self.config.root / one.path for one in result.actions if one.kind not in _UNNEEDED]
-        whole = [place.with_suffix("") / "package.mo" for place in places]  # the user may have made a class a folder
+        places = [f"{result.root}/{one.path}" for one in result.actions if one.kind not in _UNNEEDED]
+        whole = [f"{place.removesuffix('.mo')}/package.mo" for place in places]  # of classes that are folders now
         self.outputs |= self._commit.paths([*places, *whole])
+        self.known |= self.outputs
 
     def select(self, paths: Iterable[str]) -> set[str]:
-        """Return those of the paths that are the robot's."""
-        own = self.files | self.inputs | self.outputs
-        return {path for path in paths if path in own or path.startswith(self.folders)}
+        """Return those of the paths that are the robot's, or a state of a robot that is no more."""
+        found = {path for path in paths if path in self.known or path.startswith((*self.folders, self.states))}
+        others = {path for path in found - self.known if path.startswith(self.states)}
+        return found - {path for path in others if PurePosixPath(path).stem in self._others}
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""
@@ -194,7 +196,7 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(config.file), hint=hint))
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
     if not any(one.needs_build or one.find_unstaged() or one.select(index.hidden) for one in robots):
-        needed = {path for one in robots for path in (*one.select(index.tracked), *one.folders)}
+        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, one.states)}
         uptodate.save_answer(file, key, sorted(needed), everything, started)
         return []
     faults, to_build = [], []
