@@ -66,7 +66,6 @@ CHANGES: dict[str, Callable[[Repository], object]] = {
     "another output": _stage(MODEL),
     "a file in the package that differs": lambda _: Path("modelica/Leg/notes.txt").write_text("other"),
     "another configuration": _stage("robots/urdfsync.toml"),
-    "a state without its configuration": _stage("old/.urdfsync/robots/arm.toml"),
     "a source that git was told not to look at": _git("update-index", "--skip-worktree", "robots/leg.urdf"),
 }
 

@@ -309,7 +309,11 @@ def test_a_configuration_that_is_not_tracked_is_told(repo: Repository, capsys: C
     assert "git add " in said(capsys, "check", "urdfsync.toml")[-1]
     repo.git("add", ".urdfsync")
     Path("urdfsync.toml").unlink()
-    assert said(capsys, "check", code=0) == []
+    assert said(capsys, "check", code=0) == [], "the robot is gone, but for its state"
+    assert "no-config" in said(capsys, "check", "typo.toml", code=2)[0]
+    repo.git("reset", "-q", "--hard")
+    Path("urdfsync.toml").unlink()
+    assert "no-config" in said(capsys, "check", code=2)[0]
 
 
 def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:

@@ -187,8 +187,6 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
     """Return the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
     started, index = uptodate.read_clocks(), commit.index
     file, key = hook.answer_place(index, path)
-    if not Path(file).is_file():
-        return []  # the commit deletes it
     with Dependencies() as everything:
         config = configuration.load(Path(file))
         if is_interrupted(config, options.wait):
