@@ -1,4 +1,4 @@
-"""The hook that builds with the real pre-commit, in throw-away repositories: real commits, stashes and roll-backs.
+"""The hook that builds, called by git and by the real pre-commit: real commits, stashes and roll-backs.
 
 What differs in the hook that checks is shown by `test_hook_command.py` without commits.
 """
@@ -8,14 +8,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, RC_FOLDER, RECORD, edit, resistor
+from support.networks import RC_FOLDER, RECORD, edit, resistor
 
 from urdfsync import cli
 
@@ -42,23 +41,21 @@ def git(*arguments: str) -> str:
 
 
 @pytest.fixture
-def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
     """A function that makes a repository with a network in step, committed, and the hook installed that builds."""
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER))))
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
     monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
     repository = Repository(project, monkeypatch)
-    script = project.parent / "urdfsync-hook"
-    script.write_text(f"#!{sys.executable}\nimport sys\nfrom urdfsync.hook import main\nsys.exit(main())\n")
-    script.chmod(0o755)
+    script = f"{sys.executable} -P -m urdfsync hook"
 
-    def make(also: str = "") -> None:
+    def make() -> None:
         cli.main(["build", "--quiet"])
         hook = f"id: urdfsync-build, name: build, entry: {script} build, language: system"
         options = "pass_filenames: false, always_run: true, stages: [pre-commit, pre-merge-commit]"
         Path(".pre-commit-config.yaml").write_text(
             f"default_install_hook_types: [pre-commit, pre-merge-commit]\n"
-            f"repos:\n- repo: local\n  hooks:\n  - {{{hook}, {options}}}\n{also}"
+            f"repos:\n- repo: local\n  hooks:\n  - {{{hook}, {options}}}\n"
         )
         repository.commit()
         subprocess.run([PRE_COMMIT, "install"], check=True, capture_output=True)
@@ -68,11 +65,11 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
 
 def command(said: str) -> list[str]:
     """The command that a hook has printed."""
-    (line,) = (line for line in said.splitlines() if line.startswith("  "))
+    (line,) = (line for line in said.splitlines() if line.startswith("  git "))
     return line.split()
 
 
-def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., None]) -> None:
+def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], None]) -> None:
     make()
     resistor(120)
     git("add", ".")
@@ -84,39 +81,51 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[..., N
     assert git("status", "--porcelain") == ""
 
 
-def test_a_staged_source_with_later_changes(make: Callable[..., None]) -> None:
-    """pre-commit stashes the later change: a build would write what does not fit when it is back."""
+def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
+    """pre-commit puts the later change aside, so what is staged is built, and brings it back."""
     make()
     resistor(120)
     git("add", ".")
     resistor(130, before=120)
     said = commit(code=1)
-    assert "ladder: out of step: 1 file to write" in said
-    assert "ladder.json has changes that are not staged" in said
+    assert "ladder: out of step: 1 file written" in said
     assert '"ohm": 130}' in Path("ladder.json").read_text()
-    assert git("status", "--porcelain") == "MM ladder.json\n", "nothing was written, nothing is lost"
+    git(*command(said)[1:])
+    commit()
+    assert "120" in git("show", f"HEAD:{RECORD}")
+    assert git("status", "--porcelain") == " M ladder.json\n", "nothing is lost"
+    assert cli.main(["build", "--quiet"]) == 0
+    assert "130" in Path(RECORD).read_text()
 
 
-def test_a_roll_back_because_of_another_hook_leaves_nothing_half_done(make: Callable[..., None]) -> None:
-    """A fixer changes a file that has stashed changes: pre-commit takes back all that hooks wrote to tracked files."""
-    fixer = "id: fixer, name: fixer, entry: sh -c 'echo fixed > notes', language: system, always_run: true"
-    Path("notes").write_text("one\n")
-    make(f"  - {{{fixer}}}\n")
+def test_what_pre_commit_takes_back_leaves_nothing_half_done(make: Callable[[], None]) -> None:
+    """It takes back what hooks wrote to tracked files, if they wrote to lines that have changes put aside."""
+    make()
     edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
     git("add", "ladder.json")
-    Path("notes").write_text("two\n")
-    said = commit(code=1)
-    assert "Rolling back fixes" in said
-    assert Path("notes").read_text() == "two\n"
+    model = Path("modelica/Ladder/Ladder.mo")
+    text = model.read_text()
+    model.write_text(text.replace("Elements.R2 ", "  Elements.R2 "))
+    assert "Rolling back fixes" in commit(code=1)
+    assert "  Elements.R2 " in model.read_text(), "the change is back"
     assert Path("modelica/Ladder/Elements/R3.mo").is_file(), "it was not tracked, so it stays"
+    git("checkout", "-q", str(model))
     assert cli.main(["build", "--quiet"]) == 0, "and is no conflict"
     git("add", ".")
-    commit("--no-verify")
+    commit()
     assert "R3" in git("show", "HEAD:modelica/Ladder/Ladder.mo")
-    assert cli.main(["build", "--check", "--quiet"]) == 0
 
 
-def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> None:
+def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[[], None]) -> None:
+    make()
+    assert subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True).returncode == 0
+    resistor(120)
+    commit("--all", "--no-verify")
+    done = subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True, text=True)
+    assert "ladder: out of step: 1 file written" in done.stdout
+
+
+def test_a_merge_of_two_branches_that_built(make: Callable[[], None]) -> None:
     make()
     for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
         git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
@@ -124,21 +133,27 @@ def test_a_merge_with_a_conflict_in_the_manifest(make: Callable[..., None]) -> N
         cli.main(["build"])
         git("add", ".")
         commit()
-    assert subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True).returncode == 1
-    assert "<<<<<<<" in Path(MANIFEST).read_text()
-    git("add", ".")
-    said = commit(code=1)
-    assert f"{MANIFEST}:" in said
-    assert "urdfsync build --repair" in said
-    assert cli.main(["build", "--repair", "--quiet"]) == 0
+    git("merge", "-q", "--no-edit", "other")
+    assert cli.main(["build", "--quiet"]) == 0
     git("add", ".")
     commit()
     for path, number in ((RECORD, "120"), (RECORD.replace("R1", "R2"), "330.5")):
         assert f"= {number}" in Path(path).read_text()
 
 
-def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[..., None]) -> None:
+def call_by_script() -> None:
+    """Let git call a script of the user's instead of pre-commit."""
+    script = Path(".git/hooks/pre-commit")
+    script.write_text(f"#!/bin/sh\nexec {sys.executable} -P -m urdfsync hook build\n")
+    script.chmod(0o755)
+
+
+@pytest.mark.parametrize("install", [lambda: None, call_by_script], ids=["pre-commit", "script"])
+def test_partial_and_implicit_commits_have_an_index_of_their_own(
+    make: Callable[[], None], install: Callable[[], None]
+) -> None:
     make()
+    install()
     resistor(120)
     Path("README").write_text("one")
     git("add", "README")
@@ -147,8 +162,29 @@ def test_partial_and_implicit_commits_have_an_index_of_their_own(make: Callable[
     assert "120" in git("show", f"HEAD:{RECORD}")
 
 
+def test_unstaged_changes_without_pre_commit(make: Callable[[], None], monkeypatch: pytest.MonkeyPatch) -> None:
+    make()
+    call_by_script()
+    resistor(120)
+    commit("--amend")
+    Path("README").write_text("one")
+    git("add", "README")
+    commit()
+    git("add", "ladder.json")
+    resistor(130, before=120)
+    assert "ladder: staged in part only: ladder.json" in commit(code=1)
+    Path("folder").mkdir()
+    monkeypatch.chdir("folder")
+    git(*command(commit(code=1))[1:])
+    said = commit(code=1)
+    assert "ladder: out of step: 1 file written" in said
+    git(*command(said)[1:])
+    commit()
+    assert "130" in git("show", f"HEAD:{RECORD}")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
-def test_the_daemon_beside_it(make: Callable[..., None], project: Path, rc_site: Path) -> None:
+def test_the_daemon_beside_it(make: Callable[[], None], project: Path, rc_site: Path) -> None:
     """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
     make()
     store = os.environ["PRE_COMMIT_HOME"]
@@ -181,6 +217,4 @@ def test_the_hooks_are_what_pre_commit_expects() -> None:
     done = subprocess.run([PRE_COMMIT, "validate-manifest", manifest], check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     entries = [line.split()[1:] for line in manifest.read_text().splitlines() if line.strip().startswith("entry:")]
-    assert entries == [["urdfsync-hook", "build"], ["urdfsync-hook", "check"]]
-    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
-    assert project["scripts"]["urdfsync-hook"] == "urdfsync.hook:main"
+    assert entries == [["urdfsync", "hook", "build"], ["urdfsync", "hook", "check"]]

@@ -106,10 +106,9 @@ def _started(
     work: Workplace, command: Sequence[str], program: Sequence[str] = (), **variables: str
 ) -> subprocess.Popen[str]:
     """A console script in the project as a user starts it, with nothing said to Python; or another program."""
-    name, arguments = ("urdfsync-hook", command[1:]) if command[0] == "hook" else ("urdfsync", command)
     own = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "PYTHON"))}
     return subprocess.Popen(
-        [*(program or [str(BIN / name)]), *arguments],
+        [*(program or [str(BIN / "urdfsync")]), *command],
         cwd=work.project,
         env={**own, "HOME": str(work.home), "TMPDIR": str(work.folder / "temporary"), **variables},
         stdout=subprocess.PIPE,

@@ -1,32 +1,84 @@
-"""Calls of git, with which the hooks ask for the index."""
+"""The index of git beside the working tree, for the hooks: only read, not even refreshed. Each commit imports this."""
 
 from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Collection
+from functools import cached_property
 
-TOP = ("rev-parse", "--show-toplevel")
-LIST_INDEX = ("ls-files", "-z", "-v", "--stage", "--modified", "--full-name", "--", ":/")
-"""Lists the index, and once more each file that is modified or deleted. Where times differ, git compares contents,
-filters applied."""
-
-_NO_EMBEDDED = ("-c", "safe.bareRepository=explicit")
-"""Files of a stranger's may form a repository in the repository, whose settings name a program for git to run."""
+_SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
+"""A stranger's files may form a repository, whose settings name programs for git to run; so does fsmonitor."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 
-def run(folder: str | os.PathLike[str], *arguments: str, content: bytes = b"") -> subprocess.CompletedProcess[bytes]:
-    """Run git in a folder, with `content` as its standard input. Raises OSError if git can't be started.
+class GitError(Exception):
+    """git is not installed, or fails; the message says why."""
+
+
+class Index:
+    """The index of the repository around the working folder.
+
+    Files are named by their path from the top, with forward slashes. A submodule is one path, without what is in it.
+    """
+
+    def __init__(self) -> None:
+        """Raises GitError if there is no working tree of a repository."""
+        self.top = _run("rev-parse", "--show-toplevel").removesuffix("\n")
+        entries = _list("ls-files", "-v", "--cached", "--modified", "--full-name", "--", ":/")
+        self.tracked = {entry[2:] for entry in entries}
+        unusual = [(entry[0], entry[2:]) for entry in entries if not entry.startswith("H ")]
+        self.unmerged = {path for tag, path in unusual if tag == "M"}
+        self.unstaged = {path for tag, path in unusual if tag == "C"}
+        """Tracked files that the working tree does not have as they are staged, deleted ones included."""
+        self.hidden = {path for tag, path in unusual if tag not in "MC"}
+        """Tracked files that git was told not to look at, so that nobody knows whether they differ."""
+
+    def has_staged(self, paths: Collection[str]) -> bool:
+        """Return whether all paths are tracked, and staged as they are; one that ends with `/` is all that is below."""
+        folders, differing = tuple(set(paths) - self.tracked), self.unstaged | self.hidden
+        if not all(path.endswith("/") for path in folders):
+            return False  # one is not tracked
+        return differing.isdisjoint(paths) and not any(path.startswith(folders) for path in differing)
+
+    def find_committed(self) -> set[str]:
+        """Return the files that the commit changes, deleted ones included."""
+        try:
+            return set(_list("diff-index", "--cached", "--name-only", "--no-renames", "HEAD", "--"))
+        except GitError:  # the first commit
+            return set(self.tracked)
+
+    @cached_property
+    def untracked(self) -> set[str]:
+        """The files that git neither tracks nor is told to ignore."""
+        return set(_list("ls-files", "--others", "--exclude-standard", "--full-name", "--", ":/"))
+
+    @cached_property
+    def submodules(self) -> set[str]:
+        """The submodules among what is tracked."""
+        entries = _list("ls-files", "--stage", "--full-name", "--", ":/")
+        return {entry.partition("\t")[2] for entry in entries if entry.startswith("160000 ")}
+
+
+def _list(command: str, *arguments: str) -> list[str]:
+    """Run a command of git that lists paths. Raises GitError."""
+    return _run(command, "-z", *arguments).split("\0")[:-1]
+
+
+def _run(*arguments: str) -> str:
+    """Run git; return its output. Raises GitError.
 
     The variables of git's own caller count: GIT_DIR and GIT_INDEX_FILE name what is being committed.
     """
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
-    command = ["git", *_NO_EMBEDDED, "-C", os.fspath(folder), *arguments]
-    return subprocess.run(command, input=content, capture_output=True, env=variables, check=False)  # noqa: S603
-
-
-def reason(done: subprocess.CompletedProcess[bytes]) -> str:
-    """Return git's own words for why it failed."""
-    lines = os.fsdecode(done.stderr).strip().splitlines() or [f"exit code {done.returncode}"]
-    return next((line for line in lines if line.startswith("fatal: ")), lines[-1]).removeprefix("fatal: ")
+    command = ["git", *_SETTINGS, *arguments]
+    try:
+        done = subprocess.run(command, capture_output=True, env=variables, check=False)  # noqa: S603
+    except OSError as error:
+        raise GitError(f"git can't be started: {error.strerror}") from None
+    if done.returncode:
+        lines = os.fsdecode(done.stderr).strip().splitlines() or [f"exit code {done.returncode}"]
+        reason = next((line for line in lines if line.startswith("fatal: ")), lines[-1])
+        raise GitError(f"git failed: {reason.removeprefix('fatal: ')}")
+    return os.fsdecode(done.stdout)

@@ -1,51 +1,39 @@
-"""`urdfsync-hook`: `urdfsync hook` for runners of git hooks. It ends soon, without a word, if nothing is to be done."""
+"""Whether a commit passes by saved answers: all that `urdfsync hook` imports if there is nothing to do."""
 
 from __future__ import annotations
 
 import os
-import sys
 
-from urdfsync import uptodate
-from urdfsync.hooks.answers import answer_key, find_configurations
-
-_TRACKED = (b"H 100644 ", b"H 100755 ", b"H 120000 ")
-"""How the entry of a file begins that the working tree has as it is staged; other modes are submodules."""
+from urdfsync import git, uptodate
 
 
-def main() -> int:
-    """Run the hook with the arguments of the program; returns the exit code."""
-    arguments = sys.argv[1:]
-    try:
-        if arguments in (["build"], ["check"]) and is_answered():
-            return 0
-        from urdfsync import cli  # four times the time of all the rest
-
-        return cli.main(["hook", *arguments])
-    except KeyboardInterrupt:
-        return 130
-
-
-def is_answered() -> bool:
-    """Return whether the working tree has what is staged, and saved answers say that such a commit passes."""
-    from urdfsync import git  # here, so that Ctrl-C during the import leaves no traceback
-
-    try:
-        listing, top = git.run(".", *git.LIST_INDEX), git.run(".", *git.TOP)
-        if listing.returncode or top.returncode:
-            return False
-        files, folder = set(), os.fsdecode(top.stdout.removesuffix(b"\n"))
-        for entry in listing.stdout.split(b"\0")[:-1]:
-            head, _, path = entry.partition(b"\t")
-            if not head.startswith(_TRACKED) or not head.endswith(b" 0"):
-                return False  # it differs, or is not merged
-            files.add(os.fsdecode(path))
-        configurations, lost_states = find_configurations(files)
-        if lost_states or not configurations:
-            return False
-        for file in (f"{folder}/{path}" for path in configurations):
-            answer = uptodate.find_answer(file, answer_key(folder, file))
-            if answer is None or not files.issuperset(answer):
-                return False
-    except Exception:  # noqa: BLE001 - whatever it is: the command meets it again, and reports it
+def is_answered(arguments: list[str]) -> bool:
+    """Return whether a command is that of a hook, and saved answers say that the commit passes."""
+    if arguments not in (["hook", "build"], ["hook", "check"]):
         return False
-    return True
+    index = git.Index()
+    return not index.unmerged and all(passes(index, path) for path in find_configurations(index))
+
+
+def passes(index: git.Index, configuration: str) -> bool:
+    """Return whether a saved answer says that a configuration, named from the top, is in step and all of it staged.
+
+    An answer lists what has to be staged, and holds as long as nothing has changed that a build of the robots reads.
+    """
+    answer = uptodate.find_answer(*answer_place(index, configuration))
+    return answer is not None and index.has_staged(answer)
+
+
+def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
+    """Return the file of a configuration, and the key of its answer: all that this depends on beside files."""
+    file = f"{index.top}/{configuration}"
+    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH"))
+    return file, repr(("hook", file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
+
+
+def find_configurations(index: git.Index) -> set[str]:
+    """Return the configurations that git tracks, and those on disk whose states git tracks."""
+    name, states = uptodate.CONFIGURATION, ".urdfsync/robots/"
+    found = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
+    of_states = {path.rpartition(states)[0] + name for path in index.tracked if states in path}
+    return found | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}  # noqa: PTH113

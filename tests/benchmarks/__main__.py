@@ -32,7 +32,7 @@ from benchmarks.published import Published  # noqa: E402
 from benchmarks.rows import TABLES, Tools  # noqa: E402
 
 _HEADINGS = ("what", "against", "at most", "measured", "spread", "cost", "cost of the other", "pairs")
-_SCRIPTS = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main", "urdfsync-hook": "urdfsync.hook:main"}
+_SCRIPTS = {"empty": "benchmark:main", "urdfsync": "urdfsync.__main__:main"}
 
 
 def main() -> None:

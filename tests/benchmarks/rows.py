@@ -32,7 +32,7 @@ class Tools:
     folder: Path
     """An empty one."""
     scripts: Path
-    """Folder of the console scripts `urdfsync`, `urdfsync-hook` and `empty`, which does nothing, and of `python`."""
+    """Folder of the console scripts `urdfsync` and `empty`, which does nothing, and of `python`."""
     published: Published | None
 
     def urdfsync(self, *arguments: str) -> list[str]:
@@ -76,7 +76,7 @@ def nothing_to_do(tools: Tools) -> Iterator[Pair]:
             yield Pair(
                 what, _command(command, place, "in step"), "empty console script", tools.empty, [ratio(bar), CPU]
             )
-        hook = [str(tools.scripts / "urdfsync-hook"), "check"]
+        hook = tools.urdfsync("hook", "check")
         for arguments in (
             ["init", "-q"],
             ["add", "."],
@@ -85,7 +85,7 @@ def nothing_to_do(tools: Tools) -> Iterator[Pair]:
             run(["git", *arguments], place)
         run(hook, place)
         what = f"pre-commit hook, {outputs} outputs"
-        yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(), CPU])
+        yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(6), CPU])
 
 
 def one_mass_changed(tools: Tools) -> Iterator[Pair]:

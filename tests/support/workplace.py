@@ -17,7 +17,7 @@ from types import FrameType
 from unittest import mock
 
 from support import audit
-from urdfsync import __main__, hook
+from urdfsync import __main__
 from urdfsync.engine.result import Exit
 
 CODES = {int(code) for code in Exit}
@@ -106,11 +106,10 @@ class Workplace:
 
 
 def _call(command: Sequence[str]) -> int:
-    """Call the program that a command names: `hook` is the one of the hooks of git."""
-    program, arguments = (hook.main, command[1:]) if command[0] == "hook" else (__main__.main, command)
+    """Call the program."""
     limit = _terminated_soon() if command[0] == "watch" else _limited_time()
-    with mock.patch.object(sys, "argv", ["urdfsync", *arguments]), limit:
-        return program()
+    with mock.patch.object(sys, "argv", ["urdfsync", *command]), limit:
+        return __main__.main()
 
 
 def check_output(command: Sequence[str], code: int, said: str) -> None:

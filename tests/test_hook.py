@@ -1,0 +1,119 @@
+"""A hook passes by a saved answer as long as it would pass without."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support import answers
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import __main__, cli, hook
+
+pytestmark = NEEDS_GIT
+
+MODEL = "modelica/Leg/Links/Tip.mo"
+
+
+@pytest.fixture
+def repository(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+    """A project in step, all of it committed, with a saved answer of the hook; the working folder."""
+    shutil.copytree(in_step, tmp_path / "project")
+    found = Repository(tmp_path / "project", monkeypatch)
+    Path(found.folder / "notes.txt").write_text("notes\n")
+    Path(found.folder / "new\nline ä.txt").write_text("name\n")
+    found.commit()
+    monkeypatch.chdir(found.folder)
+    answers.until(is_answered, lambda: cli.main(["hook", "check"]))
+    return found
+
+
+def is_answered(mode: str = "check") -> bool:
+    return hook.is_answered(["hook", mode])
+
+
+def test_both_modes_pass_by_one_answer(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    for mode in ("check", "build"):
+        assert is_answered(mode)
+        monkeypatch.setattr(sys, "argv", ["urdfsync", "hook", mode])
+        assert __main__.main() == 0
+
+
+def _stage(path: str) -> Callable[[Repository], None]:
+    def stage(repository: Repository) -> None:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_text("another text\n")
+        repository.git("add", path)
+
+    return stage
+
+
+def _git(*arguments: str) -> Callable[[Repository], object]:
+    return lambda repository: repository.git(*arguments)
+
+
+CHANGES: dict[str, Callable[[Repository], object]] = {
+    "a source": lambda _: Path("robots/leg.urdf").write_text("<robot/>"),
+    "an output": lambda _: Path(MODEL).unlink(),
+    "an output that is tracked no more": _git("rm", "-q", "--cached", MODEL),
+    "a source that is tracked no more": _git("rm", "-q", "--cached", "robots/leg.urdf"),
+    "a mesh that is tracked no more": _git("rm", "-q", "--cached", "robots/leg_meshes/base.stl"),
+    "a mesh that is there no more": lambda _: Path("robots/leg_meshes/base.stl").unlink(),
+    "a state that is tracked no more": _git("rm", "-q", "-r", "--cached", ".urdfsync/robots"),
+    "another output": _stage(MODEL),
+    "a file in the package that differs": lambda _: Path("modelica/Leg/notes.txt").write_text("other"),
+    "another configuration": _stage("robots/urdfsync.toml"),
+    "a source that git was told not to look at": _git("update-index", "--skip-worktree", "robots/leg.urdf"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_whatever_is_new_is_checked(repository: Repository, name: str) -> None:
+    _stage("modelica/Leg/notes.txt")(repository)
+    assert is_answered()
+    CHANGES[name](repository)
+    assert not is_answered()
+
+
+def _delete_the_configuration(repository: Repository) -> None:
+    repository.git("rm", "-q", "-r", "urdfsync.toml", ".urdfsync/robots")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [_stage("notes.txt"), lambda _: Path("notes.txt").write_text("other"), _delete_the_configuration],
+    ids=["staged", "unstaged", "no configuration"],
+)
+def test_a_commit_of_something_else_passes_by_the_answer(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch, change: Callable[[Repository], None]
+) -> None:
+    change(repository)
+    monkeypatch.setenv("GIT_LITERAL_PATHSPECS", "1")
+    assert is_answered()
+
+
+def test_the_index_of_a_partial_commit_is_the_one_that_counts(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GIT_INDEX_FILE", ".git/other")
+    repository.git("read-tree", "HEAD")
+    assert is_answered()
+    repository.git("rm", "-q", "--cached", MODEL)
+    assert not is_answered()
+
+
+def test_the_answer_belongs_to_the_folder_and_the_environment(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Entries of ROS_PACKAGE_PATH may be relative."""
+    with monkeypatch.context() as patch:
+        patch.chdir("robots")
+        assert not is_answered()
+    for name in ("PYTHONPATH", "MODELICAPATH", "ROS_PACKAGE_PATH"):
+        with monkeypatch.context() as patch:
+            patch.setenv(name, str(repository.folder))
+            assert not is_answered()
+    assert is_answered()
