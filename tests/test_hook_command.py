@@ -68,11 +68,10 @@ def run(line: str) -> None:
 
 
 STATE = MANIFEST
-STALE, ROUNDED = ('"ohm": 100}', '"ohm": 120}'), ('"ohm": 100}', '"ohm": 100.0}')
+STALE = '"ohm": 100}', '"ohm": 120}'
 STAGE, DROP, BUILD = "git add ladder.json", "git rm -q --cached", "urdfsync hook build"
 ADD = f"git add {STATE} {RECORD}"
 OUT, NOT_STAGED = "ladder: out of step: ", "ladder: in step, but not staged: "
-RECORDED = f"{OUT}what urdfsync recorded of it is out of date"
 
 
 @pytest.mark.parametrize(
@@ -80,12 +79,10 @@ RECORDED = f"{OUT}what urdfsync recorded of it is out of date"
     [
         (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
         (STALE, STAGE, "check", f"{OUT}1 file to write", BUILD),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}2 files", f"git add {STATE}"),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}2 files", f"git add {STATE}"),
-        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}3 files", f"git add {STATE} ladder.json"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}1 file", f"git add {STATE}"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}1 file", f"git add {STATE}"),
+        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}2 files", f"git add {STATE} ladder.json"),
         (STALE, "git status", "build", f"{OUT}1 file written", f"git add {STATE} ladder.json {RECORD}"),
-        (ROUNDED, STAGE, "check", RECORDED, BUILD),
-        (ROUNDED, STAGE, "build", RECORDED, f"git add {MANIFEST}"),
         ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", f"git add {RECORD}"),
         ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", "git add ladder.json"),
         ((), f"{DROP} step.csv", "build", f"{NOT_STAGED}1 file", "git add step.csv"),
@@ -399,7 +396,7 @@ def test_no_commit_passes_after_a_build_that_was_killed(repo: Repository, capsys
         lines = said(capsys, mode, code=2)
         assert lines[0].startswith("urdfsync.toml: error: the last build was interrupted; run `urdfsync build`")
     run("urdfsync build")
-    run(said(capsys, "check")[-1])
+    repo.git("add", "-A")
     assert said(capsys, "check", code=0) == []
 
 

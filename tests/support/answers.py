@@ -56,8 +56,7 @@ def built(folder: Path) -> Path:
     whole = base.with_suffix("") / "package.mo"
     whole.parent.mkdir()
     base.rename(whole)
-    for suffix in ("toml", "json"):
-        shutil.copy(folder / f".urdfsync/robots/leg.{suffix}", folder / f".urdfsync/robots/gone.{suffix}")
+    shutil.copy(folder / ".urdfsync/robots/leg.state", folder / ".urdfsync/robots/gone.state")
     assert cli.main(command) == 0
     return folder
 
