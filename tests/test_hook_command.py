@@ -249,7 +249,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
         assert f"  urdfsync resolve {RECORD} --keep" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
     lines = said(capsys, "check")
-    assert lines[0] == "ladder: in step, but not staged: 2 files"
+    assert lines[0] == "ladder: in step, but not staged: 1 file"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 
