@@ -84,8 +84,7 @@ class Transactions:
         before = self._load(self._planned)
         earlier = (*before.earlier, *before.files) if before else ()
         build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)), earlier)
-        self._check(build)
-        made, targets, has_begun = self._missing_folders(changes), self._targets(build), False
+        targets, made, has_begun = self._targets(build), self._missing_folders(changes), False
         try:
             self._prepare(build, made, targets, [change.content for change in changes])
             has_begun = True
@@ -135,10 +134,7 @@ class Transactions:
 
     def _load(self, file: Path) -> PlannedBuild | None:
         """The planned hashes of a file, None if there are none, or none of this place. Raises OutputError for links."""
-        build = planned.parse(file, Tree(self._root).read(file))
-        if build is not None:
-            self._check(build)
-        return build
+        return planned.parse(file, Tree(self._root).read(file))
 
     def _prepare(
         self, build: PlannedBuild, made: Sequence[Path], targets: Sequence[_Target], contents: Sequence[bytes | None]
@@ -200,14 +196,6 @@ class Transactions:
             file_operations.remove(self._planned)
         return Applied(tuple(not_done), tuple(found))
 
-    def _check(self, build: PlannedBuild) -> None:
-        """Refuse files and folders outside of the outputs, and links on the way. Raises OutputError."""
-        trees = [Tree(self._root), *map(Tree, self._outputs)]
-        for key in (*(file.path for file in build.files), *(f"{folder}/x" for folder in build.emptied)):
-            path = placed(self._prefix, key)
-            tree = next((tree for tree in trees if tree.covers(path)), trees[0])
-            tree.check_folder(os.path.dirname(path))  # noqa: PTH120 - strings: there are thousands of files
-
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to make, outermost first."""
         missing: set[Path] = set()
@@ -224,10 +212,12 @@ class Transactions:
         return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="repair that, then build again")
 
     def _targets(self, build: PlannedBuild) -> list[_Target]:
-        found = []
+        """The files to change. Raises OutputError for one outside of the outputs, and for a link on the way."""
+        trees, found = [Tree(self._root), *map(Tree, self._outputs)], []
         for number, file in enumerate(build.files):
             path = placed(self._prefix, file.path)
             folder = path.rpartition(os.sep)[0]
+            next((tree for tree in trees if tree.covers(path)), trees[0]).check_folder(folder)
             temporary = f"{folder}{os.sep}.{build.token}-{number}{TEMPORARY}"
             found.append(_Target(folder, Path(path), Path(temporary), file.old, file.new, file.is_moved))
         return found
