@@ -1,4 +1,4 @@
-"""Fuzzing as a command: `python tests/fuzz.py URDF|mesh|state|config COUNT [--seed S] [--jobs J]`.
+"""Fuzzing as a command: `python tests/fuzz.py URDF|state|config COUNT [--seed S] [--jobs J]`.
 
 Each case is a random hostile input, and must end without a traceback, without a change outside of its project, without
 a hang and without the loss of an edit. A finding is printed with the seed of its case; `COUNT` 1 with that seed
@@ -24,7 +24,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-KINDS = {"URDF": "fuzzing.urdf", "mesh": "fuzzing.mesh", "state": "fuzzing.state", "config": "fuzzing.config"}
+KINDS = {"URDF": "fuzzing.urdf", "state": "fuzzing.state", "config": "fuzzing.config"}
 _LAST_SEED = "last-seed"
 _FOUND = 3
 """Exit code of a worker that found faults; any other but 0 means that a case ended the process, by a time limit say."""

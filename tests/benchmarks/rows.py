@@ -114,8 +114,8 @@ def first_build(tools: Tools) -> Iterator[Pair]:
     meshes = write_workspace(tools.folder / "meshes", 1, 11, mesh)
     write_meshes(meshes, 11)
     for what, place, bar in (
-        ("six-axis arm, COLLADA among its meshes", arm, 45),
-        ("11 links, STL and OBJ", meshes, 18),
+        ("six-axis arm, COLLADA among its meshes", arm, 60),
+        ("11 links, STL and OBJ", meshes, 60),
     ):
         yield Pair(what, first(tools, place), "python -c pass", tools.python, [ratio(bar), CPU])
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import struct
 import subprocess
 import sys
@@ -99,18 +100,12 @@ def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
 
 
 @pytest.mark.parametrize(("uri", "content", "scale", "reason"), [
-    ("package://arm/box.stl", b"", UNIT, "it has no triangles"),
-    ("package://arm/box.stl", b"garbage", UNIT, "it has no triangles"),
-    ("package://arm/box.dae", b"<COLLADA", UNIT, "it isn't well-formed XML: "),
+    ("package://arm/box.stl", b"garbage", UNIT, "its end is missing"),
+    ("package://arm/box.obj", b"garbage", UNIT, "it has no triangles"),
     ("package://arm/box.ply", b"ply\n", UNIT, "it is damaged or of another format "),
     ("package://arm/box.step", b"ISO-10303-21;", UNIT, "its format isn't one of "),
-    ("package://arm/box.obj", CONTENTS[".obj"], (1e300, 1.0, 1.0), "its coordinates are too large"),
-    ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "its coordinates are too large"),
-    ("package://arm/box.obj", b"v 0 0 1e300\nf 1 1 1", UNIT, "its coordinates are too large"),
-    ("package://arm/box.obj", b"v 0 0 nan\nf 1 1 1", UNIT, "it has coordinates that aren't finite"),
-    ("package://arm/box.obj", b"v 0 0 " + 1000 * b"x", UNIT, "it is damaged or of another format: one"),
-    ("package://arm/box.obj", b"v 0 0 1_0\nf 1 1 1", UNIT, "it is damaged or of another format"),
-    ("package://arm/box.obj", b"v 0 0 0\nf 1 1 99999999999999999999", UNIT, "it is damaged or of another format"),
+    ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "it has coordinates that aren't finite"),
+    ("package://arm/box.obj", b"v 0 0 1e39\nf 1 1 1", UNIT, "it has coordinates that aren't finite, or too large"),
 ])  # fmt: skip
 def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vector, reason: str) -> None:
     with pytest.raises(SourceError) as caught:
@@ -123,13 +118,13 @@ def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vect
     assert diagnostic.hint == "export it again, best as STL or OBJ"
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="threads are counted there")
-def test_numpy_gets_one_thread_and_no_other_program_is_told_so() -> None:
+def test_the_command_itself_loads_no_library_for_meshes() -> None:
     program = (
-        "import os; from pathlib import Path; from urdfsync.domain import Dependency;"
+        "import sys; from pathlib import Path; from urdfsync.domain import Dependency;"
         "from urdfsync.urdf.meshes.convert import convert; content = b'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3';"
         "mesh = Dependency('a.obj scale 1.0 1.0 1.0', 'a.obj', (), '', 'mesh', facts=('bounds', 'hull'));"
-        "assert 'hull' in convert(mesh, Path('a.obj'), content).facts;"
-        "assert len(os.listdir('/proc/self/task')) == 1; assert 'OPENBLAS_NUM_THREADS' not in os.environ"
+        "assert 'hull' in convert(mesh, Path('a.obj'), content).facts; print({'numpy', 'trimesh'} & sys.modules.keys())"
     )
-    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+    command = [sys.executable, "-W", "error", "-c", program]
+    done = subprocess.run(command, env=os.environ | {"PYTHONWARNINGS": "error"}, capture_output=True, check=True)
+    assert (done.stdout, done.stderr) == (b"set()\n", b"")

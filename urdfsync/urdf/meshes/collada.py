@@ -4,9 +4,6 @@ Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the mes
 neither MoveIt nor Gazebo classic turns them, which is what exporters count on (ros-visualization/rviz
 issue 1045 and `getMeshUnitRescale`, moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic
 issue 1305). The transformations of the scene's nodes are applied.
-
-pycollada does the reading. It drops a geometry whose material, image or neighbour it doesn't understand;
-hence all that has no influence on the shape is taken out before, and every fault it then notes counts.
 """
 
 from __future__ import annotations
@@ -14,21 +11,19 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Iterator
-from typing import Any
 
-import collada
 import numpy as np
-from collada import controller, polylist, scene, triangleset
-from collada.common import DaeError, DaeUnsupportedError
 from lxml import etree
+from trimesh.exchange.dae import load_collada
 
-from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
-from urdfsync.urdf.meshes.geometry import Array, Triangles, joined, placed
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.geometry import Triangles, placed
 
 _NO_SHAPE = (
     "library_animations",
     "library_animation_clips",
     "library_cameras",
+    "library_controllers",
     "library_effects",
     "library_images",
     "library_lights",
@@ -40,22 +35,31 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
+"""Elements without influence on the shape. They are taken out: a fault in one of them is none of the mesh."""
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
+_MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 
 
-def read_collada(content: bytes) -> Triangles:
-    """Read all triangles, in metres. Raises MeshError."""
+def collada_parts(content: bytes) -> Iterator[Triangles]:
+    """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError."""
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
             raise MeshError(f"it has {name}, which urdfsync doesn't read")
+    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # which numpy counts from the end
+        raise MeshError("one of its faces has an index that no vertex has")
+    _place_skins(root)
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
-    shapes = etree.tostring(root)
+    _move_once_per_node(root)
+    shapes = io.BytesIO(etree.tostring(root))
     del root  # pycollada parses them into a tree of its own
-    with damage_is_an_error():
-        mesh = joined(part for node in _scene(shapes).nodes for part in _triangles(node, np.identity(4)))
-        return Triangles(unit * mesh.points, mesh.faces)
+    # not by `load_scene`: it would merge vertices, and leave out triangles that are not finite
+    loaded = load_collada(shapes, ignore_broken=False)
+    for node in loaded["graph"]:
+        mesh = loaded["geometry"][node["geometry"]]
+        points, faces = placed(Triangles(mesh["vertices"].astype(np.float64), mesh["faces"]), node["matrix"])
+        yield Triangles(unit * points, faces)
 
 
 def _parse(content: bytes) -> etree._Element:
@@ -84,42 +88,27 @@ def _unit(root: etree._Element) -> float:
     return unit
 
 
-def _scene(content: bytes) -> Any:
-    """The scene as pycollada's object. What it can't make sense of is an error, what it doesn't know is not."""
-    document = collada.Collada(io.BytesIO(content), ignore=[DaeError])
-    if not all(isinstance(fault, DaeUnsupportedError) for fault in document.errors):
-        raise MeshError(f"its content isn't consistent: {document.errors[0]}")
-    if document.scene is None:
-        raise MeshError("it has no scene")
-    return document.scene
+def _place_skins(root: etree._Element) -> None:
+    """Put the geometry of each skin where it is bound: trimesh passes over skins."""
+    skins = {f"#{one.get('id')}": one[0] for one in root.iterfind("{*}library_controllers/{*}controller")}
+    for instance in list(root.iter("{*}instance_controller")):
+        skin = skins[instance.get("url", "")]
+        space = str(instance.tag).removesuffix("instance_controller")
+        node = etree.Element(f"{space}node")
+        bind = skin.find("{*}bind_shape_matrix")
+        if bind is not None:
+            etree.SubElement(node, f"{space}matrix").text = bind.text
+        etree.SubElement(node, f"{space}instance_geometry", url=skin.get("source", ""))
+        instance.getparent().replace(instance, node)  # type: ignore[union-attr] # the root is none
 
 
-def _triangles(node: Any, pose: Array) -> Iterator[Triangles]:
-    """The triangles at and below a node of pycollada's scene; `pose` (4 × 4) is that of the parent."""
-    if isinstance(node, scene.NodeNode):
-        yield from _triangles(node.node, pose)
-    elif isinstance(node, scene.Node):
-        for transformation in node.transforms:
-            pose = _product(pose, transformation.matrix)
-        for child in node.children:
-            yield from _triangles(child, pose)
-    elif isinstance(node, scene.GeometryNode):
-        yield from _primitives(node.geometry, pose)
-    elif isinstance(node, scene.ControllerNode) and isinstance(node.controller, controller.Skin):
-        yield from _primitives(node.controller.geometry, _product(pose, node.controller.bind_shape_matrix))
-    elif isinstance(node, scene.ControllerNode):
-        yield from _primitives(node.controller.source_geometry, pose)
-
-
-def _primitives(geometry: Any, pose: Array) -> Iterator[Triangles]:
-    """The triangles of one geometry at a pose; lines are left out."""
-    for primitive in geometry.primitives:
-        part = primitive.triangleset() if isinstance(primitive, polylist.Polylist) else primitive
-        if isinstance(part, triangleset.TriangleSet) and part.vertex is not None:
-            yield placed(Triangles(part.vertex.astype(np.float64), part.vertex_index), pose)
-
-
-def _product(first: Array, second: Array) -> Array:
-    """Matrix product (4 × 4) in double precision and a fixed order of operations, the same on every machine."""
-    product: Array = (first[:, :, np.newaxis] * second.astype(np.float64)[np.newaxis]).sum(axis=1)
-    return product
+def _move_once_per_node(root: etree._Element) -> None:
+    """Give each transformation a node of its own: pycollada multiplies those of one node in single precision."""
+    for node in list(root.iter("{*}node")):
+        moves = [child for child in node if etree.QName(child).localname in _MOVES]
+        others = [child for child in node if child not in moves]
+        inner = node
+        for move in moves[1:]:
+            inner = etree.SubElement(inner, node.tag)
+            inner.append(move)
+        inner.extend(others)

@@ -5,15 +5,13 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
-import signal
 import subprocess
 import threading
-import time
 from typing import IO, TypeAlias, cast
 
 import msgspec
 
-from urdfsync.processes import exit_cause, importable, python_module
+from urdfsync.processes import importable, python_module
 from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.robot import Vector
 
@@ -23,11 +21,7 @@ MEMORY = 450_000_000
 """Bytes that the process may allocate, on Linux. Its libraries have some 50 MB besides."""
 WALL_SECONDS = 60.0
 """For one mesh, everywhere. A busy machine may need so long for the CPU time."""
-THREADS = "OPENBLAS_NUM_THREADS"
-"""The variable that tells numpy how many threads its products of matrices have."""
-OUT_OF_MEMORY = 3
-"""The exit code of a process that needs more."""
-_PATIENCE = 1.0  # s for a process to end that has closed its stdout
+_LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
 _MAX_LINE = 10_000_000
 _MAX_STL = 60_000_000
 
@@ -70,7 +64,6 @@ class MeshProcess:
         """Return a mesh as binary STL, with its facts. Raises MeshError, or OSError if no process can be started."""
         with self._lock:
             process = self._process = self._process or self._start()
-            began = time.monotonic()
             timer = threading.Timer(WALL_SECONDS, process.kill)
             timer.start()
             try:
@@ -78,10 +71,8 @@ class MeshProcess:
                 if answer.is_last:
                     self.end()
             except (OSError, ValueError) as error:  # it ends, or the answer is none
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(_PATIENCE)
                 self.end()
-                raise MeshError(_reason(process.returncode, time.monotonic() - began)) from error
+                raise MeshError(_LIMITS) from error
             except BaseException:  # an interruption leaves the rest of an answer in the pipe
                 self.end()
                 raise
@@ -109,7 +100,8 @@ class MeshProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env={**os.environ, **importable(), THREADS: "1"},  # each thread would have memory of its own
+            # each thread would have memory of its own; numpy deprecates what libraries do
+            env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
         )
 
@@ -125,14 +117,3 @@ def _ask(process: subprocess.Popen[bytes], request: Request, content: bytes) -> 
     if len(stl) != answer.size:
         raise ValueError("the answer ends early, or is too large")
     return answer, stl
-
-
-def _reason(code: int, seconds: float) -> str:
-    """Why a process ended before it answered."""
-    if seconds >= WALL_SECONDS:
-        return f"reading it takes longer than {WALL_SECONDS:g} s"
-    if code == -getattr(signal, "SIGPROF", 0):
-        return f"reading it takes more than {CPU_SECONDS:g} s"
-    if code == OUT_OF_MEMORY:
-        return f"reading it takes more than {MEMORY // 1_000_000} MB of memory"
-    return f"it ended the process that read it ({exit_cause(code)})"

@@ -6,23 +6,19 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
 from pathlib import Path
-from typing import IO
 
 import msgspec
 
 from urdfsync.processes import reserve_stdout
-from urdfsync.urdf.meshes.errors import MeshError, damage_is_an_error
-from urdfsync.urdf.meshes.geometry import Triangles, binary_stl, import_form, triangles
-from urdfsync.urdf.meshes.plain import PLAIN
-from urdfsync.urdf.meshes.process import MEMORY, OUT_OF_MEMORY, Answer, Request
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.process import MEMORY, Answer, Request
 
 if sys.platform != "win32":
     import resource
 
-_UNUSED = ("PIL", "httpx", "networkx", "scipy")
+_UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
 """Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
 _GROWN = 200_000_000
 """Bytes that the process has allocated when it has read a large mesh; its libraries are 70 MB of them."""
@@ -34,21 +30,20 @@ def main() -> None:
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
         request = msgspec.json.decode(line, type=Request)
-        try:
-            answer, stl = _answer(request, requests)
-        except MemoryError:
-            os._exit(OUT_OF_MEMORY)
-        answers.write(msgspec.json.encode(answer) + b"\n" + stl)
+        answer, stl = _answer(request, requests.read(request.size))
+        answers.write(msgspec.json.encode(answer) + b"\n")
+        answers.write(stl)
         answers.flush()
     os._exit(0)  # tidying up libraries takes a tenth of a second
 
 
-def _answer(request: Request, requests: IO[bytes]) -> tuple[Answer, bytes]:
-    content = requests.read(request.size)
+def _answer(request: Request, content: bytes) -> tuple[Answer, bytes]:
+    from urdfsync.urdf.meshes.geometry import binary_stl, import_form  # the first of all that brings in numpy, and
+    from urdfsync.urdf.meshes.reading import read_mesh  # trimesh: without the unused packages, and without limits
+
     try:
-        read = reader(request.suffix)
         with _limits(request.seconds):
-            mesh, facts = import_form(read(content), request.scale, request.with_hull)
+            mesh, facts = import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
             stl = binary_stl(mesh)
     except MeshError as error:
         return Answer(problem=str(error)), b""
@@ -60,20 +55,6 @@ def _allocated() -> int:
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
-
-
-def reader(suffix: str) -> Callable[[bytes], Triangles]:
-    """Return the reader of a format. Only the library that it needs is loaded: trimesh takes 0.5 s."""
-    if suffix in PLAIN:
-        return lambda content: triangles(PLAIN[suffix](content))
-    with damage_is_an_error():
-        if suffix == ".dae":
-            from urdfsync.urdf.meshes.collada import read_collada
-
-            return read_collada
-        from urdfsync.urdf.meshes.scenes import read_scene
-
-        return partial(read_scene, suffix)
 
 
 @contextlib.contextmanager

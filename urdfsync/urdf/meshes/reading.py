@@ -1,0 +1,138 @@
+"""The triangles of a mesh file, as trimesh reads them, and strictly: a part of a mesh is no mesh."""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import io
+import json
+import re
+import warnings
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+import trimesh
+
+from urdfsync.urdf.meshes.collada import collada_parts
+from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
+
+_COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
+_FACES = {
+    ".off": re.compile(rb"OFF(?:\s|#[^\n]*\n)*\d+\s+(\d+)"),
+    ".ply": re.compile(rb"^element[ \t]+face[ \t]+(\d+)", re.MULTILINE),
+}
+"""How many faces a file announces."""
+_STL_COUNT = slice(80, 84)
+_STL_FACET = 50
+_SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
+
+
+class _NoOtherFiles(Mapping[str, bytes]):
+    """What trimesh may read besides: nothing, since only the mesh file itself is watched for changes."""
+
+    def __getitem__(self, name: str) -> bytes:
+        raise MeshError(f"it needs another file, {name}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(())
+
+    def __len__(self) -> int:
+        return 0
+
+
+def read_mesh(suffix: str, content: bytes) -> Triangles:
+    """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError."""
+    with _damage_is_an_error():
+        mesh = joined(list(collada_parts(content) if suffix == ".dae" else _parts(suffix, content)))
+        if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
+            raise MeshError("its end is missing")
+    gc.collect()  # scenes refer to themselves, and hold copies of large meshes
+    return mesh
+
+
+@contextlib.contextmanager
+def _damage_is_an_error() -> Iterator[None]:
+    """Turn whatever a broken file makes a library raise into a MeshError: libraries take a sound file for granted.
+
+    Numbers that numpy can't read to the end are an error in all its versions. Lack of memory is told by the caller.
+    """
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # libraries use what numpy deprecates
+            warnings.filterwarnings("error", "string or file could not be read", DeprecationWarning)
+            yield
+    except (MeshError, MemoryError):
+        raise
+    except Exception as error:
+        detail = f": {error}" if str(error) else ""
+        raise MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})") from error
+
+
+def _parts(suffix: str, content: bytes) -> Iterator[Triangles]:
+    if suffix == ".stl":
+        content = _one_solid(content)
+    if suffix == ".obj":
+        content = _plain_obj(content)
+    if suffix == ".gltf":
+        json.loads(content)  # where this fails, trimesh looks for another file
+    if suffix in (".gltf", ".glb"):
+        for compression in _COMPRESSIONS:
+            if compression in content:
+                raise MeshError(f"it is compressed ({compression.decode()})")
+    scene = trimesh.load_scene(
+        io.BytesIO(content), file_type=suffix[1:], resolver=_NoOtherFiles(), process=False, skip_materials=True
+    )
+    for node in scene.graph.nodes_geometry:
+        pose, name = scene.graph[node]
+        geometry = scene.geometry[name]
+        if isinstance(geometry, trimesh.Trimesh):
+            yield placed(Triangles(np.asarray(geometry.vertices, dtype=np.float64), np.asarray(geometry.faces)), pose)
+
+
+def _announced(suffix: str, content: bytes) -> int:
+    """Return how many triangles a file has at least, by its own account."""
+    if suffix == ".stl":
+        return content.count(b"endfacet") + content.count(b"ENDFACET")
+    found = _FACES[suffix].search(content) if suffix in _FACES else None
+    return int(found[1]) if found else 0
+
+
+def _one_solid(content: bytes) -> bytes:
+    """A binary STL file as it is, and a text with all facets in one solid: names may be any words, `vertex` as well."""
+    if len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little"):
+        return content  # some of these begin with `solid`, too
+    if not content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
+        raise MeshError("its end is missing")
+    return b"solid\n" + _SOLID_LINE.sub(b"", content) + b"\nendsolid\n"
+
+
+def _plain_obj(content: bytes) -> bytes:
+    """Vertices and faces alone, without references to textures and normals, and with indices that count from 1.
+
+    trimesh takes index 0 for 1, and counts back from the end of the file. It passes over lines with blanks before them
+    and over faces with less than three corners, and goes wrong where only some corners have references.
+    """
+    text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
+    text = b"\n".join(re.findall(rb"^ *([vf] .*)", re.sub(rb"#.*|(?<=\d)/\S*", b"", text), re.MULTILINE))
+    if re.search(rb"^f.* -", text, re.MULTILINE):
+        text = _count_from_the_first(text)
+    if re.search(rb"^[vf](?: +\S+){0,2} *$", text, re.MULTILINE):
+        raise MeshError("one of its vertices or faces has less than three numbers")
+    if re.search(rb"^f.* (?:0+(?: |$)|[-/])", text, re.MULTILINE):
+        raise MeshError("one of its faces has an index that no vertex has")
+    return text
+
+
+def _count_from_the_first(text: bytes) -> bytes:
+    """Replace indices of an OBJ file that count back from their own line."""
+    vertices = 0
+
+    def replaced(line: re.Match[bytes]) -> bytes:
+        nonlocal vertices
+        if line[1] == b"v":
+            vertices += 1
+            return line[0]
+        return re.sub(rb" -\d+", lambda index: b" %d" % (vertices + 1 + int(index[0])), line[0])
+
+    return re.sub(rb"^(v|f) .*", replaced, text, flags=re.MULTILINE)
