@@ -25,7 +25,6 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
 
-from urdfsync import template_cache
 from urdfsync.modelica import literals
 
 if sys.platform == "linux":
@@ -196,7 +195,6 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=template_cache.find_cache(kind),
             autoescape=False,  # Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
