@@ -27,8 +27,8 @@ from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.parser import parse
 
 BOT = Target("Bot", "Bot")
-PARTS = 16
-"""The slower parser's work is cut into so many tests, so that they run side by side."""
+PARTS = [pytest.param(part, marks=pytest.mark.large if part > 3 else pytest.mark.slow) for part in range(16)]
+"""The slower parser's work is cut into so many tests: four of them are a quarter of all kinds of text."""
 
 TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3"
 SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
@@ -101,10 +101,9 @@ def kinds_of_texts() -> Mapping[str, str]:
     return found
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize("part", PARTS)
 def test_pymoca_parses_every_kind_of_text(part: int, corpus: Path) -> None:
-    for text in list(kinds_of_texts().values())[part::PARTS]:
+    for text in list(kinds_of_texts().values())[part :: len(PARTS)]:
         try:
             tree = pymoca.parser.parse(text, bypass_cache=True)
         except pymoca.parser.ModelicaSyntaxError as error:

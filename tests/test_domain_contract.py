@@ -247,6 +247,6 @@ def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
         assert {one.file for one in found.diagnostics} <= {"sample"}
         folders = (config.templates_folder(case.domain),)
         templates = Templates(folders, templates_digest(folders))
-        text = generate.Package([found.artifact], templates).content(found.artifact.path).decode()
+        text = generate.Package([found.artifact], templates, "").content(found.artifact.path).decode()
         assert text.startswith(f"{within_clause}\nrecord Whole ")
         assert text.endswith("end Whole;\n")

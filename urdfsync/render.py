@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import math
+import re
 import signal
 import sys
 import time
@@ -22,10 +23,11 @@ import msgspec
 from jinja2 import nodes
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
+from jinja2.ext import Extension
+from jinja2.lexer import Token, TokenStream
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
 
-from urdfsync import template_cache
 from urdfsync.modelica import literals
 
 if sys.platform == "linux":
@@ -56,6 +58,10 @@ MAX_OUTPUT = 200_000_000
 """Characters of one text."""
 MAX_BITS = 10_000
 """Bits of an integer that a template makes: a step with larger ones can take hours, and can't be interrupted."""
+_MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
+"""A template's file and line, in front of the text that comes from there; no text of a model has NUL in it."""
+_BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
+"""What a line with marks begins with."""
 GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
 own, such as the comparison of lists that hold each other many times."""
@@ -69,6 +75,19 @@ class _CodeGenerator(CodeGenerator):
         check = nodes.Call(nodes.EnvironmentAttribute("check_time"), [], [], None, None)
         node.body.insert(0, nodes.ExprStmt(check).set_lineno(node.lineno))
         super().visit_For(node, frame)
+
+
+class _MarkLines(Extension):
+    """Puts a `_MARK` before each line of a template's text, through macros and captured blocks as well."""
+
+    def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
+        """See Jinja."""
+        for token in stream:
+            value = token.value
+            if token.type == "data":
+                lines = enumerate(value.split("\n"), token.lineno)
+                value = "\n".join(f"\0{stream.filename}\0{number}\0{line}" for number, line in lines)
+            yield Token(token.lineno, token.type, value)
 
 
 class _Environment(jinja2.Environment):
@@ -91,10 +110,17 @@ class _Sandbox(ImmutableSandboxedEnvironment):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         self.deadline = math.inf
+        self.pieces: dict[str, set[str]] = {}
+        """The templates that each template includes or imports, as far as it was rendered."""
         for name in ("lipsum", "random"):  # their text is another one each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
         self.filters |= {name: _limited(self.filters[name]) for name in ("int", "round", "slice")}
+
+    def join_path(self, template: str, parent: str) -> str:
+        """See Jinja."""
+        self.pieces.setdefault(parent, set()).add(template)
+        return template
 
     def check_time(self) -> None:
         """Raise SecurityError if the text takes too long."""
@@ -182,6 +208,8 @@ class Renderer:
     def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
         """Templates that are not trusted run in a sandbox, with limits."""
         self.folders = tuple(folders)
+        own = [(folder, path) for folder in folders[:-1] for path in folder.rglob("*")]
+        self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
         kind = _Environment if is_trusted else _Sandbox
         self._environment = kind(
             loader=jinja2.FileSystemLoader([str(folder) for folder in folders]),
@@ -196,7 +224,6 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=template_cache.find_cache(kind),
             autoescape=False,  # Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
@@ -207,15 +234,40 @@ class Renderer:
         What is not allowed to a template, and what takes too long or too much, is a SecurityError, OverflowError or
         MemoryError.
         """
-        environment = self._environment
-        if not isinstance(environment, _Sandbox):
-            return environment.get_template(template).render(data)
-        environment.deadline = time.monotonic() + MAX_SECONDS
-        with _limited_process():
-            pieces, size = [], 0
-            for piece in environment.get_template(template).generate(data):
-                pieces.append(piece)
-                size += len(piece)
-                if size > MAX_OUTPUT:
-                    raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
-            return "".join(pieces)
+        return _render(self._environment, template, data)
+
+    def comes_from_user(self, template: str) -> bool:
+        """Whether a file of the user's is part of a template that was rendered."""
+        names = [template]
+        if isinstance(self._environment, _Sandbox):
+            for name in names:
+                names += self._environment.pieces.get(name, set()).difference(names)
+        return not self._users_names.isdisjoint(names)
+
+    def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
+        """The user's file that a line of a rendered text comes from, or else the text before it, and the line there.
+
+        An empty name and 0 if that can't be said. Raises what `render` does.
+        """
+        marked = _render(self._environment.overlay(extensions=[_MarkLines]), template, data)
+        if _MARK.sub("", marked) != text:  # a filter counts characters, say
+            return "", 0
+        *before, last = marked.split("\n")[: max(line, 1)]
+        places = _MARK.findall("\n".join((*before, *_BLANK.findall(last))))
+        users = [place for place in places if any(folder in Path(place[0]).parents for folder in self.folders[:-1])]
+        file, number = users[-1] if users else ("", 0)
+        return file, int(number)
+
+
+def _render(environment: jinja2.Environment, template: str, data: Mapping[str, Any]) -> str:
+    if not isinstance(environment, _Sandbox):
+        return environment.get_template(template).render(data)
+    environment.deadline = time.monotonic() + MAX_SECONDS
+    with _limited_process():
+        pieces, size = [], 0
+        for piece in environment.get_template(template).generate(data):
+            pieces.append(piece)
+            size += len(piece)
+            if size > MAX_OUTPUT:
+                raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
+        return "".join(pieces)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
-from support.networks import configure, failure
+from support.commands import Execute
+from support.networks import RC_FOLDER, configure, edit, failure, own_model, run
+from support.replay import contents
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Artifact, Role, Templates
@@ -42,7 +45,7 @@ def test_paths_of_a_usual_package() -> None:
 @pytest.mark.parametrize(("old", "new"), [(1, 2), (0.0, -0.0), (1, 1.0)])
 def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) -> None:
     one, two, again = (
-        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""))
+        Package([Artifact("A.mo", Role.RECORD, "t", {"number": n}, "part")], Templates((tmp_path,), ""), "")
         for n in (old, new, old)
     )
     assert two.changed_since(one) == {"A.mo"}
@@ -80,3 +83,78 @@ def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: P
     (own / "element/model.mo.jinja").write_text("<% include 'element/part.jinja' %>")
     (own / "element/part.jinja").write_bytes(b"one\nB\xfccher")
     assert failure().startswith("own/element/part.jinja:2: error: the template is not UTF-8; correct")
+
+
+MODEL = "own/element/model.mo.jinja"
+
+
+@pytest.fixture
+def copied(own: Path) -> None:
+    """A copy of the template of all elements' models as the user's."""
+    shutil.copy(RC_FOLDER / "templates/element/model.mo.jinja", MODEL)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "words"),
+    [
+        ("OnePort;", "OnePort", 5, "lacks `;` before `parameter`"),
+        ("parameters.C*der(v);", "parameters.C*der(v;", 11, "lacks `,` or `)` before `;`"),
+        ("end << element.name >>;", "end Other;", 13, "ends `C1` with `end Other`"),
+        ("end << element.name >>;\n", "", 12, "lacks `end C1` before its end"),
+        ("model << element.name >>", "model Other", 13, "ends `Other` with `end C1`"),
+        ("<< element.name >>", "Other", 2, "the class is called `Other`, but its file `C1`"),
+        (".Elements;", ";", 1, "the file says `within Ladder;`, but stands in `Ladder.Elements`"),
+        ("within << package >>.Elements;\n", "", 1, "the file lacks `within Ladder.Elements;`"),
+        ("end << element.name >>;", "end << element.name >>;\nmodel B\nend B;", 14, "the file holds `B` besides `C1`"),
+        ("equation\n", "equation\n<% if 1 %>\n  Real;\n<% endif %>\n", 9, "lacks"),
+        ("equation\n", "  Real i;\n  Real i;\nequation\n", 8, "declares `i` twice"),
+    ],
+)
+@pytest.mark.usefixtures("copied")
+def test_a_text_that_is_no_modelica_is_an_error_at_the_line_of_the_template(
+    old: str, new: str, line: int, words: str
+) -> None:
+    edit(MODEL, old, new)
+    before = contents(Path())
+    message = failure()
+    assert message.startswith(f"{MODEL}:{line}: error: the text for `Elements/C1.mo` is wrong: ")
+    assert words in message
+    assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+    assert contents(Path()) == before
+
+
+@pytest.mark.parametrize(
+    ("use", "piece", "line"),
+    [
+        ("<% include 'piece.jinja' %>", "\n  Real a\n  Real b;\n", 3),
+        ("<% import 'piece.jinja' as p %><< p.x() >>", "\n<% macro x() %>\n  a b c;<% endmacro %>", 3),
+        (
+            "<% import 'piece.jinja' as p %><% set b %><< p.x() >><% endset %><< b >>",
+            "<% macro x() %>1;<% endmacro %>",
+            1,
+        ),
+    ],
+)
+@pytest.mark.usefixtures("copied")
+def test_the_file_that_a_wrong_line_comes_from_is_named(use: str, piece: str, line: int) -> None:
+    edit(MODEL, "equation\n", f"{use}\nequation\n")
+    Path("own/piece.jinja").write_text(piece)
+    assert failure().startswith(f"own/piece.jinja:{line}: error: the text for `Elements/C1.mo` is wrong")
+
+
+@pytest.mark.usefixtures("copied")
+def test_without_a_line_the_template_is_named() -> None:
+    """Where a template looks at its own text, that has other lines when each is marked."""
+    edit(MODEL, "equation\n", "<% set t %>x<% endset %>Real << t | length >>;\nequation\n")
+    assert failure().startswith(f"{MODEL}: error: the text for `Elements/C1.mo` is wrong")
+
+
+@pytest.mark.parametrize("command", ["build", "build --check", "build --dry-run", "build --full", "status", "diff"])
+def test_all_commands_say_what_is_wrong_with_a_template(project: Path, execute: Execute, command: str) -> None:
+    run()
+    own_model("  Real x")
+    before = contents(project)
+    said = execute(*command.split(), code=2)
+    (error,) = [line for line in (*said.lines, *said.errors) if ": error: " in line]
+    assert error.startswith(f"{MODEL}:8: error: the text for `Elements/C1.mo` is wrong: the file lacks `;` before")
+    assert contents(project) == before

@@ -13,6 +13,8 @@ from support.modelica import GRAVITY, URDFSYNC, Array, Run, Series, compile_task
 from urdfsync.modelica.names import class_name
 
 pytestmark = pytest.mark.slow
+LONG = pytest.mark.large
+"""Of the same control law with the robot as a package, which takes the compiler twice as long."""
 
 BASES = {"six_axis_arm": "fixed", "wheeled_robot": "floating", "planar_platform": "fixed", "floating_buoy": "fixed"}
 ANGLES = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", "elbow.revolute.w"]
@@ -72,7 +74,7 @@ def example(library: Path, model: str, stop: float, values: list[str]) -> Series
     return series
 
 
-@pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
+@pytest.mark.parametrize("model", ["ComputedTorque", pytest.param("ComputedTorquePackage", marks=LONG)])
 def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
     """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
     errors = [f"controller.error[{i}]" for i in range(1, 7)]
@@ -82,7 +84,7 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
-@pytest.mark.parametrize("model", ["ToolPath", "ToolPathPackage"])
+@pytest.mark.parametrize("model", ["ToolPath", pytest.param("ToolPathPackage", marks=LONG)])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side."""
     tool = [f"r_tool[{i}]" for i in (1, 2, 3)]

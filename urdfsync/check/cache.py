@@ -46,7 +46,7 @@ class UserCache:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.libraries, self.workspaces = folder / "libraries", folder / "work"
-        self.compiler, self.results, self.templates = folder / "rumoca", folder / "results", folder / "templates"
+        self.compiler, self.results = folder / "rumoca", folder / "results"
 
     @classmethod
     def default(cls) -> UserCache:
@@ -56,7 +56,7 @@ class UserCache:
     def prepare(self) -> None:
         """Make the folder; raises CacheError if that can't be."""
         with cache_errors(self.folder):
-            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # `template_cache` takes no other
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
     @contextlib.contextmanager
     def workspace(self) -> Iterator[Path]:
@@ -114,7 +114,7 @@ class UserCache:
         return [path for path, pid in pids.items() if pid.isdecimal() and psutil.pid_exists(int(pid))]
 
     def _folders(self) -> list[Path]:
-        folders = (self.libraries, self.workspaces, self.templates, self.results, self.compiler)
+        folders = (self.libraries, self.workspaces, self.results, self.compiler)
         return [folder for folder in folders if folder.is_dir() and not folder.is_symlink()]
 
     def _entries(self) -> Iterator[tuple[float, Path, int]]:

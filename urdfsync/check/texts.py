@@ -18,17 +18,15 @@ from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import ClassName, StoredClasses, class_path
-from urdfsync.modelica.lexer import find_markers
-from urdfsync.modelica.names import is_identifier, within
-from urdfsync.modelica.parser import parse
+from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file
+from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import StoredText, declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 from urdfsync.spelling import nearest
 
-_ORDER, _PACKAGE = "package.order", "package.mo"
+_ORDER = "package.order"
 _QUOTED_NAME = re.compile("'[^'.]+'")
-_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
 _BYTE_ORDER_MARK = "\ufeff"
 _ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
@@ -57,15 +55,15 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
         for part in (place, *place.parents):
             if part.parts:
                 stored.setdefault(part.parent, set()).add(part.name)
-        text, faults = check_file(package, str(path), ".".join((package.name, *place.parts)))
+        text, faults = _check_file(package, str(path), ".".join((package.name, *place.parts)))
         found += faults
-        if path.name == _PACKAGE and text:
+        if path.name == PACKAGE_FILE and text:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
             declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
     for folder in sorted(stored):
-        package_file, lines = str(folder / _PACKAGE), declarations.get(folder, {})
+        package_file, lines = str(folder / PACKAGE_FILE), declarations.get(folder, {})
         if package_file not in package.texts:
-            message, hint = f"the folder holds classes, but no {_PACKAGE}", "add one, or move the files elsewhere"
+            message, hint = f"the folder holds classes, but no {PACKAGE_FILE}", "add one, or move the files elsewhere"
             where = str(folder) if folder.parts else ""
             found.append(package.diagnostic(_ERROR, "no-package-file", message, where, hint=hint))
         spellings: dict[str, str] = {}
@@ -95,57 +93,22 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     found: list[Diagnostic] = []
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
         package = PackageTexts("", output, {str(path): files[str(path)]})
-        ignored = {"repeated", "second-class", *([] if path.name == _PACKAGE else ["wrong-name"])}
+        ignored = {"repeated", "second-class", *([] if path.name == PACKAGE_FILE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
-        said = check_file(package, str(path), ".".join(class_path(path).parts))[1]
+        said = _check_file(package, str(path), ".".join(class_path(path).parts))[1]
         found += [one for one in said if one.code not in ignored]
     return found
 
 
-def check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
+def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
     """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
-    said: list[Diagnostic] = []
-
-    def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
-        said.append(package.diagnostic(severity, code, message, path, line, hint=hint))
-
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]
-    if text.startswith(_BYTE_ORDER_MARK):
-        hint = "save it without: some compilers refuse it"
-        say(_WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
-    found = parse(text)
-    if found.is_broken:  # only the first place is told, since others may follow from it
-        breaking = [fault for fault in found.faults if not fault.is_repetition]
-        first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
-        hint = "correct it first: more places in the file may look wrong because of it" if found.faults[1:] else ""
-        say(_ERROR, "syntax", f"the file {first.reason}", first.line, hint)
-        return None, said
-    for fault in found.faults:
-        severity, code = (_WARNING, "repeated") if fault.reason.startswith(_ALLOWED_TWICE) else (_ERROR, "syntax")
-        say(severity, code, f"the file {fault.reason}", fault.line)
-    parent, _, expected = name.rpartition(".")
-    if not found.classes:
-        say(_ERROR, "no-class", "the file holds no class", 0, f"write the class `{expected}`, or delete the file")
-        return found, said
-    if (found.within or "") != parent:
-        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
-        if found.within is not None:
-            message = f"the file says `within {found.within};`, but stands in `{parent or 'no package'}`"
-            hint = f"write `{within(name)}`"
-        say(_ERROR, "wrong-within", message, found.within_line or 1, hint)
-    main = next((one for one in found.classes if str(one.name) == expected), found.classes[0])
-    if str(main.name) != expected:
-        place = "folder" if PurePosixPath(path).name == _PACKAGE else "file"
-        message = f"the class is called `{main.name}`, but its {place} `{expected}`"
-        say(_ERROR, "wrong-name", message, main.name.line, f"give class and {place} the same name")
-    for other in found.classes:
-        if other is not main:
-            message = f"the file holds `{other.name}` besides `{main.name}`"
-            hint = "a file in a package holds one class: give it one of its own"
-            say(_ERROR, "second-class", message, other.name.line, hint)
-    return found, said
+    found, said = check_class_file(text, PurePosixPath(path), name)
+    return found, [
+        package.diagnostic(one.severity, one.code, one.message, path, one.line, hint=one.hint) for one in said
+    ]
 
 
 def _check_order(
@@ -180,7 +143,7 @@ def _check_order(
 
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
     """The outermost folder around a file, or the file itself, whose name no class can have."""
-    for part in [*reversed(path.parents[:-1]), *([] if path.name == _PACKAGE else [path])]:
+    for part in [*reversed(path.parents[:-1]), *([] if path.name == PACKAGE_FILE else [path])]:
         name = part.stem if part is path else part.name
         if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name)):
             return part

@@ -59,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
-    generated = Package([found.artifact], sources.domain_templates(domain))
+    generated = Package([found.artifact], sources.domain_templates(domain), target.package)
     console.warnings(sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line))
     record = generated.content(found.artifact.path).decode()
     values = {"class": target.name, "within": target.package}

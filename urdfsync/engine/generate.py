@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
-from urdfsync.files import shown, text_digest
+from urdfsync.files import normalised, shown, text_digest
+from urdfsync.modelica.files import class_path
+from urdfsync.modelica.layout import check_class_file
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -23,18 +25,19 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Package:
     """A generated package: its text files by path, and the names for each `package.order`; POSIX, below the package."""
 
-    def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates) -> None:
+    def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates, name: str) -> None:
+        """`name` is the package's full name."""
         found = sorted(artifacts, key=lambda artifact: artifact.path)
         self.artifacts: dict[str, Artifact] = {a.path: a for a in found if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in found if isinstance(a, Order)}
-        self._templates = templates
+        self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._texts:
-            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._templates.folders)
+            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
         return self._texts[path]
 
     def hash(self, path: str) -> str:
@@ -66,7 +69,7 @@ def generate(
     """Return the package of a model. Raises OutputError for paths that can't be written."""
     found = tuple(domain.artifacts(snapshot, imports, target, options))
     check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
-    return Package(found, templates)
+    return Package(found, templates, target.package)
 
 
 @functools.lru_cache(maxsize=4)
@@ -116,15 +119,19 @@ def _is_inside(path: str) -> bool:
     return whole and path.isprintable() and _FORBIDDEN.isdisjoint(path)
 
 
-def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> bytes:
+def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
     """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
     import jinja2
 
     try:
         text = renderer.render(artifact.template, artifact.data)
-        return (text.replace("\r\n", "\n") if "\r" in text else text).encode()
+        content = text.encode()
+        if artifact.path.endswith(".mo") and renderer.comes_from_user(artifact.template):
+            _check_text(renderer, artifact, package, text)
     except (jinja2.TemplateError, *_RENDERING) as error:
         problem = error
+    else:
+        return normalised(content)
     if isinstance(problem, RecursionError):
         reason = "it includes or calls itself without end"
     elif isinstance(problem, MemoryError):
@@ -132,29 +139,45 @@ def _render(renderer: Renderer, artifact: Artifact, folders: Sequence[Path]) -> 
     else:
         reason = str(problem).rstrip(".") or type(problem).__name__
     message = f"the template can't be rendered for `{artifact.path}`: {reason}"
-    file = next((str(one / artifact.template) for one in folders if (one / artifact.template).is_file()), "")
-    file, line, frame = file or artifact.template, 0, problem.__traceback__
+    file, line, frame = "", 0, problem.__traceback__
     while frame is not None:  # Jinja names templates in the traceback; the innermost one counts
         name = frame.tb_frame.f_code.co_filename
-        if any(folder in Path(name).parents for folder in folders):
+        if any(folder in Path(name).parents for folder in renderer.folders):
             file, line = name, frame.tb_lineno
         frame = frame.tb_next
     if isinstance(problem, jinja2.TemplateSyntaxError):
         message = str(problem.message).rstrip(".")
-        file, line = problem.filename or problem.name or artifact.template, problem.lineno
+        file, line = problem.filename or problem.name or "", problem.lineno
     elif isinstance(problem, jinja2.TemplatesNotFound):
         message = reason
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
     elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template
         message, content = "the template is not UTF-8", problem.object
-        files = (path for folder in folders for path in sorted(folder.rglob("*")) if path.is_file())
+        files = (path for folder in renderer.folders for path in sorted(folder.rglob("*")) if path.is_file())
         file = next((str(path) for path in files if path.read_bytes() == content), "")
         line = content.count(b"\n", 0, problem.start) + 1
+    raise _template_error(renderer.folders, artifact.template, file, line, message)
+
+
+def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
+    """Raise ConfigError for a text from a template of the user's that is not the class that its file is for."""
+    path = PurePosixPath(artifact.path)
+    found = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
+    for wrong in found:
+        if wrong.severity is Severity.ERROR:
+            file, line = renderer.find_origin(artifact.template, artifact.data, text, wrong.line)
+            message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
+            raise _template_error(renderer.folders, artifact.template, file, line, message)
+
+
+def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
+    """The error at a line of a file in a template folder; without a file, of the template itself."""
+    file = file or next((str(one / template) for one in folders if (one / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to get that of urdfsync" if is_own else "install urdfsync again"
     file = shown(Path(file)) if Path(file).is_absolute() else file
-    raise ConfigError(Diagnostic(Severity.ERROR, "template", message, file, line, hint=hint))
+    return ConfigError(Diagnostic(Severity.ERROR, "template", message, file, line, hint=hint))
 
 
 _RENDERING = (

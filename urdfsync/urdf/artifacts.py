@@ -136,7 +136,7 @@ def _link(
     record = {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
     model = link_model(visuals, collisions, options)
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
-    model |= {"replaceable": False, "note": note}
+    model["note"] = note
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, "link/record.mo.jinja", named | record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, "link/model.mo.jinja", named | model, owner),
@@ -156,7 +156,7 @@ def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, Arti
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
-    model = {"dynamics": joint.dynamics is not None, "replaceable": False, "note": note}
+    model = {"dynamics": joint.dynamics is not None, "note": note}
     template = f"joint/{joint.type}"
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),

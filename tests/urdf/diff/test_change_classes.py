@@ -90,7 +90,7 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     old, new = referenced(first, options), referenced(second, options)
     before, after = render(old, options), render(new, options)
     check(compare(old, new, DOMAIN, options), before, after)
-    one, two = (Package(artifacts(version, options), Templates((), "")) for version in (old, new))
+    one, two = (Package(artifacts(version, options), Templates((), ""), "") for version in (old, new))
     gone = one.artifacts.keys() - two.artifacts.keys()
     orders = {path for path in one.orders.keys() | two.orders.keys() if one.orders.get(path) != two.orders.get(path)}
     assert differing(before, after) <= two.changed_since(one) | gone | orders
