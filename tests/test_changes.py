@@ -1,7 +1,8 @@
-"""Comparing two versions: equality first, deepdiff on what differs, meanings from the domain, files that follow."""
+"""Comparing two versions: differences, meanings from the domain, files that follow."""
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
+from urdfsync.changes import Change, Changes, compare, differences, moved_files
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -75,19 +76,23 @@ def test_equal_versions_have_no_changes() -> None:
     assert (found.changes, found.change_class, found.noise) == ((), ChangeClass.NONE, False)
 
 
-@given(PLAIN, PLAIN, st.data())
-def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
-    new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
-    found = of_leaves(("part", "name"), old, new)
-    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
-
-
-def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
-    if isinstance(value, dict):
-        return {key: _with_other_leaves(item, data) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_with_other_leaves(item, data) for item in value]
-    return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
+@given(PLAIN, PLAIN)
+def test_differences_applied_to_the_old_value_give_the_new_one(old: Any, new: Any) -> None:
+    holder = {"value": copy.deepcopy(old)}
+    found = list(differences(("value",), old, new))
+    removed = [difference for difference in found if difference.kind is ChangeKind.REMOVED]
+    for difference in (*reversed(removed), *(one for one in found if one not in removed)):
+        *keys, last = difference.path
+        place: Any = holder
+        for key in keys:
+            place = place[key]
+        if difference in removed:
+            assert place.pop(last) == difference.old
+        elif isinstance(place, list) and difference.kind is ChangeKind.ADDED:
+            place.append(difference.new)
+        else:
+            place[last] = difference.new
+    assert holder == {"value": new}
 
 
 @pytest.mark.parametrize(
