@@ -31,7 +31,7 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
         joint("jc", "prismatic", "base", "c"),
     )
     assert changed(old, new) == {
-        "joint jc / axis and support": ("jcAxis (rotational)", "jcAxis (translational)"),
+        "joint jc / motion": ("rotational", "translational"),
         "joint jc / position in Run": ("jc_phi", "jc_s"),
         "joint jc / effort in Run": ("jc_tau", "jc_f"),
     }
@@ -75,13 +75,13 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
         joint("jc", "continuous", "base", "b"),
     )
     assert changed(old, new) == {}
-    assert changed(old, new, inputs="vector") == {"robot / positions": ("jb, jc", "ja, jb, jc")}
+    assert changed(old, new, inputs="vector") == {"robot / order of positions": ("jb, jc", "ja, jb, jc")}
     behind = version(
         *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
     )
-    assert changed(old, behind, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jc, jd")}
+    assert changed(old, behind, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jc, jd")}
     another = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jz", "prismatic", "base", "b"))
-    assert changed(old, another, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jz")}
+    assert changed(old, another, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jz")}
 
 
 def test_the_record_approach_has_no_names_to_connect_to() -> None:

@@ -81,7 +81,7 @@ def interface(
         return [*found, Effect(("robot", "input of Run"), "positions", None)]
     new_positions = [name for name, drive in now.drives.items() if drive.effort]
     if positions != new_positions:
-        found.append(Effect(("robot", "positions"), ", ".join(positions), ", ".join(new_positions) or None))
+        found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions) or None))
     return found
 
 
@@ -95,7 +95,7 @@ def _of_drive(joint: str, old: Drive | None, new: Drive | None) -> Iterator[Effe
     """Yield what becomes of the names of one joint. The variables of Run of a joint that gets an axis are left out."""
     element, hint = f"joint {joint}", ""
     if old and new and old.axis == new.axis and old.motion != new.motion:
-        yield Effect((element, "axis and support"), f"{old.axis} ({old.motion})", f"{new.axis} ({new.motion})")
+        yield Effect((element, "motion"), old.motion, new.motion)
     if new and not new.effort:
         hint = f'list "{joint}" in `driven`, with all others that are driven, to keep it'
     for field, part in _DRIVE.items():
