@@ -175,9 +175,9 @@ def _data(
     group: str, shapes: _Shapes, imports: Mapping[str, Import] | None, options: Options
 ) -> tuple[Mapping[str, Any], Any]:
     """Return what models and what records say of a shape. If nobody looked for its mesh, it counts as found."""
-    if imports is None and (key := _mesh_key(shapes)):
-        imports = {key: Import(key, "", "", None, {"bounds": (), "hull": ((0.0, 0.0, 0.0),)})}
-    imports = imports if imports is not None and options.meshes == "import" else {}
+    if imports is None:
+        key = _mesh_key(shapes) if options.meshes == "import" else None
+        imports = {key: Import(key, "", "", None, {"bounds": (), "hull": ((0.0, 0.0, 0.0),)})} if key else {}
     parts: dict[str, Any] = {group: shapes}
     link = Link("", **parts)
     visuals, collisions = link_shapes(link, imports, "", options)
