@@ -70,6 +70,20 @@ def test_a_joint_that_gets_an_axis_gets_no_more_and_one_that_loses_it_loses_all(
     assert {one.hint for one in interface(turning, still, {}, TARGET, Options())} == {""}
 
 
+def test_an_element_that_goes_is_no_news_about_its_connectors() -> None:
+    old, new = version(*STAR[:2], joint("j", "continuous", "base", "a")), version(STAR[0])
+    assert changed(old, new) == {"link base / frame": (None, "baseFrame")}
+    assert changed(old, new, inputs="vector")["robot / order of positions"] == ("j", None)
+
+
+def test_positions_by_name_take_the_place_of_a_vector() -> None:
+    robot = version(*STAR[:2], joint("j", "continuous", "base", "a"))
+    assert changed(msgspec.structs.replace(robot, options=Options(inputs="vector")), robot) == {
+        "joint j / position in Run": (None, "j_phi"),
+        "robot / input of Run": ("positions", None),
+    }
+
+
 def test_without_the_package_approach_the_model_goes() -> None:
     old = msgspec.structs.replace(version(STAR[0]), options=Options())
     assert changed(old, old, approach=("record",)) == {"robot / model": ("Robot", None)}

@@ -241,6 +241,12 @@ def test_a_mesh_that_comes_or_goes_with_its_shapes_is_no_change_by_itself() -> N
     assert found == {f"link base / {shape} 2 / geometry / filename": PARAMETER for shape in shapes}
 
 
+def test_a_mesh_that_is_found_is_one_change_and_the_place_of_its_shape_another() -> None:
+    new = version(put("link base / visual 2 / origin / xyz[0]", 1.0), import_("a"))
+    found = {str(change): change.change_class for change in compare(version(), new, DOMAIN, FIXED).changes}
+    assert found == {"mesh arm.stl / content": STRUCTURAL, "link base / visual 2 / origin / xyz[0]": PARAMETER}
+
+
 def test_each_of_several_changes_has_its_own_class() -> None:
     def edit(data: Data) -> None:
         shape, joint = data["links"]["base"]["visuals"][0], data["joints"]["turn"]
