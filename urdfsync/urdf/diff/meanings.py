@@ -73,7 +73,7 @@ def describe(
                 is_change = by_source and difference.kind is ChangeKind.CHANGED
                 found.append(Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None)
             case ("joints", str(name), *fields):
-                found.append(_of_joint(name, fields, versions))
+                found.append(_of_joint(name, fields, difference, versions))
             case ("extensions", str(owner), *fields):
                 found.append(Meaning(_words(owner or "robot", fields or ["extensions"]), ChangeClass.UNMODELLED))
             case (*fields,):
@@ -188,32 +188,28 @@ def _data(
 # --- joints -------------------------------------------------------------------------------------------------------
 
 
-def _of_joint(name: str, fields: _Fields, versions: Sequence[Version]) -> Meaning:
+def _of_joint(name: str, fields: _Fields, difference: Difference, versions: Sequence[Version]) -> Meaning:
     old, new = (msgspec.convert({"name": name, **version.snapshot["joints"][name]}, Joint) for version in versions)
     changed = (old, _exchanged(old, new, fields)), (new, _exchanged(new, old, fields))
     data = [(effective(one), effective(other)) for one, other in changed]
     reach = _class((structure(one) != structure(other) for one, other in data), (one != other for one, other in data))
-    units = []
-    for joints in (version.snapshot["joints"] for version in versions):
-        value = joints[name]
-        for field in fields:
-            if isinstance(field, str):
-                value = value.get(field) if isinstance(value, Mapping) else None
-        if value is not None:
-            units.append(_joint_unit(joints[name], joints, fields))
+    units = [
+        _joint_unit(name, version.snapshot["joints"], fields)
+        for version, value in zip(versions, (difference.old, difference.new), strict=True)
+        if value is not None
+    ]
     return Meaning(_words(f"joint {name}", fields), reach, " → ".join(dict.fromkeys(filter(None, units))))
 
 
-def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], fields: _Fields) -> str:
+def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
     """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
 
     Losses of a planar joint have none: one number stands for sliding and turning.
     """
-    motion = MOTION_KINDS.get(joint["type"])
-    field = str(fields[-1])
+    motion, field = MOTION_KINDS.get(joints[name]["type"]), str(fields[-1])
     if field != "multiplier":
         return _unit(fields) or (_JOINT_UNITS.get(field, {}).get(motion, "") if motion else "")
-    leader = MOTION_KINDS.get(joints[joint["mimic"]["joint"]]["type"])
+    leader = MOTION_KINDS.get(joints[joints[name]["mimic"]["joint"]]["type"])
     if motion is None or leader is None or motion == leader:
         return ""
     return f"{_POSITION[motion]}/{_POSITION[leader]}"
