@@ -106,6 +106,8 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
         "joint w / position in Run": ("v_phi", "w_phi"),
         "joint w / effort in Run": ("v_tau", "w_tau"),
     }
+    passive = interface(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}, TARGET, Options(driven=()))
+    assert [(one.path[1], one.hint) for one in passive] == [("axis", ""), ("support", "")]
 
 
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
