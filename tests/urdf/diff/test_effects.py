@@ -47,6 +47,7 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
     assert {one.hint for one in interface(old, new, {}, TARGET, Options())} == {hint}
     vector = changed(old, new, inputs="vector")
     assert vector["robot / order of positions"] == ("caster, wheel", "wheel")
+    assert changed(new, old, inputs="vector")["robot / order of positions"] == ("wheel", "caster, wheel")
     gone = {"joint caster / position in Run": "caster_phi", "joint caster / effort in Run": "caster_tau"}
     assert changed(old, new) == {path: (name, None) for path, name in gone.items()}
     assert changed(new, old) == {path: (None, name) for path, name in gone.items()}
@@ -108,6 +109,8 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
     }
     passive = interface(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}, TARGET, Options(driven=()))
     assert [(one.path[1], one.hint) for one in passive] == [("axis", ""), ("support", "")]
+    driven = interface(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}, TARGET, Options())
+    assert {one.hint for one in driven} == {""}
 
 
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
