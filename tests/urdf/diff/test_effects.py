@@ -122,6 +122,7 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
         joint("jc", "continuous", "base", "b"),
     )
     assert changed(old, new) == {}
+    assert changed(old, old, inputs="vector") == {}
     assert changed(old, new, inputs="vector") == {"robot / order of positions": ("jb, jc", "ja, jb, jc")}
     behind = version(
         *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
