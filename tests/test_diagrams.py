@@ -1,16 +1,11 @@
-"""Diagrams as the texts have them: nothing overlaps, lines end where they should, and no line crosses a name.
-
-Read are the texts of the whole corpus, as they are generated, and those of the library.
-"""
+"""Diagrams as the texts of generated packages have them: nothing overlaps, and lines end where they should."""
 
 from __future__ import annotations
 
 import dataclasses
 import functools
-import itertools
-import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -20,7 +15,7 @@ from support.modelica import URDFSYNC
 from support.packages import Package, generate, proposed_base, read
 from support.urdfs import dynamics, joint, limit, link, robot
 
-from urdfsync.domain import Role, Target
+from urdfsync.domain import Target
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -87,8 +82,6 @@ class Diagram:
     lines: tuple[Line, ...]
     ports: Mapping[str, Point]
     """Connectors on the icon of this class."""
-    graphics: tuple[Call, ...] = ()
-    """The icon itself."""
 
 
 Find = Callable[[str], Diagram]
@@ -120,7 +113,6 @@ def drawn(text: str, find: Find) -> Diagram:
     components: list[Component] = []
     lines: list[Line] = []
     ports: dict[str, Point] = {}
-    graphics: list[Call] = []
     for statement, note in statements(text):
         first = statement[0] if statement else ""
         if first == "extends":
@@ -129,7 +121,6 @@ def drawn(text: str, find: Find) -> Diagram:
             ports |= base.ports
             components += base.components
             lines += base.lines
-            graphics += base.graphics
         elif first == "connect":
             ends = "".join(statement[2:-1])
             while "[" in ends:  # all connectors of a vector stand in one place
@@ -142,13 +133,12 @@ def drawn(text: str, find: Find) -> Diagram:
                 extent_of(whole.get("coordinateSystem")) or extent,
                 extent_of(shown.get("coordinateSystem")) or icon,
             )
-            graphics += shown.get("graphics", [])
         elif place := note.get("Placement"):
             box, kind = extent_of(place.get("transformation")) or STANDARD, type_name(statement)
             name = statement[2 * kind.count(".") + 1]
             components.append(Component(name, kind, box, extent_of(place.get("iconTransformation")) or box))
     ports |= {c.name: center(c.icon) for c in components if c.is_connector}
-    return Diagram(extent, icon, tuple(components), tuple(lines), ports, tuple(graphics))
+    return Diagram(extent, icon, tuple(components), tuple(lines), ports)
 
 
 def port(diagram: Diagram, reference: str, find: Find) -> Point:
@@ -177,18 +167,6 @@ def overlaps(components: Sequence[Component]) -> list[tuple[str, str]]:
             if one.box[1] < other.box[3] and other.box[1] < one.box[3]:
                 found.append((one.name, other.name))
     return found
-
-
-def outline(graphic: Call) -> list[Point]:
-    """The points that bound a graphic, turned and moved as `rotation` and `origin` say (coordinates of the icon)."""
-    points: list[Point] = [(x, y) for x, y in graphic.get("points") or graphic.get("extent")]
-    if graphic.get("extent"):
-        (x1, y1), (x2, y2) = points
-        points = [(x1, y1), (x2, y1), (x2, y2), (x1, y2)]
-    angle = math.radians(graphic.get("rotation", 0.0))
-    x0, y0 = graphic.get("origin", [0.0, 0.0])
-    c, s = math.cos(angle), math.sin(angle)
-    return [(x0 + c * x - s * y, y0 + s * x + c * y) for x, y in points]
 
 
 def type_name(statement: Sequence[str]) -> str:
@@ -272,19 +250,6 @@ def test_diagrams_of_the_corpus_are_well_drawn(files: Sequence[str], corpus: Pat
         assert_well_drawn(generate(corpus / file, BOT, base=proposed_base(content)), file)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-@pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
-def test_diagrams_of_all_versions_are_well_drawn(files: Sequence[str], base: str, corpus: Path) -> None:
-    seen: set[frozenset[tuple[str, str]]] = set()
-    for file, _ in versions(files, corpus):
-        package = generate(corpus / file, BOT, base=base)
-        models = frozenset((path, text) for path, text in package.models.items() if package.roles[path] != Role.RECORD)
-        if models not in seen:
-            assert_well_drawn(package, file)
-        seen.add(models)
-
-
 @pytest.mark.parametrize("visualizer", ["standard", "visualization2"])
 def test_diagrams_of_all_joints_are_well_drawn(visualizer: str) -> None:
     assert_well_drawn(generate(OWN.encode(), BOT, visualizer=visualizer), "own")
@@ -306,61 +271,3 @@ def test_what_is_badly_drawn_is_noticed(old: str, new: str, what: str) -> None:
     texts = {**package.texts, "Bot.mo": text.replace(old, new, 1)}
     with pytest.raises(AssertionError, match=re.escape(what)):
         assert_well_drawn(dataclasses.replace(package, texts=texts), "own")
-
-
-# --- The library
-
-
-CLASSES = [".".join(file.relative_to(URDFSYNC.parent).with_suffix("").parts) for file in sorted(URDFSYNC.rglob("*.mo"))]
-SHOWN = [
-    name
-    for name in CLASSES
-    if re.match(r"UrdfSync\.(Examples|Robots)\.(?!.*package$)", name) and library_diagram(name).lines
-]
-
-
-def crossed(components: Sequence[Component], lines: Sequence[Sequence[Point]], inside: str) -> Iterator[str]:
-    """Names of components that a line crosses, as wide as their icons give them room."""
-    for component in components:
-        icon = library_diagram(full_name(component.type, inside))
-        for graphic in icon.graphics:
-            if graphic.get("textString") == "%name":
-                corners = [place(corner, component, icon) for corner in outline(graphic)]
-                if any(crosses(line, corners) for line in lines):
-                    yield component.name
-
-
-def full_name(kind: str, inside: str) -> str:
-    """The full name of a class as it is called inside of another, which may leave out the packages around both."""
-    packages = inside.split(".")
-    names = (".".join([*packages[:count], kind]) for count in range(len(packages), -1, -1))
-    return next((name for name in names if name in CLASSES), f"Modelica.{kind}")
-
-
-def place(point: Point, component: Component, icon: Diagram) -> Point:
-    """Where a point of the icon lies in the diagram. No component of the library is turned."""
-    (x1, y1, x2, y2), (left, bottom, right, top) = component.box, icon.icon
-    across, up = (point[0] - left) / (right - left), (point[1] - bottom) / (top - bottom)
-    return (x1 + (x2 - x1) * across, y1 + (y2 - y1) * up)
-
-
-def crosses(line: Sequence[Point], corners: list[Point]) -> bool:
-    """Whether a line of level and upright parts runs through a rectangle."""
-    (left, right), (bottom, top) = ((min(numbers), max(numbers)) for numbers in zip(*corners, strict=True))
-    return any(
-        min(x1, x2) < right and max(x1, x2) > left and min(y1, y2) < top and max(y1, y2) > bottom
-        for (x1, y1), (x2, y2) in itertools.pairwise(line)
-    )
-
-
-@pytest.mark.parametrize("name", SHOWN)
-def test_no_connection_crosses_a_name(name: str) -> None:
-    shown = library_diagram(name)
-    assert list(crossed(shown.components, [line.points for line in shown.lines], name)) == []
-
-
-def test_a_line_through_a_name_is_seen() -> None:
-    elbow = Component("elbow", "UrdfSync.Joints.Revolute", (-10, -10, 10, 10), STANDARD)
-    above, below = ((0, 10), (0, 30)), ((-40, -13), (40, -13))
-    assert list(crossed([elbow], [above], "UrdfSync")) == []
-    assert list(crossed([elbow], [above, below], "UrdfSync")) == ["elbow"]

@@ -7,10 +7,9 @@ writes them anew; review what changed before you commit it.
 
 from __future__ import annotations
 
-import cProfile
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +20,13 @@ if __name__ == "__main__":
 
 from support import urdfs
 from support.modelica import compile_task, execute
-from support.packages import RENDERER, Package, generate
+from support.packages import Package, generate
 
 from urdfsync.domain import Artifact, Order, Role, Target
 from urdfsync.modelica.parser import parse
 from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Link, Robot
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 TEMPLATES = Path(__file__).resolve().parents[2] / "templates" / "urdf"
@@ -70,21 +69,6 @@ def kept(variant: str) -> dict[str, str]:
 
 def package_of(*elements: str, package: str = "Own", **options: Any) -> Package:
     return generate(urdfs.robot(*elements).encode(), Target(package, package.rpartition(".")[2]), **options)
-
-
-def chain(length: int) -> Robot:
-    """A chain of boxes with a mimic joint every tenth time."""
-    joints = []
-    for n in range(length):
-        mimic = Mimic(f"j{n - 1}") if n % 10 == 9 else None
-        joints.append(Joint(f"j{n}", "revolute", f"l{n}", f"l{n + 1}", mimic=mimic))
-    return Robot("chain", tuple(Link(f"l{n}") for n in range(length + 1)), tuple(joints))
-
-
-def texts(robot: Robot, options: Options) -> Iterator[str]:
-    for artifact in artifacts(robot, {}, Target("Chain", "Chain"), options):
-        if isinstance(artifact, Artifact):
-            yield RENDERER.render(artifact.template, artifact.data)
 
 
 @every_golden_folder
@@ -153,24 +137,6 @@ def test_a_package_at_the_top_says_what_it_uses(
     text = made.texts["package.mo"]
     assert re.findall(r"(\w+)\(version ?=", text) == uses
     assert text.startswith(f"within {package.rpartition('.')[0]};")
-
-
-@pytest.mark.parametrize(
-    "options",
-    [Options(), Options(base="floating", visualizer="visualization2"), Options(approach=("record",))],
-    ids=["package", "floating", "record"],
-)
-def test_work_and_text_grow_in_proportion_to_the_robot(options: Options) -> None:
-    def effort(length: int) -> tuple[int, int]:
-        robot = chain(length)
-        profile = cProfile.Profile()
-        size = profile.runcall(lambda: sum(map(len, texts(robot, options))))
-        return sum(entry.callcount for entry in profile.getstats()), size
-
-    effort(1)  # templates are compiled once
-    (small_calls, small_size), (large_calls, large_size) = effort(50), effort(200)
-    assert large_calls < 4.4 * small_calls
-    assert large_size < 4.4 * small_size
 
 
 def _write_golden_files() -> None:

@@ -43,8 +43,12 @@ def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
     )
     assert (robot.joint("elbow").type, robot.link("elbowAxis").type) == ("Elbow", "ElbowAxis")
     names = connector_names(robot, Options(frames=("hand", "handFrame")))
-    assert names.axes == {"elbow": "elbowAxis_3", "wrist": "wristAxis", "rotational": "rotationalAxis_2"}
-    assert names.supports["elbow"] == "elbowSupport_2"
+    assert {name: drive.axis for name, drive in names.drives.items()} == {
+        "elbow": "elbowAxis_3",
+        "wrist": "wristAxis",
+        "rotational": "rotationalAxis_2",
+    }
+    assert names.drives["elbow"].support == "elbowSupport_2"
     assert names.frames["hand"] == "handFrame_2"
     assert names.couplings == {"follow": "followMimic_2"}
 
@@ -54,6 +58,7 @@ def test_no_two_components_have_one_name(robot: Robot) -> None:
     skeleton = KinematicTree.of(robot)
     names = connector_names(skeleton, Options(frames="all"))
     assert len(names.frames) == len(robot.links)
-    connectors = [*names.frames.values(), *names.axes.values(), *names.supports.values(), *names.couplings.values()]
+    connectors = [*names.frames.values(), *names.couplings.values()]
+    connectors += [name for drive in names.drives.values() for name in (drive.axis, drive.support)]
     every = [name.lower() for name in (*connectors, *(identifier.component for identifier in skeleton.names.values()))]
     assert len(every) == len(set(every))

@@ -81,7 +81,7 @@ def test_nothing_to_say(options: dict[str, Any]) -> None:
 
 def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
     note = (
-        "Run and Test do not drive `caster`: others have a transmission or ros2_control, these not even a limit; "
+        "Run and Test do not drive `caster`: no transmission, no ros2_control and no limit; "
         "if that is wrong, list all joints to drive in `driven` [passive-joints]"
     )
     assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]

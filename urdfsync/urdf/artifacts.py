@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.modelica.literals import html
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.record import NO_LIMITS, generic_data, record_data
 from urdfsync.urdf.model.robot import bench_data, joint_title, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, Collision, Joint, Link, Mesh, Robot, Visual
+from urdfsync.urdf.robot import JOINT_KINDS, Joint, Link, Robot
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -28,19 +27,17 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
     tree = _tree(robot, target)
+    names, structure = connector_names(tree, options), tree.structure()
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        name, benches = target.name, bench_data(tree, target, options)
-        files.append(_of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(robot, target, options)))
+        name, benches = target.name, bench_data(tree, names, target, options)
+        files.append(_of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(structure, names, target, options)))
         files.append(_of_robot(f"{name}Run.mo", Role.MODEL, "run", benches))
         files.append(_of_robot(f"{name}Test.mo", Role.MODEL, "test", benches))
-        for link in robot.links:
-            shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
-            keys = [lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh)]
-            meshes = tuple((key, imports[key]) for key in keys if key in imports)
-            files += _link(link, tree.link(link.name), meshes, target.package, options)
-        for joint in robot.joints:
-            files += _joint(joint, tree.joint(joint.name), target.package)
+        for link in tree.links:
+            files += _link(link, tree.link(link.name), imports, target.package, options)
+        for joint, model in zip(tree.joints, structure.joints, strict=True):
+            files += _joint(joint, model, tree.joint(joint.name), target.package)
         if options.base == "floating":
             title, height = f"robot {target.name}", standing_height(tree, imports)
             stance = {"within": target.package, "record": f"{target.name}Stance", "title": title, "height": height}
@@ -49,7 +46,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         data = generic_data(tree, target, options)
         files.append(_of_robot(f"{target.name}Generic.mo", Role.MODEL, "generic", data))
     if "record" in options.approach:
-        data = record_data(robot.name, tree, imports, target, options)
+        data = record_data(robot.name, tree, names, imports, target, options)
         files.append(_of_robot(f"{data['record']}.mo", Role.RECORD, "record", data))
     return files
 
@@ -60,7 +57,9 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
     """
     around = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
-    data = record_data(robot.name, _tree(robot, around), {}, around, options) | {"record": target.name}
+    tree = _tree(robot, around)
+    data = record_data(robot.name, tree, connector_names(tree, options), {}, around, options)
+    data["record"] = target.name
     return _of_robot(f"{target.name}.mo", Role.RECORD, "record", data)
 
 
@@ -118,15 +117,12 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
         yield Order(f"{folder}/package.order", tuple(n for i in identifiers for n in (i.type, i.record)))
 
 
-# These two serve the rows "one mass changed in the daemon": nearly all links and joints are as they were. Equal values
-# have the same text, since a zero in Modelica has no sign.
-@functools.lru_cache(maxsize=20_000)
 def _link(
-    link: Link, name: Identifier, meshes: tuple[tuple[str, Import], ...], package: str, options: Options
+    link: Link, name: Identifier, imports: Mapping[str, Import], package: str, options: Options
 ) -> tuple[Artifact, Artifact]:
     """Return record and model of a link."""
     owner = f"link {link.name}"
-    visuals, collisions = link_shapes(link, dict(meshes), package, options)
+    visuals, collisions = link_shapes(link, imports, package, options)
     named = {
         "within": f"{package}.Links",
         "type": name.type,
@@ -143,9 +139,8 @@ def _link(
     )
 
 
-@functools.lru_cache(maxsize=20_000)
-def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, Artifact]:
-    """Return record and model of a joint."""
+def _joint(joint: Joint, structure: Joint, name: Identifier, package: str) -> tuple[Artifact, Artifact]:
+    """Return record and model of a joint; `structure` is the joint without numbers."""
     owner = f"joint {joint.name}"
     named = {
         "within": f"{package}.Joints",
@@ -156,7 +151,7 @@ def _joint(joint: Joint, name: Identifier, package: str) -> tuple[Artifact, Arti
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
-    model = {"dynamics": joint.dynamics is not None, "note": note}
+    model = {"dynamics": structure.dynamics is not None, "note": note}
     template = f"joint/{joint.type}"
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),

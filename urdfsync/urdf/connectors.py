@@ -1,4 +1,4 @@
-"""Names of what a robot has beside its links and joints: connectors and couplings in the model, visuals in the record.
+"""Names of what a robot has beside its links and joints: connectors and couplings, variables of Run, visuals.
 
 Such a name is made from the name of its element. Where an element has that name already, the connector gives way,
 with a number; so a new connector never renames an element, whose name is that of a file.
@@ -6,29 +6,47 @@ with a number; so a new connector never renames an element, whose name is that o
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import msgspec
 
-from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.drives import can_be_driven, driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import MOTION_KINDS, Motion
+
+_VARIABLES: Mapping[Motion, tuple[str, str]] = {"rotational": ("phi", "tau"), "translational": ("s", "f")}
+"""How the names of position and effort end."""
+
+
+class Drive(msgspec.Struct, frozen=True):
+    """Names by which a joint that can be driven is connected."""
+
+    motion: Motion
+    axis: str
+    """The flange that moves."""
+    support: str
+    """The flange of the drive's housing."""
+    position: str | None
+    """Run's input; None if Run does not drive the joint, or has all positions in one vector."""
+    effort: str | None
+    """Run's output; None if Run does not drive the joint."""
 
 
 class Connectors(msgspec.Struct, frozen=True):
-    """Component names in the robot model, by the URDF name of the link or joint that they belong to."""
+    """Names of components, by the URDF name of the link or joint that they belong to, in canonical order."""
 
     frames: dict[str, str]
     """Of links: the leaves, and those that the options name."""
-    axes: dict[str, str]
+    drives: dict[str, Drive]
     """Of joints that can be driven."""
-    supports: dict[str, str]
-    """Of the same joints: where the housings of their drives are."""
     couplings: dict[str, str]
     """Of joints that follow another one."""
 
 
 def connector_names(tree: KinematicTree, options: Options) -> Connectors:
-    """Return the names for a robot, in canonical order.
+    """Return the names for a robot.
 
     Names in the option `frames` that are no link are left out: `check_options` reports them.
     """
@@ -37,11 +55,20 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
-    driven = [joint.name for joint in tree.joints if can_be_driven(joint)]
+    driven, drives = driven_joints(tree.joints, options), {}
+    for joint in filter(can_be_driven, tree.joints):
+        identifier, motion, is_driven = tree.joint(joint.name), MOTION_KINDS[joint.type], joint.name in driven
+        position, effort = (f"{identifier.component}_{variable}" for variable in _VARIABLES[motion])
+        drives[joint.name] = Drive(
+            motion,
+            free_name(identifier, "Axis", taken),
+            free_name(identifier, "Support", taken),
+            position if is_driven and options.inputs == "names" else None,
+            effort if is_driven else None,
+        )
     return Connectors(
         {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
-        {name: free_name(tree.joint(name), "Axis", taken) for name in driven},
-        {name: free_name(tree.joint(name), "Support", taken) for name in driven},
+        drives,
         {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
     )
 

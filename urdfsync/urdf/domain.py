@@ -57,10 +57,11 @@ class UrdfDomain(Domain):
         robot, diagnostics, lines = read_robot(content, file, cross_check=cross_check)
         if robot is None:
             return Reading(None, diagnostics, lines)
+        tree = KinematicTree.of(robot)
         if "record" in options.approach:
-            diagnostics += tuple(out_of_scope(robot, file, lines))
+            diagnostics += tuple(out_of_scope(tree, file, lines))
         if "package" in options.approach:
-            diagnostics += tuple(massless_passive_joints(robot, options, file, lines))
+            diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
         return Reading(to_snapshot(robot), diagnostics, lines)
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
@@ -154,7 +155,8 @@ class UrdfDomain(Domain):
         if reading.snapshot is None:
             return None
         robot = from_snapshot(reading.snapshot)
-        return Standalone(package.record(robot, target, options), tuple(out_of_scope(robot, file, reading.lines)))
+        findings = out_of_scope(KinematicTree.of(robot), file, reading.lines)
+        return Standalone(package.record(robot, target, options), tuple(findings))
 
     def experiment(
         self, content: bytes, file: str, target: Target, options: Options, complete: bool

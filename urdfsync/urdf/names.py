@@ -6,11 +6,9 @@ Links and joints of a robot share one namespace, because both become components 
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import re
 from collections.abc import Iterable, Mapping
-from types import MappingProxyType
 
 import msgspec
 
@@ -96,12 +94,6 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     A name keeps its spelling if that is free and not reserved; links go before joints, names that
     need no change before others. What must give way gets `_link` or `_joint`, then a number.
     """
-    return _identify(frozenset(names), tuple(taken))
-
-
-# A build asks five times, mostly for the same names: of 1,000 links each time takes 11 of the 250 ms of a changed mass.
-@functools.lru_cache(maxsize=2)
-def _identify(names: frozenset[Key], taken: tuple[str, ...]) -> Mapping[Key, Identifier]:
     spelled = {key: spell(key[1], key[0]) for key in names}
     keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
     used = {name.lower() for name in taken}
@@ -120,7 +112,7 @@ def _identify(names: frozenset[Key], taken: tuple[str, ...]) -> Mapping[Key, Ide
             candidate = f"{stem}_{numbers[stem.lower()]}"
         used.add(candidate.lower())
         result[key] = Identifier(candidate)
-    return MappingProxyType(result)
+    return result
 
 
 def _is_free(spelled: str, used: set[str]) -> bool:

@@ -43,7 +43,7 @@ def check_options(
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
     passive = sorted(passive_joints(joints), key=natural_key) if options.driven is None else []
     if passive:
-        message = f"Run and Test do not drive {', '.join(f'`{name}`' for name in passive)}: "
-        message += "others have a transmission or ros2_control, these not even a limit"
+        listed = ", ".join(f"`{name}`" for name in passive)
+        message = f"Run and Test do not drive {listed}: no transmission, no ros2_control and no limit"
         hint = "if that is wrong, list all joints to drive in `driven`"
         yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)

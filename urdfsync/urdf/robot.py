@@ -199,6 +199,30 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """Whether a `<transmission>` or `<ros2_control>` of the robot drives it."""
 
 
+def effective(joint: Joint) -> Joint:
+    """Return the joint without what has no effect on one of its type. Records are made from this."""
+    kind = JOINT_KINDS[joint.type]
+    limit = joint.limit if kind.motion else None
+    if limit is not None and not kind.has_limits:
+        limit = Limit(effort=limit.effort, velocity=limit.velocity)
+    return msgspec.structs.replace(
+        joint,
+        axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
+        limit=limit,
+        dynamics=joint.dynamics if kind.has_axis else None,
+        mimic=joint.mimic if kind.motion else None,
+        calibration=joint.calibration if kind.motion else None,
+        safety_controller=joint.safety_controller if kind.motion else None,
+    )
+
+
+def structure(joint: Joint) -> Joint:
+    """Return an effective joint without its numbers. Models are made from this."""
+    dynamics = None if joint.dynamics is None else Dynamics()
+    mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, dynamics=dynamics, mimic=mimic)
+
+
 class Extension(msgspec.Struct, frozen=True, gc=False):
     """An element that urdfsync keeps but does not model: for example transmission, gazebo or sensor.
 

@@ -12,7 +12,6 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 
 from __future__ import annotations
 
-import functools
 import json
 import operator
 from collections.abc import Mapping
@@ -35,10 +34,8 @@ def to_snapshot(robot: Robot) -> Snapshot:
     return {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
 
 
-# Serves the rows "one mass changed in the daemon": nearly all elements are as they were.
-@functools.lru_cache(maxsize=20_000)
 def _plain(element: Link | Joint) -> Mapping[str, Any]:
-    """Return an element as plain data but for its name. Snapshots share it, so nobody may change it."""
+    """Return an element as plain data but for its name."""
     data: dict[str, Any] = json.loads(msgspec.json.encode(element, order="sorted"), object_hook=_without_none)
     del data["name"]
     if not data.get("actuated", True):

@@ -10,7 +10,7 @@ from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.robot import MOTION_KINDS
 
 _HINTS = {
     "planar": "write it as two prismatic joints and a continuous one, or use the package approach",
@@ -20,15 +20,15 @@ _HINTS = {
 
 
 def massless_passive_joints(
-    robot: Robot, options: Options, file: str, lines: Mapping[str, int]
+    tree: KinematicTree, options: Options, file: str, lines: Mapping[str, int]
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each joint of the package that is not driven and moves nothing where the robot starts.
 
     Driven joints count as fixed: they move as prescribed, so a passive joint behind one or before one gets no motion
     from it that would undo its own. `file` and `lines` are those of `RobotReading`.
     """
-    passive = {joint.name for joint in robot.joints if can_be_driven(joint)} - driven_joints(robot.joints, options)
-    for name in find_massless_joints(KinematicTree.of(robot), passive) if passive else ():
+    passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - driven_joints(tree.joints, options)
+    for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
             message = f"joint '{name}' is not driven and moves no mass where it starts, so nothing determines its "
             message += "motion in Run and Test"
@@ -37,7 +37,7 @@ def massless_passive_joints(
             yield Diagnostic(Severity.WARNING, "passive-moves-no-mass", message, file, line, hint=hint)
 
 
-def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
+def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
     """Yield a warning for each joint that leaves the record without tables, or else for each that can't move freely.
 
     `file` and `lines` are those of `RobotReading`.
@@ -46,13 +46,12 @@ def out_of_scope(robot: Robot, file: str, lines: Mapping[str, int]) -> Iterator[
     def warning(code: str, message: str, hint: str, element: str) -> Diagnostic:
         return Diagnostic(Severity.WARNING, code, message, file, lines.get(element, 0), hint=hint)
 
-    unfit = obstacles(robot.joints)
+    unfit = obstacles(tree.joints)
     for joint in unfit:
         message = f"the generic robot has no {joint.type} joints, so there are no tables for it: joint '{joint.name}'"
         yield warning(f"{joint.type}-not-generic", message, _HINTS[joint.type], f"joint {joint.name}")
     if unfit:
         return
-    tree = KinematicTree.of(robot)
     inertials = [link.inertial for link in tree.links if link.inertial is not None]
     has_mass = any(one.mass or one.inertia.ixx or one.inertia.iyy or one.inertia.izz for one in inertials)
     if not has_mass and any(joint.type in MOTION_KINDS for joint in tree.joints):

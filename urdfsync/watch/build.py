@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 from collections.abc import Iterator, Sequence
 
 from urdfsync import registry
@@ -67,7 +66,6 @@ def warm_up(config: Config, robots: Sequence[RobotConfig]) -> None:
     So libraries are imported and templates compiled while nobody waits: without it the first change in the daemon
     takes about a second more than the rows "one mass changed in the daemon" of docs/speed.md allow.
     """
-    importlib.import_module("deepdiff")  # only the first difference imports it
     with contextlib.suppress(OSError):  # a source that is missing is told when the robot is built
         robots = sorted(robots, key=lambda robot: robot.source.stat().st_size, reverse=True)
     for robot in {robot.domain: robot for robot in robots}.values():

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import msgspec
 import pytest
 from support.urdfs import joint, link, links, version
 
-from urdfsync.domain import ElementKey, Target, Version
+from urdfsync.domain import Effect, ElementKey, Target, Version
 from urdfsync.urdf.diff.effects import effects, interface
 from urdfsync.urdf.options import Options
 
@@ -31,7 +32,7 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
         joint("jc", "prismatic", "base", "c"),
     )
     assert changed(old, new) == {
-        "joint jc / axis and support": ("jcAxis (rotational)", "jcAxis (translational)"),
+        "joint jc / motion": ("rotational", "translational"),
         "joint jc / position in Run": ("jc_phi", "jc_s"),
         "joint jc / effort in Run": ("jc_tau", "jc_f"),
     }
@@ -42,9 +43,51 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
     joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
     drive = '<transmission name="t"><joint name="wheel"/></transmission>'
     old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
+    hint = 'list "caster" in `driven`, with all others that are driven, to keep it'
+    assert {one.hint for one in interface(old, new, {}, TARGET, Options())} == {hint}
+    vector = changed(old, new, inputs="vector")
+    assert vector["robot / order of positions"] == ("caster, wheel", "wheel")
+    assert changed(new, old, inputs="vector")["robot / order of positions"] == ("wheel", "caster, wheel")
     gone = {"joint caster / position in Run": "caster_phi", "joint caster / effort in Run": "caster_tau"}
     assert changed(old, new) == {path: (name, None) for path, name in gone.items()}
     assert changed(new, old) == {path: (None, name) for path, name in gone.items()}
+
+
+def test_a_link_that_is_no_leaf_any_more_loses_its_frame_unless_it_is_listed() -> None:
+    first = joint("ja", "fixed", "base", "a")
+    old, new = version(*STAR[:2], first), version(*STAR[:3], first, joint("jb", "fixed", "a", "b"))
+    hint = 'list "a" in `frames` to keep it'
+    assert interface(old, new, {}, TARGET, Options()) == [Effect(("link a", "frame"), "aFrame", None, hint=hint)]
+    assert interface(new, old, {}, TARGET, Options()) == [Effect(("link a", "frame"), None, "aFrame")]
+    assert changed(old, new, frames=("a",)) == {}
+
+
+def test_a_joint_that_gets_an_axis_gets_no_more_and_one_that_loses_it_loses_all() -> None:
+    still, turning = (version(*STAR[:2], joint("j", kind, "base", "a")) for kind in ("fixed", "continuous"))
+    flanges = {"joint j / axis": "jAxis", "joint j / support": "jSupport"}
+    assert changed(still, turning) == {path: (None, name) for path, name in flanges.items()}
+    gone = flanges | {"joint j / position in Run": "j_phi", "joint j / effort in Run": "j_tau"}
+    assert changed(turning, still) == {path: (name, None) for path, name in gone.items()}
+    assert {one.hint for one in interface(turning, still, {}, TARGET, Options())} == {""}
+
+
+def test_an_element_that_goes_is_no_news_about_its_connectors() -> None:
+    old, new = version(*STAR[:2], joint("j", "continuous", "base", "a")), version(STAR[0])
+    assert changed(old, new) == {"link base / frame": (None, "baseFrame")}
+    assert changed(old, new, inputs="vector")["robot / order of positions"] == ("j", None)
+
+
+def test_positions_by_name_take_the_place_of_a_vector() -> None:
+    robot = version(*STAR[:2], joint("j", "continuous", "base", "a"))
+    assert changed(msgspec.structs.replace(robot, options=Options(inputs="vector")), robot) == {
+        "joint j / position in Run": (None, "j_phi"),
+        "robot / input of Run": ("positions", None),
+    }
+
+
+def test_without_the_package_approach_the_model_goes() -> None:
+    old = msgspec.structs.replace(version(STAR[0]), options=Options())
+    assert changed(old, old, approach=("record",)) == {"robot / model": ("Robot", None)}
 
 
 def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
@@ -64,6 +107,10 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
         "joint w / position in Run": ("v_phi", "w_phi"),
         "joint w / effort in Run": ("v_tau", "w_tau"),
     }
+    passive = interface(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}, TARGET, Options(driven=()))
+    assert [(one.path[1], one.hint) for one in passive] == [("axis", ""), ("support", "")]
+    driven = interface(two("u", "v"), two("u", "w"), {("joint", "v"): "w"}, TARGET, Options())
+    assert {one.hint for one in driven} == {""}
 
 
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
@@ -75,13 +122,14 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
         joint("jc", "continuous", "base", "b"),
     )
     assert changed(old, new) == {}
-    assert changed(old, new, inputs="vector") == {"robot / positions": ("jb, jc", "ja, jb, jc")}
+    assert changed(old, old, inputs="vector") == {}
+    assert changed(old, new, inputs="vector") == {"robot / order of positions": ("jb, jc", "ja, jb, jc")}
     behind = version(
         *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
     )
-    assert changed(old, behind, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jc, jd")}
+    assert changed(old, behind, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jc, jd")}
     another = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jz", "prismatic", "base", "b"))
-    assert changed(old, another, inputs="vector") == {"robot / positions": ("jb, jc", "jb, jz")}
+    assert changed(old, another, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jz")}
 
 
 def test_the_record_approach_has_no_names_to_connect_to() -> None:
@@ -102,3 +150,4 @@ def test_mass_and_centre_of_mass_of_both_versions() -> None:
     assert centre.old == pytest.approx((1.5, 0, 0.75), abs=1e-15)
     assert centre.new == pytest.approx((1.0, 0, 0.5), abs=1e-15)
     assert [effect.old for effect in effects(massless, heavy)] == [0.0, None]
+    assert effects(version(link("base", 0.5, center="1 0 0")), heavy)[1].old == (1.0, 0.0, 0.0)

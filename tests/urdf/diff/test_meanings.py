@@ -34,7 +34,7 @@ ROBOT = urdfs.robot(
       <collision><geometry><sphere radius="0.1"/></geometry></collision>
       <collision><geometry><mesh filename="arm.stl"/></geometry></collision>
     </link>""",
-    *(f'<link name="{name}"/>' for name in ("one", "two", "three", "four", "five")),
+    *(f'<link name="{name}"/>' for name in ("one", "two", "three", "four", "five", "six", "seven", "eight")),
     """<joint name="turn" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
       <limit lower="-1" upper="1" effort="5" velocity="2"/><dynamics damping="0.1" friction="0.2"/>
       <safety_controller k_velocity="3"/><calibration rising="0.5"/></joint>""",
@@ -46,6 +46,14 @@ ROBOT = urdfs.robot(
     """<joint name="glide" type="planar"><parent link="base"/><child link="four"/>
       <dynamics damping="0.1"/></joint>""",
     '<joint name="weld" type="fixed"><parent link="base"/><child link="five"/></joint>',
+    *(
+        urdfs.joint(name, kind, "base", child, inside=[urdfs.mimic(leader)])
+        for name, kind, child, leader in (
+            ("lean", "continuous", "six", "turn"),
+            ("rest", "continuous", "seven", "weld"),
+            ("bolt", "fixed", "eight", "turn"),
+        )
+    ),
     '<gazebo reference="one"><mu1>1</mu1></gazebo>',
 )
 
@@ -130,6 +138,9 @@ CASES = """
     joint slide / limit / effort = 1.0                      changed N parameter
     joint slide / dynamics / friction = 1.0                 changed N parameter
     joint slide / mimic / multiplier = 1.0                  changed m/rad parameter
+    joint lean / mimic / multiplier = 2.0                   changed parameter
+    joint rest / mimic / multiplier = 2.0                   changed parameter
+    joint bolt / mimic / multiplier = 2.0                   changed unmodelled
     joint slide / mimic / offset = 1.0                      changed m parameter
     joint slide / mimic / joint = "spin"                    changed structural
     joint slide / mimic                                     removed structural
@@ -150,11 +161,11 @@ def test_an_edit_is_one_change_in_the_words_of_urdf(case: str) -> None:
 
 def test_what_is_named_by_its_element_alone_came_or_went() -> None:
     def add(data: Data) -> None:
-        data["links"]["six"] = {"visuals": [], "collisions": []}
-        data["joints"]["six"] = {**data["joints"]["weld"], "child": "six"}
+        data["links"]["nine"] = {"visuals": [], "collisions": []}
+        data["joints"]["nine"] = {**data["joints"]["weld"], "child": "nine"}
 
     found = [(str(change), change.kind, change.change_class) for change in changes(add)]
-    assert found == [("link six", ADDED, STRUCTURAL), ("joint six", ADDED, STRUCTURAL)]
+    assert found == [("link nine", ADDED, STRUCTURAL), ("joint nine", ADDED, STRUCTURAL)]
 
 
 def test_another_kind_of_geometry_is_structural() -> None:
@@ -203,12 +214,51 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
     assert [change[2] for change in mesh_change(old, new, FLOATING)] == [STRUCTURAL]
 
 
-@pytest.mark.parametrize(("meshes", "reach"), [({MESH: import_("a")}, STRUCTURAL), ({}, UNMODELLED), (None, PARAMETER)])
-def test_another_mesh_file_matters_as_far_as_it_is_found(meshes: dict[str, Import] | None, reach: ChangeClass) -> None:
+@pytest.mark.parametrize(("meshes", "options", "reach"), [
+    ({MESH: import_("a")}, FIXED, STRUCTURAL),
+    ({}, FIXED, UNMODELLED),
+    (None, FIXED, PARAMETER),
+    (None, Options(meshes="skip"), UNMODELLED),
+])  # fmt: skip
+def test_another_mesh_file_matters_as_far_as_it_is_found(
+    meshes: dict[str, Import] | None, options: Options, reach: ChangeClass
+) -> None:
     edit = put("link base / visual 2 / geometry / filename", "other.stl")
     old, new = (msgspec.structs.replace(version(e), imports=meshes) for e in (lambda _: None, edit))
-    found = compare(old, new, DOMAIN, FIXED).changes
+    found = compare(old, new, DOMAIN, options).changes
     assert [(str(c), c.change_class) for c in found] == [("link base / visual 2 / geometry / filename", reach)]
+
+
+def test_a_mesh_that_comes_or_goes_with_its_shapes_is_no_change_by_itself() -> None:
+    def other(data: Data) -> None:
+        for group in ("visuals", "collisions"):
+            data["links"]["base"][group][1]["geometry"]["filename"] = "other.stl"
+
+    old, new = version(found=import_("a")), version(other)
+    new = msgspec.structs.replace(new, imports={lookup.key(Mesh("other.stl")): import_("b")})
+    found = {str(change): change.change_class for change in compare(old, new, DOMAIN, FIXED).changes}
+    shapes = ("visual", "collision")
+    assert found == {f"link base / {shape} 2 / geometry / filename": PARAMETER for shape in shapes}
+
+
+def test_a_mesh_that_is_found_is_one_change_and_the_place_of_its_shape_another() -> None:
+    new = version(put("link base / visual 2 / origin / xyz[0]", 1.0), import_("a"))
+    found = {str(change): change.change_class for change in compare(version(), new, DOMAIN, FIXED).changes}
+    assert found == {"mesh arm.stl / content": STRUCTURAL, "link base / visual 2 / origin / xyz[0]": PARAMETER}
+
+
+def test_each_of_several_changes_has_its_own_class() -> None:
+    def edit(data: Data) -> None:
+        shape, joint = data["links"]["base"]["visuals"][0], data["joints"]["turn"]
+        shape["geometry"], joint["type"] = {"kind": "sphere", "radius": 1.0}, "continuous"
+        shape["origin"]["xyz"][0] = joint["origin"]["xyz"][0] = 1.0
+
+    found = {str(change): change.change_class for change in changes(edit)}
+    assert {path: one for path, one in found.items() if one is PARAMETER} == {
+        "link base / visual 1 / origin / xyz[0]": PARAMETER,
+        "joint turn / origin / xyz[0]": PARAMETER,
+    }
+    assert found["link base / visual 1 / geometry / kind"] is found["joint turn / type"] is STRUCTURAL
 
 
 CASTERS = (

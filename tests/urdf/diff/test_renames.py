@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import copy
-import cProfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from random import Random
 
@@ -174,31 +173,3 @@ def test_the_renames_among_the_histories(corpus: Path) -> None:
                 counts = kinds.count("link"), kinds.count("joint")
                 assert counts == REAL.get((folder.name, file.stem), (0, 0)), file
             old = new or old
-
-
-def chain(prefix: str, length: int) -> Snapshot:
-    links = [link(f"{prefix}{k}", 1.0 + k) for k in range(length)]
-    joints = [joint(f"{prefix}j{k}", f"{prefix}{k - 1}", f"{prefix}{k}") for k in range(1, length)]
-    return snapshot(*links, *joints)
-
-
-def comb(prefix: str, length: int) -> Snapshot:
-    """A chain in which each link has two more joints that look the same."""
-    plain = chain(prefix, length)
-    twins: list[Link | Joint] = []
-    for k in range(length):
-        for side in "lr":
-            twins += [link(f"{prefix}{side}{k}"), joint(f"{prefix}j{side}{k}", f"{prefix}{k}", f"{prefix}{side}{k}")]
-    more = snapshot(*twins)
-    return {**plain, "links": {**plain["links"], **more["links"]}, "joints": {**plain["joints"], **more["joints"]}}
-
-
-@pytest.mark.parametrize("shape", [chain, comb])
-def test_the_work_is_linear_in_links(shape: Callable[[str, int], Snapshot]) -> None:
-    works = []
-    for length in (500, 2000):
-        old, new, profile = shape("a", length), shape("b", length), cProfile.Profile()
-        found = profile.runcall(find_renames, old, new)
-        assert len(found) == 2 * length - 1
-        works.append(sum(entry.callcount for entry in profile.getstats()))
-    assert works[1] <= 4.2 * works[0]

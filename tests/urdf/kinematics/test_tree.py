@@ -9,13 +9,13 @@ from support.robots import robots
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
-from urdfsync.urdf.robot import Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Link, Mimic, Robot, effective
 
 
 def walk(robot: Robot, link: str) -> Iterator[Joint]:
     """Joints below a link, as one would follow them with a finger."""
     for joint in sorted((j for j in robot.joints if j.parent == link), key=lambda j: natural_key(j.name)):
-        yield joint
+        yield effective(joint)
         yield from walk(robot, joint.child)
 
 

@@ -11,6 +11,7 @@ from support.packages import record_components, record_text
 from support.robots import robots, tree
 
 from urdfsync.domain import Target
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import record_data
 from urdfsync.urdf.options import Options
@@ -33,7 +34,9 @@ from urdfsync.urdf.robot import (
 
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
-    found = record_data("", KinematicTree.of(robot), {}, Target("Arm", "Arm"), Options())
+    skeleton, options = KinematicTree.of(robot), Options()
+    connectors = connector_names(skeleton, options)
+    found = record_data("", skeleton, connectors, {}, Target("Arm", "Arm"), options)
     names = [link["name"] for link in found["links"]]
     matrix = found["structure"]["connection_matrix"]
     assert {(names[parent - 1], names[child - 1]) for parent, child in matrix} == {

@@ -10,7 +10,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.parse import source
 from urdfsync.urdf.parse.fields import parse_numbers
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import (
@@ -141,32 +140,6 @@ def test_lines_of_elements() -> None:
         "joint turn / limit": 23,
     }
     assert {path: lines[path] for path in expected} == expected
-
-
-AFTER_ARM = {
-    "again": ARM,
-    "further down": ARM.replace("<material", "\n\n<material", 1),
-    "another mass": ARM.replace("+2.", "3"),
-    "a fault in a link": ARM.replace("+2.", "two"),
-    "a link gone": ARM.replace('<link name="base"/>', ""),
-    "a link twice": ARM.replace('<link name="base"/>', '<link name="base"/>\n<link name="base"/>'),
-    "moved": ARM.replace('<link name="base"/>', "").replace("</robot>", '<link name="base"/></robot>'),
-    "another colour": ARM.replace("0 0 1 1", "1 0 0 1"),
-    "driven": ARM.replace("</robot>", '<transmission><joint name="turn"/></transmission></robot>'),
-    "attributes without blanks": ARM.replace(
-        "<robot", '<!DOCTYPE robot [<!ATTLIST visual name NMTOKEN "a">]>\n<robot', 1
-    ).replace('"tube"', '" tube "'),
-}
-
-
-@pytest.mark.parametrize("text", AFTER_ARM.values(), ids=AFTER_ARM)
-def test_a_file_is_read_as_if_no_other_had_been_read_before(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    read(ARM), read(ARM.replace('"tube"', '" tube "'))
-    after = read(text)
-    monkeypatch.setattr(source, "_parts", {})
-    alone = read(text)
-    assert after == alone
-    assert dict(after.lines) == dict(alone.lines)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32"])

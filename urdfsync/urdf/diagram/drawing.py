@@ -124,10 +124,9 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
         *_lines(diagram),
         *(f'<circle class="dot-{kind}" cx="{x}" cy="{-y}" r="1.2"/>' for kind, (x, y) in _junctions(diagram)),
     ]
-    motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.name in names.axes}
-    axes = {connector: motions[name] for name, connector in names.axes.items()}
-    supports = {connector: motions[name] for name, connector in names.supports.items()}
-    driven = {tree.joint(name).component for name in names.axes}
+    axes = {drive.axis: drive.motion for drive in names.drives.values()}
+    supports = {drive.support: drive.motion for drive in names.drives.values()}
+    driven = {tree.joint(name).component for name in names.drives}
     for name, placement in diagram.placements.items():
         if name in parts:
             body += _component(name, *parts[name], placement, is_driven=name in driven)

@@ -145,7 +145,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     tracks_above = [_tracks(above[row]) for row in range(last_row + 1)]
     tracks_left = [_tracks(left[column]) for column in range(last_column + 1)]
 
-    with_axes = {joints[name][0] for name in names.axes}
+    with_axes = {joints[name][0] for name in names.drives}
     with_couplings = {joints[name][0] for name in names.couplings}
     parents = {joint.parent for joint in tree.joints}
     with_frames = {links[name][0] for name in names.frames if name in parents}
@@ -198,10 +198,10 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
     links = {name: Placement.around((x + _LINK_X, y - _LINK_Y)) for name, (x, y) in grid.links.items()}
     joints = {name: Placement.around((x + _JOINT_X, y)) for name, (x, y) in grid.joints.items()}
     placements = {"frame_a": Placement.around(FRAME_A, _FRAME)}
-    for name, axis in names.axes.items():
+    for name, drive in names.drives.items():
         (x, y), (support_x, _) = joints[name].centre, joints[name].port("support")
-        placements[axis] = Placement.around((x, y + _ABOVE), _CONNECTOR)
-        placements[names.supports[name]] = Placement.around((support_x - _ASIDE, y + _ABOVE), _CONNECTOR)
+        placements[drive.axis] = Placement.around((x, y + _ABOVE), _CONNECTOR)
+        placements[drive.support] = Placement.around((support_x - _ASIDE, y + _ABOVE), _CONNECTOR)
     leaves = {leaf.name for leaf in tree.leaves()}
     for name, frame in names.frames.items():
         if name in leaves:
@@ -239,11 +239,11 @@ def _lines(
             component = tree.joint(joint.name).component
             connect_frames(own, f"{component}.frame_a", name)
             connect_frames(f"{component}.frame_b", f"{tree.link(joint.child).component}.frame_a", joint.child)
-    for name, connector in names.axes.items():
+    for name, drive in names.drives.items():
         axis, support = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support"))
-        lines[axis, connector] = motions[name], (place(axis), place(connector))
-        (x, y), end = place(support), place(names.supports[name])
-        lines[support, names.supports[name]] = motions[name], _path([(x, y), (x, y + 2), (end[0], y + 2), end])
+        lines[axis, drive.axis] = drive.motion, (place(axis), place(drive.axis))
+        (x, y), end = place(support), place(drive.support)
+        lines[support, drive.support] = drive.motion, _path([(x, y), (x, y + 2), (end[0], y + 2), end])
     for joint, mimic in tree.followers():
         name, coupling = joint.name, names.couplings[joint.name]
         start, axis = f"{coupling}.follower", f"{tree.joint(name).component}.axis"
@@ -254,7 +254,7 @@ def _lines(
             start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[name]
             one, other = place(start), place(axis)
             bends = [(other[0], y)]
-            if leader in names.axes:  # its connector stands above the axis: pass it
+            if leader in names.drives:  # its connector stands above the axis: pass it
                 bends = [(other[0] + _ASIDE, y), (other[0] + _ASIDE, other[1] + 2), (other[0], other[1] + 2)]
             lines[start, axis] = motions[leader], _path([one, (x, one[1]), (x, y), *bends, other])
     return lines

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
-from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import driven_joints
+from urdfsync.urdf.connectors import Drive, connector_names
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Motion, Vector
+from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
-# How the names of variables of Run end: position and effort.
-_VARIABLES: Mapping[Motion, tuple[str, str]] = {"rotational": ("phi", "tau"), "translational": ("s", "f")}
-_FLANGES, _POSITION, _EFFORT = "axis and support", "position in Run", "effort in Run"
+_DRIVE = {"axis": "axis", "support": "support", "position": "position in Run", "effort": "effort in Run"}
+"""Fields of `Drive`, and what they are in a report."""
 
 
 def effects(old: Version, new: Version) -> Sequence[Effect]:
@@ -66,52 +64,42 @@ def interface(
         hint = 'list "package" in `approach` to keep it, with its connectors'
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
-    was, now = _names(before, earlier, renames), _names(after, options, {})
-    both = {f"{kind} {renames.get((kind, name), name)}" for kind, name in before.names}
-    both &= {f"{kind} {name}" for kind, name in after.names}
-    found = []
-    for element, part in dict.fromkeys((*was, *now)):
-        one, other = was.get((element, part)), now.get((element, part))
-        if one == other or element not in both:
-            continue
-        has_new_axis = was.get((element, "axis")) != now.get((element, "axis"))  # told by itself
-        if has_new_axis and (part == _FLANGES or (part in (_POSITION, _EFFORT) and (element, "axis") not in was)):
-            continue
-        name, hint = element.partition(" ")[2], ""
-        if part == "frame" and not other:
-            hint = f'list "{name}" in `frames` to keep it'
-        elif part in (_POSITION, _EFFORT) and (element, "axis") in now and (element, _EFFORT) not in now:
-            hint = f'list "{name}" in `driven`, with all others that are driven, to keep it'
-        found.append(Effect((element, part), one, other, hint=hint))
-    return [*found, *_vector(before, after, renames, earlier, options)]
-
-
-def _names(tree: KinematicTree, options: Options, renames: Mapping[ElementKey, str]) -> dict[tuple[str, str], str]:
-    """Return the names of connectors and variables of Run, by element under its new name and what they are."""
-    connectors, driven = connector_names(tree, options), driven_joints(tree.joints, options)
-    names = {(f"link {renames.get(('link', link), link)}", "frame"): frame for link, frame in connectors.frames.items()}
-    for joint in (joint for joint in tree.joints if joint.name in connectors.axes):
-        element, motion = f"joint {renames.get(('joint', joint.name), joint.name)}", MOTION_KINDS[joint.type]
-        names[element, "axis"] = connectors.axes[joint.name]
-        names[element, "support"] = connectors.supports[joint.name]
-        names[element, _FLANGES] = f"{connectors.axes[joint.name]} ({motion})"
-        component, (position, effort) = tree.joint(joint.name).component, _VARIABLES[motion]
-        if joint.name in driven and options.inputs == "names":
-            names[element, _POSITION] = f"{component}_{position}"
-        if joint.name in driven:
-            names[element, _EFFORT] = f"{component}_{effort}"
-    return names
-
-
-def _vector(
-    before: KinematicTree, after: KinematicTree, renames: Mapping[ElementKey, str], earlier: Options, options: Options
-) -> Sequence[Effect]:
-    """Return what happens to positions in one vector."""
-    was, now = driven_joints(before.joints, earlier), driven_joints(after.joints, options)
-    if earlier.inputs == "names" or not was:
-        return ()
+    was, now = connector_names(before, earlier), connector_names(after, options)
+    found: list[Effect] = []
+    for link in before.links:
+        name = renames.get(("link", link.name), link.name)
+        if ("link", name) in after.names:
+            found += _of_frame(name, was.frames.get(link.name), now.frames.get(name))
+    for joint in before.joints:
+        name = renames.get(("joint", joint.name), joint.name)
+        if ("joint", name) in after.names:
+            found += _of_drive(name, was.drives.get(joint.name), now.drives.get(name))
+    positions = [renames.get(("joint", name), name) for name, drive in was.drives.items() if drive.effort]
+    if earlier.inputs == "names" or not positions:
+        return found
     if options.inputs == "names":
-        return [Effect(("robot", "input of Run"), "positions", None)]
-    old = [renames.get(("joint", joint.name), joint.name) for joint in before.joints if joint.name in was]
-    new = [joint.name for joint in after.joints if joint.name in now]
-    return [Effect(("robot", "positions"), ", ".join(old), ", ".join(new) or None)] if old != new else ()
+        return [*found, Effect(("robot", "input of Run"), "positions", None)]
+    new_positions = [name for name, drive in now.drives.items() if drive.effort]
+    if positions != new_positions:
+        found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions) or None))
+    return found
+
+
+def _of_frame(link: str, old: str | None, new: str | None) -> Iterator[Effect]:
+    if old != new:
+        hint = "" if new else f'list "{link}" in `frames` to keep it'
+        yield Effect((f"link {link}", "frame"), old, new, hint=hint)
+
+
+def _of_drive(joint: str, old: Drive | None, new: Drive | None) -> Iterator[Effect]:
+    """Yield what becomes of the names of one joint. The variables of Run of a joint that gets an axis are left out."""
+    element, hint = f"joint {joint}", ""
+    if old and new and old.axis == new.axis and old.motion != new.motion:
+        yield Effect((element, "motion"), old.motion, new.motion)
+    if new and not new.effort:
+        hint = f'list "{joint}" in `driven`, with all others that are driven, to keep it'
+    for field, part in _DRIVE.items():
+        one, other = getattr(old, field, None), getattr(new, field, None)
+        is_of_run = field in ("position", "effort")
+        if one != other and (old or not is_of_run):
+            yield Effect((element, part), one, other, hint=hint if is_of_run else "")

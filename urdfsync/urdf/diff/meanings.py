@@ -1,24 +1,29 @@
 """Classify the differences of two robots, and say them in the words of URDF.
 
-The classes follow from what the templates print: models hold structure and names, records hold numbers.
+The class of a difference follows from the data of templates: it is structural if data of models would differ with this
+value alone exchanged, a parameter if only data of records would, and else unmodelled.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
+
+import msgspec
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, JointType, Mesh, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Motion, Visual, effective, structure
 
 _Fields: TypeAlias = Sequence[str | int]
-_Shapes: TypeAlias = Sequence[tuple[str, Mapping[str, Any]]]
-"""Shapes, each with its group: `visuals` or `collisions`."""
+_Shapes: TypeAlias = tuple[Visual | Collision, ...]
+"""One shape, or none."""
+_Mentions: TypeAlias = Sequence[tuple[str, tuple[_Shapes, _Shapes]]]
+"""Shapes of both versions, each with its group: `visuals` or `collisions`."""
 
-_STRUCTURE = frozenset({("type",), ("parent",), ("child",), ("dynamics",), ("mimic",), ("mimic", "joint")})
-"""Parts of a joint that its model says, as far as they are modelled; records have the rest."""
+_GROUPS: Mapping[str, Any] = {"visuals": tuple[Visual, ...], "collisions": tuple[Collision, ...]}
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
@@ -50,21 +55,25 @@ def describe(
 ) -> Sequence[Meaning | None]:
     """Return the meaning of each difference of two comparable versions; None for one that others explain."""
     versions = old, new
-    shared = _shared_meshes(old, new) if any(one.path[0] == "imports" for one in differences) else {}
+    mentions = _mentions(versions) if any(one.path[0] == "imports" for one in differences) else {}
     found: list[Meaning | None] = []
     for difference in differences:
         match difference.path:
             case ("imports", str(key)):
-                found.append(_of_import(key, shared[key], versions, options) if key in shared else None)
+                found.append(_of_import(key, mentions[key], versions, options) if key in mentions else None)
+            case ("links" | "joints" as part, str(name)):
+                found.append(Meaning((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL))
+            case ("links", str(name), "visuals" | "collisions" as group, int(index), *inside):
+                found.append(_of_shape(name, group, index, inside, versions, options))
             case ("links", str(name), *fields):
-                found.append(_of_link(name, fields, versions, options))
+                found.append(Meaning(_words(f"link {name}", fields), ChangeClass.PARAMETER, _unit(fields)))
             case ("joints", str(name), "drive"):
                 # A drive that comes or goes follows from type or mimic, one that is replaced may follow from an option.
                 by_source = options.driven is None and "package" in options.approach
                 is_change = by_source and difference.kind is ChangeKind.CHANGED
                 found.append(Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None)
             case ("joints", str(name), *fields):
-                found.append(_of_joint(name, fields, versions))
+                found.append(_of_joint(name, fields, difference, versions))
             case ("extensions", str(owner), *fields):
                 found.append(Meaning(_words(owner or "robot", fields or ["extensions"]), ChangeClass.UNMODELLED))
             case (*fields,):
@@ -83,138 +92,124 @@ def _words(element: str, fields: _Fields) -> tuple[str, ...]:
     return tuple(words)
 
 
-# --- links --------------------------------------------------------------------------------------------------------
+def _unit(fields: _Fields) -> str:
+    return next((_UNITS.get(field, "") for field in reversed(fields) if isinstance(field, str)), "")
 
 
-def _of_link(name: str, fields: _Fields, versions: Sequence[Version], options: Options) -> Meaning:
-    element = f"link {name}"
-    unit = next((_UNITS.get(field, "") for field in reversed(fields) if isinstance(field, str)), "")
-    match fields:
-        case []:
-            return Meaning((element,), ChangeClass.STRUCTURAL)
-        case ["visuals" | "collisions" as group, int(index), *inside]:
-            words = element, *_words(f"{group[:-1]} {index + 1}", inside)
-            shapes = [version.snapshot["links"][name][group][index : index + 1] for version in versions]
-            return Meaning(words, _shape_class(group, shapes, inside, versions, options), unit)
-        case _:
-            return Meaning(_words(element, fields), ChangeClass.PARAMETER, unit)
+def _class(models: Iterator[bool], records: Iterator[bool]) -> ChangeClass:
+    """Return how far a change reaches, of which it is known whether data of models and of records differ."""
+    if any(models):
+        return ChangeClass.STRUCTURAL
+    return ChangeClass.PARAMETER if any(records) else ChangeClass.UNMODELLED
 
 
-def _shape_class(
-    group: str,
-    shapes: Sequence[Sequence[Mapping[str, Any]]],
-    inside: _Fields,
-    versions: Sequence[Version],
-    options: Options,
-) -> ChangeClass:
-    """Return how far a change inside of a shape reaches; `shapes` has the shape of each version, if it has one."""
-    old, new = (
-        _in_model(group, found[0], version.imports, options) if found else None
-        for found, version in zip(shapes, versions, strict=True)
+def _exchanged(one: Any, other: Any, fields: _Fields) -> Any:
+    """Return `one` with a part of `other`: the smallest part around the place `fields` that both have."""
+    if not fields or type(one) is not type(other):
+        return other
+    field, *inside = fields
+    if isinstance(field, str):
+        part = _exchanged(getattr(one, field), getattr(other, field), inside)
+        return msgspec.structs.replace(one, **{field: part})
+    if field >= min(len(one), len(other)):
+        return other
+    return (*one[:field], _exchanged(one[field], other[field], inside), *one[field + 1 :])
+
+
+# --- shapes -------------------------------------------------------------------------------------------------------
+
+
+def _of_shape(
+    name: str, group: str, index: int, inside: _Fields, versions: Sequence[Version], options: Options
+) -> Meaning:
+    (before, after), (old, new) = [_shapes(one.snapshot["links"][name], group, index) for one in versions], versions
+    data = []
+    for one, other, own, others in (
+        (before, after, old.imports, new.imports),
+        (after, before, new.imports, old.imports),
+    ):
+        changed = _exchanged(one, other, (0, *inside))
+        imports = own if _mesh_key(changed) == _mesh_key(one) else others
+        data.append((_data(group, one, own, options), _data(group, changed, imports, options)))
+    reach = _class((one[0] != other[0] for one, other in data), (one[1] != other[1] for one, other in data))
+    words = f"link {name}", *_words(f"{group[:-1]} {index + 1}", inside)
+    return Meaning(words, reach, _unit(inside))
+
+
+def _of_import(key: str, mentions: _Mentions, versions: Sequence[Version], options: Options) -> Meaning:
+    """Return the meaning of another content of a mesh; `mentions` are the shapes that have it in both versions."""
+    models = (
+        [_data(group, one, version.imports, options)[0] for one, version in zip(shapes, versions, strict=True)]
+        for group, shapes in mentions
     )
-    if old is None and new is None:
-        # The standing height in the record follows from collisions, even if no model shows them.
-        has_height = group == "collisions" and options.base == "floating" and not options.collisions
-        return ChangeClass.PARAMETER if has_height and inside[:1] != ["name"] else ChangeClass.UNMODELLED
-    match inside:
-        case [] | ["geometry", *_] if old != new:
-            return ChangeClass.STRUCTURAL
-        case ["material", "name" | "texture"]:
-            return ChangeClass.UNMODELLED
-        case ["material"] if not any("rgba" in shape.get("material", {}) for found in shapes for shape in found):
-            return ChangeClass.UNMODELLED
-        case _:
-            return ChangeClass.PARAMETER
+    is_structural = any(one != other for one, other in models)
+    words = f"mesh {key.removesuffix(_UNSCALED)}", "content"
+    return Meaning(words, ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER)
 
 
-def _in_model(
-    group: str, shape: Mapping[str, Any], imports: Mapping[str, Import] | None, options: Options
-) -> tuple[str, bool] | None:
-    """Return the kind of a shape, and whether it touches the ground; None if models leave it out.
-
-    Shapes without their mesh are left out. `imports` are None if nobody looked for the meshes.
-    """
-    key, touches = _mesh_key(shape), group == "collisions" and options.base == "floating"
-    if group == "collisions" and not options.collisions:
-        return None
-    if key is not None and options.meshes != "import":
-        return None
-    if key is not None and imports is not None:
-        if key not in imports:
-            return None
-        touches = touches and bool(imports[key].facts["hull"])
-    return shape["geometry"]["kind"], touches
-
-
-def _mesh_key(shape: Mapping[str, Any]) -> str | None:
-    """Return the key of a shape's mesh among the imports; None for other shapes."""
-    geometry = shape["geometry"]
-    return lookup.key(Mesh(geometry["filename"], tuple(geometry["scale"]))) if geometry["kind"] == "mesh" else None
-
-
-def _shared_meshes(old: Version, new: Version) -> Mapping[str, _Shapes]:
+def _mentions(versions: Sequence[Version]) -> Mapping[str, _Mentions]:
     """Return per mesh the shapes that have it in both versions."""
-    shapes: dict[str, list[tuple[str, Mapping[str, Any]]]] = {}
-    for name in old.snapshot["links"].keys() & new.snapshot["links"].keys():
-        for group in ("visuals", "collisions"):
-            before, after = (version.snapshot["links"][name][group] for version in (old, new))
-            for one, two in zip(before, after, strict=False):
-                if (key := _mesh_key(two)) and _mesh_key(one) == key:
-                    shapes.setdefault(key, []).append((group, two))
+    found: dict[str, list[tuple[str, tuple[_Shapes, _Shapes]]]] = {}
+    before, after = (version.snapshot["links"] for version in versions)
+    for name in before.keys() & after.keys():
+        for group in _GROUPS:
+            for index in range(min(len(before[name][group]), len(after[name][group]))):
+                shapes = _shapes(before[name], group, index), _shapes(after[name], group, index)
+                key = _mesh_key(shapes[0])
+                if key and key == _mesh_key(shapes[1]):
+                    found.setdefault(key, []).append((group, shapes))
+    return found
+
+
+def _shapes(link: Mapping[str, Any], group: str, index: int) -> _Shapes:
+    shapes: _Shapes = msgspec.convert(link[group][index : index + 1], _GROUPS[group])
     return shapes
 
 
-def _of_import(key: str, shapes: _Shapes, versions: Sequence[Version], options: Options) -> Meaning:
-    """Return the meaning of another content of a mesh; `shapes` have it in both versions."""
-    old, new = ([_in_model(*shape, version.imports, options) for shape in shapes] for version in versions)
-    words = (f"mesh {key.removesuffix(_UNSCALED)}", "content")
-    return Meaning(words, ChangeClass.PARAMETER if old == new else ChangeClass.STRUCTURAL)
+def _mesh_key(shapes: _Shapes) -> str | None:
+    """Return the key of a shape's mesh among the imports; None for other shapes."""
+    return next((lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh)), None)
+
+
+def _data(
+    group: str, shapes: _Shapes, imports: Mapping[str, Import] | None, options: Options
+) -> tuple[Mapping[str, Any], Any]:
+    """Return what models and what records say of a shape. If nobody looked for its mesh, it counts as found."""
+    if imports is None:
+        key = _mesh_key(shapes) if options.meshes == "import" else None
+        imports = {key: Import(key, "", "", None, {"bounds": (), "hull": ((0.0, 0.0, 0.0),)})} if key else {}
+    parts: dict[str, Any] = {group: shapes}
+    link = Link("", **parts)
+    visuals, collisions = link_shapes(link, imports, "", options)
+    height = list(touching(link, imports)) if options.base == "floating" else []
+    return link_model(visuals, collisions, options), (visuals, collisions, height)
 
 
 # --- joints -------------------------------------------------------------------------------------------------------
 
 
-def _of_joint(name: str, fields: _Fields, versions: Sequence[Version]) -> Meaning:
-    words = _words(f"joint {name}", fields)
-    if not fields:
-        return Meaning(words, ChangeClass.STRUCTURAL)
-    place = tuple(field for field in fields if isinstance(field, str))
-    reaches = ChangeClass.STRUCTURAL if place in _STRUCTURE else ChangeClass.PARAMETER
-    classes, units = [], []
-    for joints in (version.snapshot["joints"] for version in versions):
-        value = joint = joints[name]
-        classes.append(reaches if _is_modelled(joint["type"], place) else ChangeClass.UNMODELLED)
-        for field in place:
-            value = value.get(field) if isinstance(value, Mapping) else None
-        if value is not None:
-            units.append(_joint_unit(joint, joints, place[-1]))
-    unit = " → ".join(dict.fromkeys(filter(None, units)))
-    return Meaning(words, max(classes, key=lambda c: c.rank), unit)
+def _of_joint(name: str, fields: _Fields, difference: Difference, versions: Sequence[Version]) -> Meaning:
+    old, new = (msgspec.convert({"name": name, **version.snapshot["joints"][name]}, Joint) for version in versions)
+    changed = (old, _exchanged(old, new, fields)), (new, _exchanged(new, old, fields))
+    data = [(effective(one), effective(other)) for one, other in changed]
+    reach = _class((structure(one) != structure(other) for one, other in data), (one != other for one, other in data))
+    units = [
+        _joint_unit(name, version.snapshot["joints"], fields)
+        for version, value in zip(versions, (difference.old, difference.new), strict=True)
+        if value is not None
+    ]
+    return Meaning(_words(f"joint {name}", fields), reach, " → ".join(dict.fromkeys(filter(None, units))))
 
 
-def _is_modelled(joint_type: JointType, place: tuple[str, ...]) -> bool:
-    """Return whether something in Modelica depends on a part of a joint of this type."""
-    kind = JOINT_KINDS[joint_type]
-    match place:
-        case ("axis" | "dynamics", *_):
-            return kind.has_axis
-        case ("limit", "lower" | "upper"):
-            return kind.has_limits
-        case ("limit" | "mimic" | "calibration" | "safety_controller", *_):
-            return kind.motion is not None
-        case _:
-            return True
-
-
-def _joint_unit(joint: Mapping[str, Any], joints: Mapping[str, Any], field: str) -> str:
+def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
     """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
 
     Losses of a planar joint have none: one number stands for sliding and turning.
     """
-    motion = MOTION_KINDS.get(joint["type"])
+    motion, field = MOTION_KINDS.get(joints[name]["type"]), str(fields[-1])
     if field != "multiplier":
-        return _UNITS.get(field, "") or (_JOINT_UNITS.get(field, {}).get(motion, "") if motion else "")
-    leader = MOTION_KINDS.get(joints[joint["mimic"]["joint"]]["type"])
+        return _unit(fields) or (_JOINT_UNITS.get(field, {}).get(motion, "") if motion else "")
+    leader = MOTION_KINDS.get(joints[joints[name]["mimic"]["joint"]]["type"])
     if motion is None or leader is None or motion == leader:
         return ""
     return f"{_POSITION[motion]}/{_POSITION[leader]}"

@@ -46,12 +46,12 @@ class _Axis(msgspec.Struct, frozen=True):
         return math.hypot(*_cross(lever, self.direction)) > _ROUNDING * (math.hypot(*point) + math.hypot(*self.point))
 
 
-def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = None) -> Sequence[str]:
-    """Return the names of the joints with an axis that move no mass, in canonical order.
+def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None = None) -> Sequence[str]:
+    """Return the names of the joints that move no mass, in canonical order.
 
-    What is behind another joint on the same axis does not count, since that joint can hold it still. Joints that follow
-    others are left out; what they move counts for their leader. Joints that are not `free` move as prescribed, so that
-    they hold nothing still; None for all.
+    `passive` are joints without a drive; None for all. A joint is massless if no link below it has inertia about its
+    axis. Links below a passive joint on the same axis do not count: that joint lets them stand still. What followers of
+    a joint move counts for it; they themselves are left out.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}
@@ -63,7 +63,7 @@ def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = No
             axes[joint.name] = _Axis(MOTION_KINDS[joint.type], point, (x, y, z))
     followers = tree.followers_by_leader()
     single = {name for name in axes if name not in followers} - {joint.name for joint, _ in tree.followers()}
-    free = single if free is None else single & free
+    loose = single if passive is None else single & passive
 
     def moves_something(joint: Joint) -> bool:
         axis, waiting = axes[joint.name], [joint.child]
@@ -74,7 +74,7 @@ def find_massless_joints(tree: KinematicTree, free: AbstractSet[str] | None = No
             waiting += [
                 other.child
                 for other in children.get(link, ())
-                if not ({joint.name, other.name} <= free and axis.is_same(axes[other.name]))
+                if not ({joint.name, other.name} <= loose and axis.is_same(axes[other.name]))
             ]
         return any(moves_something(follower) for follower, mimic in followers.get(joint.name, ()) if mimic.multiplier)
 

@@ -74,7 +74,7 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
     positions: dict[str, float] = {}
     for joint in tree.leaders_first():
-        if joint.mimic is not None and joint.type in MOTION_KINDS:
+        if joint.mimic is not None:
             position = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
         else:
             lower, upper = ranges[joint.name]

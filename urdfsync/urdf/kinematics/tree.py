@@ -12,11 +12,14 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 
 from urdfsync.urdf.names import Identifier, Key, identify, natural_key
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Robot, effective, structure
 
 
 class KinematicTree(msgspec.Struct, frozen=True):
-    """Links and joints in canonical order; joint `k` leads to link `k + 1`, link 0 is the root."""
+    """Links and joints in canonical order; joint `k` leads to link `k + 1`, link 0 is the root.
+
+    Joints are `effective`: only one that follows another has a `mimic`.
+    """
 
     links: tuple[Link, ...]
     joints: tuple[Joint, ...]
@@ -38,11 +41,16 @@ class KinematicTree(msgspec.Struct, frozen=True):
         joints: list[Joint] = []
         waiting = list(children[root])
         while waiting:
-            joints.append(waiting.pop())
+            joints.append(effective(waiting.pop()))
             waiting += children[joints[-1].child]
         keys = [("link", link.name) for link in robot.links] + [("joint", joint.name) for joint in joints]
         order = (links[root], *(links[joint.child] for joint in joints))
         return cls(order, tuple(joints), identify(keys, taken))
+
+    def structure(self) -> KinematicTree:
+        """Return the tree without numbers."""
+        links = tuple(Link(link.name) for link in self.links)
+        return KinematicTree(links, tuple(map(structure, self.joints)), self.names)
 
     def link(self, name: str) -> Identifier:
         """Return the identifier of a link."""
@@ -69,8 +77,8 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:
-        """Yield the joints with an axis that follow another joint, and how."""
-        return ((j, j.mimic) for j in self.joints if j.type in MOTION_KINDS and j.mimic is not None)
+        """Yield the joints that follow another joint, and how."""
+        return ((joint, joint.mimic) for joint in self.joints if joint.mimic is not None)
 
     def followers_by_leader(self) -> Mapping[str, tuple[tuple[Joint, Mimic], ...]]:
         """Return the direct followers of each joint that has any."""
@@ -82,7 +90,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
     def leaders_first(self) -> list[Joint]:
         """Return all joints, each after the joint that it follows."""
         followers = self.followers_by_leader()
-        order = [joint for joint in self.joints if joint.mimic is None or joint.type not in MOTION_KINDS]
+        order = [joint for joint in self.joints if joint.mimic is None]
         for joint in order:  # grows while it is walked
             order += (follower for follower, _ in followers.get(joint.name, ()))
         return order

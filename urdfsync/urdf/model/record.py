@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Import, Target
-from urdfsync.urdf.connectors import connector_names, free_name, taken_names
+from urdfsync.urdf.connectors import Connectors, free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles, tables
@@ -31,7 +31,12 @@ def generic_data(tree: KinematicTree, target: Target, options: Options) -> dict[
 
 
 def record_data(
-    name: str, tree: KinematicTree, imports: Mapping[str, Import], target: Target, options: Options
+    name: str,
+    tree: KinematicTree,
+    names: Connectors,
+    imports: Mapping[str, Import],
+    target: Target,
+    options: Options,
 ) -> dict[str, Any]:
     """Return the data of the record of a whole robot; `name` is the robot's in the URDF.
 
@@ -70,9 +75,8 @@ def record_data(
     def referred(found: list[Joint]) -> list[dict[str, str]]:
         return [{"component": tree.joint(joint.name).component, "type": joint.type} for joint in found]
 
-    constants = connector_names(tree, Options()).axes
     axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges
-        {"constant": constants[joint.name], "name": joint.name, "vector": f"{motion}Axis", "number": number}
+        {"constant": names.drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in ("rotational", "translational")
         for number, joint in enumerate(tree.axes(motion), 1)
     ]
@@ -85,7 +89,7 @@ def record_data(
         "moving": referred(moving),
         "turning": referred([joint for joint in moving if MOTION_KINDS[joint.type] == "rotational"]),
         "sliding": referred([joint for joint in moving if MOTION_KINDS[joint.type] == "translational"]),
-        "followers": referred([j for j in tree.leaders_first() if j.type in MOTION_KINDS and j.mimic is not None]),
+        "followers": referred([joint for joint in tree.leaders_first() if joint.mimic is not None]),
         "shapes": drawn,
         "axes": axes if is_generic else [],
     }

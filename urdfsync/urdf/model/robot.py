@@ -5,17 +5,15 @@ They depend on the structure of the robot alone, on no number of the URDF.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.domain import Target
-from urdfsync.urdf.connectors import Connectors, connector_names
+from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.diagram.layout import layout
-from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
@@ -27,37 +25,24 @@ def joint_title(joint: Joint) -> str:
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
 
 
-def robot_data(robot: Robot, target: Target, options: Options) -> Mapping[str, Any]:
-    """Return the data of the robot model."""
-    links = tuple(Link(link.name) for link in robot.links)
-    joints = tuple(
-        Joint(
-            joint.name, joint.type, joint.parent, joint.child, mimic=Mimic(joint.mimic.joint) if joint.mimic else None
-        )
-        for joint in robot.joints
-    )
-    return _of_structure(Robot("", links, joints), target, options)
-
-
-@functools.lru_cache(maxsize=4)  # serves "one mass changed in the daemon": a third of all data of a package is this
-def _of_structure(robot: Robot, target: Target, options: Options) -> Mapping[str, Any]:
-    tree = KinematicTree.of(robot, taken=(target.name,))
-    names = connector_names(tree, options)
+def robot_data(tree: KinematicTree, names: Connectors, target: Target, options: Options) -> Mapping[str, Any]:
+    """Return the data of the robot model; `tree` has no numbers."""
     top = _icon_top(names)
-    kinds = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
+    motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     followers = tree.followers_by_leader()
     joints, couplings = [], []
     for joint in tree.joints:
         identifier, follows = tree.joint(joint.name), None
-        if joint.mimic is not None and kinds[joint.name]:
+        drive = names.drives.get(joint.name)
+        if joint.mimic is not None:
             # A leader that does not move holds its follower, which then has none in the model.
-            motion = kinds[joint.mimic.joint]
+            motion = motions[joint.mimic.joint]
             leader = tree.joint(joint.mimic.joint).component if motion else None
             follows = {"leader": leader, "leader_motion": motion}
             coupling = {
                 "component": names.couplings[joint.name],
                 "follower": identifier.component,
-                "follower_motion": kinds[joint.name],
+                "follower_motion": motions[joint.name],
                 "name": joint.name,
                 "leader_name": joint.mimic.joint,
             }
@@ -67,12 +52,12 @@ def _of_structure(robot: Robot, target: Target, options: Options) -> Mapping[str
             "type": identifier.type,
             "kind": joint.type,
             "title": joint_title(joint),
-            "axis": names.axes.get(joint.name),
+            "axis": drive.axis if drive else None,
             "follows": follows,
             "followers": [
                 names.couplings[follower.name]
                 for follower, _ in followers.get(joint.name, ())
-                if kinds[joint.name] is not None
+                if motions[joint.name] is not None
             ],
         }
         joints.append(part)
@@ -103,25 +88,26 @@ def _of_structure(robot: Robot, target: Target, options: Options) -> Mapping[str
     }
 
 
-def bench_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
+def bench_data(tree: KinematicTree, names: Connectors, target: Target, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
     The robot's icon has one and a half times its size in the diagram, so that its rows are 30 apart, and a drive of
     20 has its place beside each.
     """
-    names = connector_names(tree, options)
     top = _icon_top(names)
-    rows, driven = _drives(tree, names), driven_joints(tree.joints, options)
+    drives = []
+    for row, drive in zip(_drives(tree, names), names.drives.values(), strict=True):
+        if drive.effort:
+            variables = {"position": drive.position, "effort": drive.effort}
+            drives.append(row | variables | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]})
     return {
         "within": target.package,
         "type": target.name,
         "title": f"robot {target.name}",
         "base": options.base,
         "visualizer": options.visualizer,
-        "drives": [
-            row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["name"] in driven
-        ],
-        "passive": [row["joint"] for row in rows if row["name"] not in driven],
+        "drives": drives,
+        "passive": [tree.joint(name).component for name, drive in names.drives.items() if not drive.effort],
         "inputs": options.inputs,
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
@@ -132,23 +118,22 @@ def bench_data(tree: KinematicTree, target: Target, options: Options) -> dict[st
 def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
     """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there."""
     top = _icon_top(names)
-    joints = [joint for joint in tree.joints if joint.name in names.axes]
     return [
         {
-            "joint": tree.joint(joint.name).component,
-            "name": joint.name,
-            "motion": MOTION_KINDS[joint.type],
-            "axis": names.axes[joint.name],
-            "support": names.supports[joint.name],
+            "joint": tree.joint(name).component,
+            "name": name,
+            "motion": drive.motion,
+            "axis": drive.axis,
+            "support": drive.support,
             "y": top - 10 - _ROW * row,
         }
-        for row, joint in enumerate(joints)
+        for row, (name, drive) in enumerate(names.drives.items())
     ]
 
 
 def _icon_top(names: Connectors) -> int:
     """Return where the icon ends above: over the picture there is a row for each connector at one side."""
-    rows = max(len(names.frames), len(names.axes))
+    rows = max(len(names.frames), len(names.drives))
     return _PICTURE + _ROW * rows + 10 if rows else _PICTURE
 
 

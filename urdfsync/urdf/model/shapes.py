@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
+from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Origin, Sphere, Visual
 
 _Shape = TypeVar("_Shape", Visual, Collision)
+_Body: TypeAlias = Box | Cylinder | Capsule | Sphere | Sequence[Sequence[float]]
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram
@@ -80,6 +81,15 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
     return found.facts["hull"] if found else ()
 
 
+def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
+    """Yield what of a link's collisions can touch the ground, and where it is; of a mesh, its outermost points."""
+    for shape in link.collisions:
+        if not isinstance(shape.geometry, Mesh):
+            yield shape.origin, shape.geometry
+        elif points := hull(shape.geometry, imports):
+            yield shape.origin, points
+
+
 def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float | None:
     """Return the height of the root frame when the lowest collision shape just touches the ground.
 
@@ -88,9 +98,9 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
     poses = link_poses(tree, start_positions(tree))
     heights = []
     for link in tree.links:
-        for shape in link.collisions:
-            (_, _, up), (_, _, height) = compose(poses[link.name], pose(shape.origin))
-            match shape.geometry:
+        for origin, shape in touching(link, imports):
+            (_, _, up), (_, _, height) = compose(poses[link.name], pose(origin))
+            match shape:
                 case Box(size=size):
                     heights.append(height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True)))
                 case Sphere(radius=radius):
@@ -99,8 +109,8 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
                     heights.append(height - abs(up[2]) * length / 2 - radius)
                 case Cylinder(radius=radius, length=length):
                     heights.append(height - abs(up[2]) * length / 2 - radius * math.hypot(up[0], up[1]))
-                case mesh:
-                    heights += [height + dot(up, point) for point in hull(mesh, imports)]
+                case points:
+                    heights += [height + dot(up, point) for point in points]
     lowest = min(filter(math.isfinite, heights), default=None)
     return None if lowest is None else round(-lowest, 12)
 

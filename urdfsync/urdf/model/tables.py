@@ -65,6 +65,6 @@ def tables(tree: KinematicTree) -> Tables:
         followers=[
             (numbers[joint.name], numbers.get(joint.mimic.joint, 0))
             for joint in tree.leaders_first()
-            if joint.type in MOTION_KINDS and joint.mimic
+            if joint.mimic is not None
         ],
     )

@@ -6,8 +6,8 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Mapping
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -17,9 +17,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, summary
-from urdfsync.urdf.robot import Joint, Link, Robot
-
-_Value = TypeVar("_Value", bound=Link | Joint | None)
+from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -113,8 +111,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     actuated = [found for element, path in driving for found in read_actuated(reader, element, path)]
     actuated_names = {name for _, name in actuated}
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    found_links = [_read_part(reader, document, *place, read_link) for place in elements("link")]
-    found_joints = [_read_part(reader, document, *place, read_joint) for place in elements("joint")]
+    found_links = [read_link(reader, *place) for place in elements("link")]
+    found_joints = [read_joint(reader, *place) for place in elements("joint")]
     links = [link for link in found_links if link.name]
     joints = [
         msgspec.structs.replace(joint, actuated=True) if joint.name in actuated_names else joint
@@ -135,31 +133,3 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
                 reader.extend([validate.Finding("unknown-actuated-joint", path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     return msgspec.structs.replace(robot, joints=tuple(moving))
-
-
-# Links and joints about which there is nothing to say, by path and text, each with its lines from 0 at its own start
-# tag. Serves the rows "one mass changed in the daemon": nearly all links and joints are as they were.
-_parts: dict[tuple[str, bytes], tuple[Any, Mapping[str, int]]] = {}
-_PARTS = 20_000
-
-
-def _read_part(
-    reader: Reader, document: xml.Document, element: Element, path: str, read: Callable[[Reader, Element, str], _Value]
-) -> _Value:
-    """Read a link or joint, unless its text is known and sound."""
-    first, key = document.lines[element], (path, document.parts.get(element, b""))
-    part = _parts.get(key)
-    if part is None:
-        own = Reader(document.lines)
-        part = read(own, element, path), {place: line - first for place, line in own.lines.items()}
-        reader.diagnostics += own.diagnostics
-        reader.extensions += own.extensions
-        if key[1] and not own.diagnostics and not own.extensions:
-            if len(_parts) == _PARTS:
-                _parts.clear()
-            _parts[key] = part
-    value: _Value
-    value, lines = part
-    for place, line in lines.items():
-        reader.lines.setdefault(place, first + line)
-    return value

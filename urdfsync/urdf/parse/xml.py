@@ -59,8 +59,6 @@ class Document(NamedTuple):
     root: Element
     lines: Mapping[Element, int]
     """Where start tags begin, from 1; in document order."""
-    parts: Mapping[Element, bytes]
-    """Text of each child of the root up to the next: equal texts are equal elements. None with a document type."""
     warnings: list[Diagnostic]
 
 
@@ -68,16 +66,12 @@ def parse(content: bytes) -> Document:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
-    encoded = text.encode()
     lines: dict[Element, int] = {}
-    starts: list[tuple[Element, int]] = []
     above: list[Element] = []
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         lines[element := builder.start(tag, attributes)] = parser.CurrentLineNumber
-        if len(above) == 1:
-            starts.append((element, parser.CurrentByteIndex))
-        elif len(above) == _DEEPEST:
+        if len(above) == _DEEPEST:
             message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
             raise ParseError("xml-syntax", message, lines[element])
         above.append(element)
@@ -101,7 +95,7 @@ def parse(content: bytes) -> Document:
     parser.StartDoctypeDeclHandler, parser.EntityDeclHandler = refuse_type, refuse_entity
     error = None
     try:
-        parser.Parse(encoded, True)  # noqa: FBT003 - expat's own signature
+        parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as found:
         error = found
     if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
@@ -113,10 +107,7 @@ def parse(content: bytes) -> Document:
             what = f"<{above[-1].tag}> of line {lines[above[-1]]} is not closed"
         raise ParseError("xml-syntax", f"this is not well-formed XML: {what}", error.lineno, error.offset + 1)
     root = builder.close()
-    begins = [] if "<!DOCTYPE" in text else [at for _, at in starts]  # which can say how to read attributes
-    ends = [*begins[1:], len(encoded)]
-    parts = {element: encoded[begin:end] for (element, _), begin, end in zip(starts, begins, ends, strict=False)}
-    document = Document(text, root, lines, parts, warnings)
+    document = Document(text, root, lines, warnings)
     if ":" in text:
         warnings += _undeclared_prefixes(document)
     return document

@@ -92,7 +92,7 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
     moments, three = list[str](), (1, 2, 3)
     if "package" in options.approach:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
-        flanges = {name: f"robot.{axis}" for name, axis in connector_names(tree, options).axes.items()}
+        flanges = {name: f"robot.{drive.axis}" for name, drive in connector_names(tree, options).drives.items()}
         for link in tree.links:
             part = f"robot.{tree.link(link.name).component}"
             places[link.name] = [f"{part}.frame_a.r_0[{i}]" for i in three]
