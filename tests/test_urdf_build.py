@@ -19,7 +19,6 @@ CONFIGURATION = """
 [robots.arm]
 source = "ws/src/six_axis_arm/six_axis_arm.urdf"
 package = "Arm"
-cross_check = false
 """
 
 
@@ -150,7 +149,7 @@ CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="r
   <joint name="caster" type="continuous"><parent link="base"/><child link="roller"/></joint>
   <transmission name="t"><joint name="wheel"/></transmission>
 </robot>"""
-CART_CONFIGURATION = '[robots.cart]\nsource = "cart.urdf"\npackage = "Cart"\ncross_check = false\n'
+CART_CONFIGURATION = '[robots.cart]\nsource = "cart.urdf"\npackage = "Cart"\n'
 
 
 @pytest.fixture

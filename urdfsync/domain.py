@@ -332,12 +332,16 @@ class Domain(Protocol):
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 
-    def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
-        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`.
-
-        With `thorough`, checks run too that take longer than a plain build should: the daemon and `check` ask for them.
-        """
+    def read(self, content: bytes, file: str, options: Any) -> Reading:
+        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`."""
         ...
+
+    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
+        """Return where another reader of a source without errors finds something else. `check` asks: it may take long.
+
+        `file` is the source's name in diagnostics.
+        """
+        return ()
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return, per kind of element in the plural, name in the source → identifier in Modelica."""

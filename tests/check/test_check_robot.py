@@ -72,7 +72,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project with the robot, built; the package's folder."""
     monkeypatch.chdir(tmp_path)
     Path("arm.urdf").write_text(ARM)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     rebuild()
     return tmp_path / "modelica" / "Arm"
 

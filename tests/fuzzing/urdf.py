@@ -40,7 +40,6 @@ CONFIGURATION = """\
 [robots.bot]
 source = "bot.urdf"
 package = "Bot"
-cross_check = false
 approach = ["package", "record"]
 """
 
@@ -143,7 +142,7 @@ def _options(random: Random) -> Options:
         "collisions": random.random() < 0.8,
         "visualizer": random.choice(("standard", "standard", "visualization2")),
     }
-    return Options(cross_check=random.random() < 0.02, **chosen)
+    return Options(**chosen)
 
 
 def _build(work: Workplace, original: bytes, content: bytes, random: Random) -> str:

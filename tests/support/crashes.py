@@ -31,7 +31,7 @@ NAMES = (
     *("replace", "place", "remove", "sync"),
 )
 WRITES = ("write", "append", "write_bound")
-CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
+CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that asks for all, if it is set to anything."""
 

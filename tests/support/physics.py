@@ -32,7 +32,7 @@ def prepare(source: bytes | Path, name: str = "Bot", *, complete: bool = True, *
     """The experiment with a URDF, and the package that follows from it; meshes are imported beside a file only."""
     content = source if isinstance(source, bytes) else source.read_bytes()
     target = Target(name, name)
-    experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(cross_check=False, **options), complete)
+    experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(**options), complete)
     assert experiment is not None
     if experiment.content != content:
         source = experiment.content

@@ -148,7 +148,7 @@ def test_what_is_made_up_if_it_is_asked_for_is_said_and_read_by_both_sides() -> 
     assert one.notes == (
         "inertias were made up for 2 links of the generated package only, because they move without any mass",
     )
-    reading = DOMAIN.read(one.content, "robot.urdf", Options(cross_check=False))
+    reading = DOMAIN.read(one.content, "robot.urdf", Options())
     assert reading.snapshot is not None
     assert reading.snapshot["links"]["arm"]["inertial"]["mass"] > 0
     one = experiment(BARE, complete=False)

@@ -171,7 +171,7 @@ def _vector(values: Values, names: Sequence[str]) -> Array:
 
 
 def _robot(content: bytes, file: str) -> Robot:
-    reading = read_robot(content, file, cross_check=False)
+    reading = read_robot(content, file)
     if reading.robot is None:
         raise SourceError(*reading.diagnostics)
     return reading.robot
