@@ -54,7 +54,7 @@ def test_a_check_takes_little_memory_itself(arm: Path) -> None:
 
 def _is_compiler(process: psutil.Process) -> bool:
     try:
-        return any("check.compilers" in word for word in process.cmdline())
+        return any("urdfsync.check.process" in word for word in process.cmdline())
     except psutil.NoSuchProcess:  # a zombie among them
         return False
 

@@ -213,7 +213,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
         with contextlib.suppress(psutil.NoSuchProcess):
             found = psutil.Process(watch.process.pid).children(recursive=True)
-            if any("urdfsync.check.compilers" in process.cmdline() for process in found):
+            if any("urdfsync.check.process" in process.cmdline() for process in found):
                 return found
         time.sleep(0.05)
     raise AssertionError(watch.said)

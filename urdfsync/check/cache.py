@@ -35,7 +35,7 @@ class CacheError(UrdfsyncError):
     """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
 
 
-def fingerprint(*facts: object) -> str:
+def digest(*facts: object) -> str:
     """SHA-256 (hex) over facts whose `repr` says all of them."""
     return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 

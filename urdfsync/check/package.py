@@ -106,7 +106,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     rendering = Rendering(config, robot, options)
     domain = rendering.domain
     said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
-    said += domain.cross_check(rendering.content, shown(robot.source))
     on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
     texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))

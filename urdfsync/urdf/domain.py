@@ -161,13 +161,11 @@ class UrdfDomain(Domain):
         robot = from_snapshot(reading.snapshot)
         return Standalone(package.record(robot, target, options), tuple(out_of_scope(robot, file, reading.lines)))
 
-    def experiment(
-        self, content: bytes, file: str, target: Target, options: Options, complete: bool
-    ) -> Experiment | None:
-        """Return the comparison with Pinocchio; None if there is only a record, and no generic robot that reads it."""
+    def experiment(self, content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
+        """Return the comparison with Pinocchio; there is none of robots with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
-        return experiment(content, file, target, options, complete)
+        return experiment(content, file, target, options)
 
 
 DOMAIN = UrdfDomain()
