@@ -238,8 +238,10 @@ def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outli
     renew()
     stuck.wait("built", lambda event: bool(event["files"]), since)
     stuck.wait("checking", since=since)
-    assert psutil.wait_procs(first, LIMIT)[1] == [], "what is checked now is the newer package"
     helpers = compilers(stuck)
+    passing = [one for one in first if one not in helpers]  # Python keeps one for locks as long as the daemon runs
+    assert psutil.wait_procs(passing, LIMIT)[1] == []
+    assert len(passing) > 1, "what is checked now is the newer package"
     for number in signals:
         stuck.process.send_signal(number)
     assert stuck.process.wait(LIMIT) == code, stuck.said
