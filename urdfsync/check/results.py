@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import enum
-import json
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
 import msgspec
 
@@ -24,8 +22,6 @@ MOST_SINGLE_EDITS = 6
 POSES = (Quantity.POSITION, Quantity.ORIENTATION)
 EFFORTS = (Quantity.EFFORT, Quantity.REACTION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)
-
-T = TypeVar("T")
 
 
 class CheckOptions(msgspec.Struct, frozen=True):
@@ -143,16 +139,6 @@ class CheckResult(msgspec.Struct):
         if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
             return CheckStatus.DIFFERS
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
-
-
-def to_text(value: Any) -> str:
-    """A line of JSON; unlike that of msgspec it has infinite numbers."""
-    return json.dumps(msgspec.to_builtins(value, enc_hook=str))
-
-
-def from_text(text: str | bytes, kind: type[T]) -> T:
-    """The value that `to_text` gave a text for. Raises ValueError for any other text."""
-    return msgspec.convert(json.loads(text), kind, dec_hook=lambda path, value: path(value))
 
 
 def agrees(deviation: Deviation) -> bool:
