@@ -239,11 +239,8 @@ def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> 
     """How far values are from those expected, at the beginning and at the end; what is no number is infinitely far."""
     deviations: list[Deviation] = []
     for one in compared:
-        pairs = [
-            (_number(found, name, instant), _number(expected, name, instant))
-            for name in one.values
-            for instant in (0, -1)
-        ]
+        places = [(name, instant) for name in one.values for instant in (0, -1)]
+        pairs = [(_number(found, *place), _number(expected, *place)) for place in places]
         differences = [abs(value - other) for value, other in pairs]
         greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)

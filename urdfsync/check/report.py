@@ -33,6 +33,7 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
+_ADVICE = "; whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 
 
@@ -41,19 +42,13 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
-    wrong = [one for one in result.deviations or () if not agrees(one)]
-    said = []
-    for one, others in _by_kind(wrong):
+    said, advice = list[tuple[str, str]](), _ADVICE
+    for one, others in _by_kind([one for one in result.deviations or () if not agrees(one)]):
         what, amount = _amount(one)
-        largest_value = f" (its largest is {_digits(one.value)} {one.unit})" if one.unit in ("N·m", "N", "kg") else ""
-        reference = result.reference or "the reference"
-        sentence = f"{one.element}: {what} differs from {reference} by {amount}{largest_value}{others}"
-        said.append((sentence, "bold red"))
-    if said:
-        advice = (
-            "; whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
-        )
-        said[0] = f"{said[0][0]}{advice}", "bold red"
+        size = f" (its largest is {_digits(one.value)} {one.unit})" if one.unit in ("N·m", "N", "kg") else ""
+        sentence = f"{one.element}: {what} differs from {result.reference or 'the reference'} by {amount}{size}"
+        said.append((f"{sentence}{others}{advice}", "bold red"))
+        advice = ""
     for found in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(found.deviations, found.owners))
         style = "dim" if not changed else "bold red" if strict else "cyan"
@@ -62,18 +57,17 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     if not result.built:
         said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
     elif result.conflicting:
-        advice = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
-        said.append((advice, "yellow"))
+        told = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
+        said.append((told, "yellow"))
     elif not result.in_step:
         said.append(("the package is not what a build would leave; run `urdfsync build`", "yellow"))
     if verbose:
         for model in result.compiled:
             size = f"{model.unknowns:,} equations = unknowns, {counted(model.states, 'state')}"
             said.append((f"{model.model}: {size if model.unknowns else 'compiles'}", "dim"))
-        differences = [(one.element, *_amount(one), one.relative) for one in result.deviations or ()]
-        said += [
-            (f"{element}: {what} differs by {much} ({part:.1e})", "dim") for element, what, much, part in differences
-        ]
+        for one in result.deviations or ():
+            what, amount = _amount(one)
+            said.append((f"{one.element}: {what} differs by {amount} ({one.relative:.1e})", "dim"))
         for found in result.effects:
             said += [(f"{_edited(found)} {_change(one)}", "dim") for one in found.deviations]
     yield from (line(("  ", ""), sentence) for sentence in said)
