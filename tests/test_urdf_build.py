@@ -178,7 +178,7 @@ def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None
     before = contents(cart / "modelica")
     (cart / "cart.urdf").write_text(CART.replace("tyre", "tire"))
     (error,) = run(cart).diagnostics
-    assert (error.code, error.line, error.hint) == ("frame-of-no-link", 5, "did you mean `tire`?")
+    assert (error.code, error.line, error.hint) == ("frame-of-no-link", 4, "did you mean `tire`?")
     assert contents(cart / "modelica") == before
 
 

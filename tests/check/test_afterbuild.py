@@ -131,11 +131,10 @@ def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build
 
 
 def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> None:
-    add(project, OTHER)
-    examiner = Examiner(RIGHT, OutputError(BROKEN))
-    ladder, other = run(examiner)
-    assert (ladder.checked, other.checked) == (Checked.RIGHT, Checked.WRONG)
-    assert other.diagnostics == (BROKEN,)
+    add(project, OTHER + OTHER.replace("other", "third").replace("Other", "Third"))
+    ladder, *others = run(Examiner(RIGHT, OutputError(BROKEN)))
+    assert [ladder.checked, *(one.checked for one in others)] == [Checked.RIGHT, Checked.WRONG, Checked.WRONG]
+    assert others[0].diagnostics == (BROKEN,)
 
 
 def test_failed_and_dry_builds_are_not_checked(project: Path) -> None:
