@@ -108,7 +108,7 @@ def versions(history: str, frames: str = "leaves") -> Sequence[Built]:
     """The versions of a history, as `init` would have configured the robot."""
     contents = replay.histories()[history]
     chosen = {} if frames == "leaves" else {"frames": frames}
-    options = Options(base=replay.base_of(contents), meshes="skip", cross_check=False, **chosen)  # type: ignore[arg-type]
+    options = Options(base=replay.base_of(contents), meshes="skip", **chosen)  # type: ignore[arg-type]
     found = []
     for number, content in enumerate(contents):
         snapshot = read(content).snapshot
@@ -195,5 +195,5 @@ def test_each_case_is_named_with_the_key_that_keeps_a_frame(corpus: Path, histor
 def effects(old: Built, new: Built) -> Sequence[Effect]:
     """What the domain says of a step."""
     renames = DOMAIN.renames(old.snapshot, new.snapshot)
-    options = Options(meshes="skip", cross_check=False)
+    options = Options(meshes="skip")
     return DOMAIN.interface(Version(old.snapshot), Version(new.snapshot), renames, TARGET, options)

@@ -13,7 +13,7 @@ from urdfsync import cli
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))
 SWING = urdfs.joint("swing", "continuous", "base", "arm")
 GRIP = urdfs.joint("grip", "fixed", "arm", "hand")
-CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
+CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 
 
 @pytest.fixture

@@ -24,7 +24,7 @@ PAGES = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *sorted((REPOSIT
 
 
 def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
-    options = Options(cross_check=False)
+    options = Options()
     snapshot = DOMAIN.read(ARM.read_bytes(), ARM.name, options).snapshot
     assert snapshot is not None
     drawing = DOMAIN.drawing(snapshot, {}, Target("UrdfSync.Examples.SixAxisArm", "SixAxisArm"), options)

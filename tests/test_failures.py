@@ -80,7 +80,7 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     repository = Repository(tmp_path / "project", monkeypatch)
     monkeypatch.chdir(repository.folder)
     Path("arm.urdf").write_text(URDF)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     assert cli.main(["build", "--quiet"]) == 0
     Path("arm.urdf").write_text(URDF.replace("1 1 1", "1 1 2"))
     repository.commit()
@@ -103,7 +103,7 @@ def test_a_signal_ends_a_build_with_130(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("arm.urdf").write_text(URDF)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     Path(".urdfsync").mkdir()
     environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
     with Lock(tmp_path / ".urdfsync/lock", 0) as lock:

@@ -139,7 +139,7 @@ def test_no_module_of_the_working_folder_runs(
     for number in range(ROBOTS):
         (tmp_path / "new").mkdir(exist_ok=True)
         (tmp_path / f"new/r{number}.urdf").write_text(hostile.urdf())
-    tables = [f'[robots.r{n}]\nsource = "r{n}.urdf"\npackage = "R{n}"\ncross_check = false\n' for n in range(ROBOTS)]
+    tables = [f'[robots.r{n}]\nsource = "r{n}.urdf"\npackage = "R{n}"\n' for n in range(ROBOTS)]
     (tmp_path / "new/urdfsync.toml").write_text("".join(tables))
     work.fill(tmp_path / "new")
     hostile.attack(attack, work.project, work.outside)

@@ -49,7 +49,7 @@ def _configure(*meshes: str) -> None:
     Path("arm.urdf").write_text(robot(f'<link name="base">{shapes}</link>'))
     Path("other.urdf").write_text(robot(link("base", 1.0)))
     tables = [f'[robots.{name}]\nsource = "{name}.urdf"\npackage = "{name.title()}"\n' for name in ("arm", "other")]
-    Path("urdfsync.toml").write_text("".join(["[defaults]\ncross_check = false\n", *tables]))
+    Path("urdfsync.toml").write_text("".join(tables))
 
 
 @pytest.mark.parametrize("name", HOSTILE)

@@ -29,7 +29,7 @@ class Project:
 
     def build(self, approach: str, **options: str) -> Result:
         """Build with these options, all as TOML."""
-        lines = ["[robots.twig]", f'source = "{self.source.name}"', 'package = "Twig"', "cross_check = false"]
+        lines = ["[robots.twig]", f'source = "{self.source.name}"', 'package = "Twig"']
         lines += [f"{key} = {value}" for key, value in {"approach": approach, **options}.items()]
         self.file.write_text("\n".join(lines) + "\n")
         config = load(self.file)

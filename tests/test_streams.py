@@ -25,7 +25,7 @@ full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /d
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "arm.urdf").write_text(URDF)
     robots = "".join(f'[robots.r{n}]\nsource = "arm.urdf"\npackage = "R{n}"\n' for n in range(3))
-    (tmp_path / "urdfsync.toml").write_text("[defaults]\ncross_check = false\n" + robots)
+    (tmp_path / "urdfsync.toml").write_text(robots)
     return tmp_path
 
 

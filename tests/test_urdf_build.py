@@ -19,7 +19,6 @@ CONFIGURATION = """
 [robots.arm]
 source = "ws/src/six_axis_arm/six_axis_arm.urdf"
 package = "Arm"
-cross_check = false
 """
 
 
@@ -148,7 +147,7 @@ CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="r
   <joint name="caster" type="continuous"><parent link="base"/><child link="roller"/></joint>
   <transmission name="t"><joint name="wheel"/></transmission>
 </robot>"""
-CART_CONFIGURATION = '[robots.cart]\nsource = "cart.urdf"\npackage = "Cart"\ncross_check = false\n'
+CART_CONFIGURATION = '[robots.cart]\nsource = "cart.urdf"\npackage = "Cart"\n'
 
 
 @pytest.fixture
@@ -177,7 +176,7 @@ def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None
     before = contents(cart / "modelica")
     (cart / "cart.urdf").write_text(CART.replace("tyre", "tire"))
     (error,) = run(cart).diagnostics
-    assert (error.code, error.line, error.hint) == ("frame-of-no-link", 5, "did you mean `tire`?")
+    assert (error.code, error.line, error.hint) == ("frame-of-no-link", 4, "did you mean `tire`?")
     assert contents(cart / "modelica") == before
 
 

@@ -244,8 +244,6 @@ class Quantity(enum.StrEnum):
     """Of what drives an axis, in N·m or N."""
     REACTION = "reaction"
     """Of the force and of the torque that hold the root, in N and N·m."""
-    ACCELERATION = "acceleration"
-    """Of an axis that nothing drives, in rad/s² or m/s²."""
     MASS = "mass"
     """Of the whole model, in kg."""
     CENTRE = "centre of mass"
@@ -286,7 +284,16 @@ class Probe(msgspec.Struct, frozen=True):
     values: tuple[str, ...]
 
 
-class Experiment(Protocol):
+class Compared(msgspec.Struct, frozen=True):
+    """One quantity of one element that is compared: which values of the probe it is made of."""
+
+    quantity: Quantity
+    element: str
+    unit: str
+    values: tuple[str, ...]
+
+
+class Experiment(msgspec.Struct, frozen=True):
     """A comparison of a generated package with an independent reference that reads the same source."""
 
     reference: str
@@ -294,20 +301,15 @@ class Experiment(Protocol):
     content: bytes
     """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
     probe: Probe
-    notes: tuple[str, ...]
+    """It moves a package that follows from `content`, and as well one that follows from the source."""
+    compared: tuple[Compared, ...]
+    """From the root outwards."""
+    expected: Mapping[str, tuple[float, float]]
+    """What the reference says of each value at the beginning and at the end; it may be no number."""
+    notes: tuple[str, ...] = ()
     """In which way `content` is not what was given, and why: one sentence each, without a full stop."""
-    unchecked: tuple[str, ...]
+    unchecked: tuple[str, ...] = ()
     """What the comparison does not cover, and why: one sentence each, without a full stop."""
-
-    def compare(
-        self, series: Mapping[str, Sequence[float]], baseline: Mapping[str, Sequence[float]] | None = None
-    ) -> Sequence[Deviation]:
-        """Compare the values of `probe` (and `time`) with the reference, element by element from the root outwards.
-
-        With a `baseline`, another simulation of the same probe, that takes the place of the reference. Raises
-        SourceError if the reference can't be computed.
-        """
-        ...
 
 
 class Domain(Protocol):
@@ -330,12 +332,16 @@ class Domain(Protocol):
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 
-    def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
-        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`.
-
-        With `thorough`, checks run too that take longer than a plain build should: the daemon and `check` ask for them.
-        """
+    def read(self, content: bytes, file: str, options: Any) -> Reading:
+        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`."""
         ...
+
+    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
+        """Return where another reader of a source without errors finds something else. `check` asks: it may take long.
+
+        `file` is the source's name in diagnostics.
+        """
+        return ()
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return, per kind of element in the plural, name in the source → identifier in Modelica."""
@@ -463,10 +469,10 @@ class Domain(Protocol):
         """
         return None
 
-    def experiment(self, content: bytes, file: str, target: Target, options: Any, complete: bool) -> Experiment | None:
-        """Return a comparison of the generated package with an independent reference; None if there is none.
+    def experiment(self, content: bytes, file: str, target: Target, options: Any) -> Experiment | str:
+        """Return a comparison of the generated package with an independent reference, or why there is none.
 
-        `file` is the source's name in diagnostics. With `complete`, what the source lacks for a telling comparison
-        (inertias, say) is made up. Raises SourceError if the reference can't be had or can't read the source.
+        `file` is the source's name in diagnostics. What the source lacks for a telling comparison (inertias, say) is
+        made up. It runs in a process of its own. Raises SourceError if the reference can't be had or can't read it.
         """
-        return None
+        return "there is no reference for such packages"

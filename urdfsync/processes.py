@@ -37,7 +37,7 @@ def end_with_parent() -> None:
     def wait() -> None:
         while os.read(0, 4096):  # not through sys.stdin, whose lock would disturb the interpreter at its end
             pass
-        import psutil  # an optional extra, which checks need
+        import psutil  # 15 ms, and only a check needs it
 
         for child in psutil.Process().children(recursive=True):
             child.kill()  # a compiler at work may not let its own thread look at stdin

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import itertools
+import importlib.util
 import os
 import re
 import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
+from support.checks import Compiling
 from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, link, robot
 
 from urdfsync import config
 from urdfsync.check import libraries
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult
-from urdfsync.check.package import read_package
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, CheckStep
+from urdfsync.check import robot as robot_check
+from urdfsync.check.package import CheckedPackage, read_package
+from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -55,32 +56,20 @@ end MyBench;
 }
 
 
-class Compiler:
-    """A stand-in that says the same of every model, and knows which ones it was given."""
-
-    def __init__(self) -> None:
-        self.problem, self.models, self.roots = "", list[str](), list[str]()
-
-    def __call__(self, name: str, job: CompileJob, cache: UserCache) -> list[CompileResult]:
-        self.roots += job.roots
-        self.models += [task.title for task in job.tasks]
-        return [CompileResult(self.problem, 7, 2) for _ in job.tasks]
-
-
 @pytest.fixture
 def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A project with the robot, built; the package's folder."""
     monkeypatch.chdir(tmp_path)
     Path("arm.urdf").write_text(ARM)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n')
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     rebuild()
     return tmp_path / "modelica" / "Arm"
 
 
 @pytest.fixture
-def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiler:
+def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
     """A stand-in for the compiler, and a cache in which nothing is yet."""
-    found = Compiler()
+    found = Compiling()
     monkeypatch.setattr("urdfsync.check.compilers.run_job", found)
     monkeypatch.setattr(libraries, "standard_library_copy", lambda *_: tmp_path)
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
@@ -93,23 +82,15 @@ def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(libraries, "library_folders", lambda *_: [])
 
 
-@pytest.fixture
-def nothing_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No earlier run of these tests saves this one the work; libraries are in the cache."""
-    monkeypatch.setattr(UserCache, "load", lambda *_: None)
-
-
 def rebuild() -> None:
     loaded = config.load(Path("urdfsync.toml").absolute())
     (result,) = build(loaded, loaded.robots, BuildOptions())
     assert not result.failed
 
 
-def check(physics: bool = False, steps: list[CheckStep] | None = None) -> CheckResult:
+def check(physics: bool = False, fresh: bool = False) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    told, options = [] if steps is None else steps, CheckOptions(physics=physics, compilers=2)
-    with UserCache.default().workspace() as folder:
-        return check_robot(loaded, loaded.robots[0], options, told.append, folder)
+    return check_robot(loaded, loaded.robots[0], CheckOptions(physics=physics, compilers=2, fresh=fresh))
 
 
 def write(files: dict[str, str]) -> None:
@@ -137,13 +118,13 @@ def lines(result: CheckResult) -> list[str]:
 
 
 @pytest.mark.slow
-def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path, nothing_known: None) -> None:
+def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path) -> None:
     """Edits are results, not failures: what is generated agrees with the reference."""
     replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
     replace(arm / "Links" / "HandParameters.mo", "mass = 0.7", "mass = 0.9")
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     (arm / "Own.mo").write_text("within Arm;\nmodel Own\n  Real x;\nend Own;\n")
-    result = check(physics=True)
+    result = check(physics=True, fresh=True)
     assert codes(result) == []
     assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
         ("unbalanced", "modelica/Arm/Own.mo")
@@ -160,9 +141,7 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
 
 
 @pytest.mark.slow
-def test_a_generator_that_is_wrong_is_found_whoever_edited_what(
-    arm: Path, modelica_library: Path, nothing_known: None
-) -> None:
+def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, modelica_library: Path) -> None:
     """A template of the user's turns origins about axes that turn along; an assertion ends each simulation."""
     templates = Path("templates")
     shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
@@ -171,7 +150,7 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(
         file.write('templates = "templates"\n')
     rebuild()
     replace(arm / "Joints" / "Elbow.mo", "equation\n", 'equation\n  assert(false, "not ready yet");\n')
-    result = check(physics=True)
+    result = check(physics=True, fresh=True)
     assert codes(result) == []
     assert len(result.compiled) == 3, "the edited robot compiles, although it can't be moved"
     assert result.status(strict=False) is CheckStatus.DIFFERS
@@ -181,22 +160,20 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(
 
 
 def test_what_was_right_is_not_compiled_again_until_something_changes(
-    arm: Path, modelica_library: Path, compiler: Compiler
+    arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
-    steps: list[CheckStep] = []
-    first, second = check(steps=steps), check()
-    assert steps[0].what == "arm: reading the source and the package"
-    assert "arm: checking files and names" in [step.what for step in steps]
-    assert all(0 <= one.done <= other.done <= 1 for one, other in itertools.pairwise(steps))
+    first, second = check(), check()
     assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
     assert second.status(strict=True) is CheckStatus.RIGHT
     assert first.unchecked == second.unchecked == ("poses and efforts were not compared: `--physics` does that",)
+    check(fresh=True)
+    assert len(compiler.models) == 6
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     compiler.problem = "something is wrong"
     assert [check().failed for _ in range(2)] == [True, True]
-    assert len(compiler.models) == 9, "what is wrong is compiled again"
+    assert len(compiler.models) == 12, "what is wrong is compiled again"
     compiler.problem = ""
     replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
     result = check()
@@ -204,9 +181,46 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
 
 
+def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
+    arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The file is as before when it is checked the next time, but another text was right."""
+    file = arm / "Links" / "Base.mo"
+    before = file.read_text()
+
+    def read_later(*arguments: Any) -> CheckedPackage:
+        file.write_text(f"// saved\n{before}")
+        return read_package(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(robot_check, "read_package", read_later)
+        assert check().status(strict=True) is CheckStatus.RIGHT
+    file.write_text(before)
+    check()
+    assert len(compiler.models) == 6
+
+
+def test_without_a_compiler_all_else_is_checked(
+    arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also what yourdfpy says; nothing of it needs an extra. Whoever asks for more is told what to install."""
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
+    Path("arm.urdf").write_text(ARM.replace(' name="own"', ""))
+    rebuild()
+    result = check()
+    assert "second-reader-failed" in [one.code for one in result.diagnostics]
+    (gap,) = result.gaps
+    assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert codes(check(physics=True)) == ["no-compiler"]
+    replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
+    assert codes(check()) == ["unresolved"]
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="names of files are Unicode there")
 def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
-    arm: Path, modelica_library: Path, compiler: Compiler, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    arm: Path, modelica_library: Path, compiler: Compiling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / os.fsdecode(b"caf\xe9")
     folder.mkdir()
@@ -262,9 +276,9 @@ def test_a_source_with_errors_is_told(arm: Path) -> None:
 
 
 def test_a_file_that_goes_is_missed_although_the_package_was_right(
-    arm: Path, modelica_library: Path, compiler: Compiler
+    arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
-    """What is not compiled again is looked through again. A link in the documentation is none of its business."""
+    """No fingerprint knows of it. A link in the documentation is none of its business."""
     cover, hand = '  parameter String cover = "modelica://Arm/Resources/cover.stl";\n', arm / "Links" / "Hand.mo"
     replace(hand, "equation\n", f"{cover}equation\n")
     replace(hand, "end Hand;", 'end Hand; // see "<a href=modelica://Arm/Resources/none.html>"')
@@ -282,7 +296,7 @@ def test_a_file_that_goes_is_missed_although_the_package_was_right(
 # --- names ------------------------------------------------------------------------------------------------------------
 
 
-def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiler) -> None:
+def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiling) -> None:
     write(BROKEN)
     result = check()
     nested = "the redeclaration of `elbow` inside of another modifier is not checked: rumoca ignores it"

@@ -1,16 +1,17 @@
-"""What each edit does by itself."""
+"""How far a simulation is from what is expected, and what each edit does by itself."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.check.compilation import edit_effects
+from urdfsync.check.compilation import compare, edit_effects
 from urdfsync.check.results import TOLERANCE, EditEffect
-from urdfsync.domain import Deviation, Quantity
+from urdfsync.domain import Compared, Deviation, Quantity
 
 FILES = ["A.mo", "B.mo", "C.mo"]
 OWNERS = {"A.mo": "joint a", "B.mo": "joint b", "C.mo": "joint b"}
@@ -61,3 +62,28 @@ def test_every_file_and_every_change_is_told(whole: list[Deviation], single: dic
     assert {file for effect in found for file in effect.files} == set(FILES)
     assert {one.element for one in whole if one.relative > TOLERANCE} <= told
     assert all(one.relative > TOLERANCE for effect in found for one in effect.deviations)
+
+
+COMPARED = (
+    Compared(Quantity.EFFORT, "joint a", "N·m", ("a",)),
+    Compared(Quantity.EFFORT, "joint b", "N·m", ("b",)),
+    Compared(Quantity.EFFORT, "joint c", "N", ("c", "d")),
+)
+EXPECTED: dict[str, tuple[float, ...]] = {"a": (1.0, 2.0), "b": (-50.0, 7.0), "c": (0.0, 0.0), "d": (0.5, 300.0)}
+
+
+def test_differences_are_the_greatest_of_the_first_and_last_instant_and_sizes_those_of_a_unit() -> None:
+    """A torque is not held against forces."""
+    found = compare(COMPARED, {**EXPECTED, "a": (1.5, 99.0, 2.25), "d": (0.0, 9.0, 301.0)}, EXPECTED)
+    assert [(one.difference, one.value, one.size) for one in found] == [
+        (0.5, 2.0, 50.0), (0.0, 50.0, 50.0), (1.0, 300.0, 300.0),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("numbers", [None, (), (math.nan, 1.0), (1.0, math.nan), (1.0, math.inf)])
+def test_a_value_that_is_no_number_is_infinitely_far_off(numbers: tuple[float, ...] | None) -> None:
+    lacking = {**EXPECTED, "a": numbers} if numbers is not None else {k: v for k, v in EXPECTED.items() if k != "a"}
+    for series, baseline in ((lacking, EXPECTED), (EXPECTED, lacking), (lacking, lacking)):
+        found = compare(COMPARED, series, baseline)
+        assert [one.difference for one in found] == [math.inf, 0.0, 0.0]
+        assert all(math.isfinite(one.value) for one in found)

@@ -26,6 +26,7 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     compile_task,
 )
+from urdfsync.check.process import Limits
 
 TASK = CompileTask("Probe_", 'model Probe_ "a \\ b"\nend Probe_;\n', (Simulation(1, 0.1),))
 BALANCED = '"Check of Probe_ completed successfully.\nClass Probe_ has 4 equation(s) and 4 variable(s).\n1 of these."\n'
@@ -141,7 +142,9 @@ def test_the_client_library_carries_questions_and_answers(fake: Path, tmp_path: 
     (fake / "answers.json").write_text(json.dumps({"checkModel(Good": BALANCED, "checkModel(Bad": failed}))
     (tmp_path / "package.mo").touch()
     tasks = (CompileTask("Good", "model Good\nend Good;"), CompileTask("Bad", "model Bad\nend Bad;"))
-    good, bad = run_job("omc", CompileJob((str(tmp_path),), tasks), UserCache(tmp_path / "cache"))
+    good, bad = run_job(
+        "omc", CompileJob((str(tmp_path),), tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9)
+    )
     assert (good.problem, good.unknowns) == ("", 4)
     assert bad.problem.startswith("[/ws/Arm/Joints/Elbow.mo:76:3-76:35:writable] Error: Variable")
     assert f'loadFile("{tmp_path}/package.mo", uses=false); getErrorString()' in (fake / "asked.txt").read_text()
@@ -155,10 +158,10 @@ def test_an_omc_that_does_not_start_or_is_not_there_is_one_clear_line(
     cache = UserCache(tmp_path / "cache")
     (fake / "omc").write_text("no program")
     with pytest.raises(CompilerError, match="OpenModelica does not start"):
-        run_job("omc", CompileJob((), (TASK,)), cache)
+        run_job("omc", CompileJob((), (TASK,)), cache, Limits("the check", 60, 2e9))
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(CompilerError, match="`omc` is not on the PATH; install OpenModelica"):
-        run_job("omc", CompileJob((), (TASK,)), cache)
+        run_job("omc", CompileJob((), (TASK,)), cache, Limits("the check", 60, 2e9))
 
 
 @needs_library
@@ -166,7 +169,7 @@ def test_an_omc_that_does_not_start_or_is_not_there_is_one_clear_line(
 @pytest.mark.slow
 def test_a_real_omc_compiles_the_double_pendulum(modelica_library: Path, tmp_path: Path) -> None:
     job = CompileJob((str(modelica_library), str(URDFSYNC)), (compile_task("UrdfSync.Examples.DoublePendulum"),))
-    (result,) = run_job("omc", job, UserCache(tmp_path / "cache"))
+    (result,) = run_job("omc", job, UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9))
     assert result.problem == ""
     assert result.unknowns > 0
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from urdfsync import processes
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import MISSING, require, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileResult, CompileTask, Simulation
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.check.compilers import find_missing, run_job
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation
+from urdfsync.check.process import Limits
 
 DECAY = """
 model M
@@ -29,8 +26,6 @@ equation
   end for;%s
 end M;
 """
-GOOD = CompileTask("M", "model M\n  Real x = time;\nend M;", (Simulation(1.0, 0.5),), ("x",), title="Plant.Good")
-BAD = CompileTask("M", "model M\n  Real x;\nend M;")
 
 
 def decay(*runs: Simulation, values: tuple[str, ...] = ("x", "y[2,3]")) -> CompileTask:
@@ -38,21 +33,7 @@ def decay(*runs: Simulation, values: tuple[str, ...] = ("x", "y[2,3]")) -> Compi
 
 
 def results(tmp_path: Path, *tasks: CompileTask, roots: tuple[str, ...] = ()) -> list[CompileResult]:
-    return run_job("rumoca", CompileJob(roots, tasks), UserCache(tmp_path / "cache"))
-
-
-def failure(tmp_path: Path, *tasks: CompileTask) -> Diagnostic:
-    """What is said."""
-    with pytest.raises(CompilerError) as caught:
-        run_job("rumoca", CompileJob((), tasks), UserCache(tmp_path / "cache"))
-    (diagnostic,) = caught.value.diagnostics
-    return diagnostic
-
-
-def fake_worker(monkeypatch: pytest.MonkeyPatch, program: str) -> None:
-    """Instead of the worker, a program that hands out one good result and then goes its own way."""
-    said = "import sys; sys.stdin.readline(); print('{\"unknowns\": 7}', flush=True); "
-    monkeypatch.setattr(processes, "python_module", lambda *_: [sys.executable, "-c", said + program])
+    return run_job("rumoca", CompileJob(roots, tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 4e9))
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:
@@ -100,51 +81,11 @@ def test_the_search_path_of_the_user_has_no_say(tmp_path: Path, monkeypatch: pyt
     assert given.problem == ""
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
-@pytest.mark.parametrize(("signal", "hint"), [("SIGSEGV", "report it"), ("SIGKILL", "want of memory")])
-def test_a_crash_is_one_line(signal: str, hint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    words = "sys.stderr.write('a\\nlast words\\n'); sys.stderr.flush()"
-    fake_worker(monkeypatch, f"import os, signal; {words}; os.kill(os.getpid(), signal.{signal})")
-    diagnostic = failure(tmp_path, BAD, GOOD)
-    assert diagnostic.code == "compiler-crashed"
-    assert diagnostic.message.startswith("the compiler broke down at Plant.Good: signal ")
-    assert diagnostic.message.endswith(f"({signal}): last words")
-    assert hint in diagnostic.hint
-
-
-@pytest.mark.parametrize(("program", "code", "words"), [
-    ("", "compiler-crashed", "at Plant.Good: exit code 0"),
-    (f"sys.stderr.write('no such wheel'); sys.exit({MISSING})", "no-compiler", "no such wheel"),
-])  # fmt: skip
-def test_a_worker_that_answers_too_little_is_explained(
-    program: str, code: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    fake_worker(monkeypatch, program)
-    diagnostic = failure(tmp_path, BAD, GOOD)
-    assert diagnostic.code == code
-    assert words in diagnostic.message
-
-
 def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    absent = "rumoca"
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == absent else name)
     monkeypatch.setattr("shutil.which", lambda name: name)
-    require("omc")
-    with pytest.raises(CompilerError, match="rumoca is not installed; pip install rumoca"):
-        require("rumoca")
-    absent = "OMPython"
-    require("rumoca")
-    with pytest.raises(CompilerError, match="OMPython is not installed"):
-        require("omc")
-
-
-def test_a_worker_ends_with_whoever_started_it_and_prints_only_answers(tmp_path: Path) -> None:
-    program = (
-        "import os; from urdfsync.processes import *; answers = reserve_stdout(); os.write(1, b'noise');"
-        "end_with_parent(); answers.write(b'answer'); answers.flush(); import time; time.sleep(60)"
-    )
-    command = [sys.executable, "-c", program]
-    done = subprocess.run(
-        command, input=b"", capture_output=True, timeout=50, check=False, env=processes.importable() or None
-    )
-    assert (done.returncode, done.stdout, done.stderr) == (1, b"answer", b"noise")
+    for absent, compiler, other in (("rumoca", "rumoca", "omc"), ("OMPython", "omc", "rumoca")):
+        monkeypatch.setattr("importlib.util.find_spec", lambda name, absent=absent: None if name == absent else name)
+        assert find_missing(other) is None
+        missing = find_missing(compiler)
+        assert missing is not None
+        assert f"{absent} is not installed" in missing.message

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.check.cache import CacheError, UserCache
+from urdfsync.check.results import CheckResult
 
 BLOCK = 4096
 RECORDS = "rumoca/semantic"
@@ -117,3 +118,12 @@ def test_what_others_delete_meanwhile_is_passed_over(cache: UserCache, monkeypat
     cache.results.mkdir(parents=True)
     monkeypatch.setattr(os, "walk", lambda folder: [(str(folder), [], ["gone.json"])])
     assert cache.trim(0) == 0
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff", b"[]", b'{"key": "0"}'])
+def test_a_result_may_be_lost(cache: UserCache, content: bytes) -> None:
+    result = CheckResult("arm", "Arm", seconds=float("inf"))
+    cache.save("a", result)
+    assert cache.load("a", CheckResult) == result
+    (cache.results / "a").write_bytes(content)
+    assert cache.load("a", CheckResult) is None

@@ -19,7 +19,7 @@ BUILDS = {"create", "update", "delete"}
 def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The source of a configured robot, in the working folder; the file does not exist yet."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "urdfsync.toml").write_text('[robots.r]\nsource = "r.urdf"\npackage = "R"\ncross_check = false\n')
+    (tmp_path / "urdfsync.toml").write_text('[robots.r]\nsource = "r.urdf"\npackage = "R"\n')
     return tmp_path / "r.urdf"
 
 

@@ -6,9 +6,8 @@ import json
 import os
 import shutil
 import signal
-from concurrent.futures import ProcessPoolExecutor
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.networks import edit, run_all
@@ -17,7 +16,10 @@ from support.replay import contents
 from urdfsync import config
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
+from urdfsync.engine.build import build
 from urdfsync.engine.cache import Cache
+from urdfsync.engine.options import BuildOptions
+from urdfsync.workers import Workers, workers
 
 COUNT = 8
 
@@ -37,15 +39,14 @@ def robots(project: Path) -> Path:
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many processes were asked for, each time that a pool started."""
+    """How many processes were asked for, each time that workers started."""
     found: list[int] = []
-    real: Any = ProcessPoolExecutor
 
-    def start(workers: int, *args: object, **options: Any) -> object:
-        found.append(workers)
-        return real(workers, *args, **options)
+    def start(count: int, address: str = "") -> AbstractContextManager[Workers]:
+        found.append(count)
+        return workers(count, address)
 
-    monkeypatch.setattr(pool, "ProcessPoolExecutor", start)
+    monkeypatch.setattr(pool, "workers", start)
     return found
 
 
@@ -91,7 +92,7 @@ def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, star
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "_plan", _die)
+    monkeypatch.setattr(pool, "plan_robot", _die)
     results = run_all(jobs=2)
     assert all(result.failed for result in results)
     (found,) = results[0].diagnostics
@@ -122,25 +123,21 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "_PATIENCE", 1)
+    monkeypatch.setattr("urdfsync.workers._PATIENCE", 1)
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
         run_all(executor="tcp://127.0.0.1:9")
 
 
-def test_a_save_while_the_others_plan_is_seen(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_save_while_the_others_plan_is_seen(robots: Path) -> None:
     run_all(jobs=1)
     for path in robots.glob("n*.json"):
         path.write_text(path.read_text().replace("220.5", "330"))
     record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
-    answer = pool.Pool._result
-
-    def edited(self: pool.Pool, robot: config.RobotConfig) -> object:
-        work = answer(self, robot)
-        if robot.name == "n5":
+    loaded = config.load(Path("urdfsync.toml"))
+    results = []
+    for result in build(loaded, loaded.robots, BuildOptions(jobs=2)):
+        results.append(result)
+        if result.robot == "n3":  # the plans of those that follow are under way, or wait to be carried out
             edit(record, "220.5", "221")
-        return work
-
-    monkeypatch.setattr(pool.Pool, "_result", edited)
-    results = run_all(jobs=2)
     assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()

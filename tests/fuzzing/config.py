@@ -21,7 +21,7 @@ from fuzzing.cases import run_cases
 from fuzzing.state import commit, edit, require_edits
 from fuzzing.urdf import damaged, small_robot
 
-CONFIGURATION = '[defaults]\ncross_check = false\n[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
+CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 COMMANDS = (*state.COMMANDS, ["status", "--json"], ["build", "bot"], ["init", "bot.urdf"])
 NAMES = (
     *("bot", "Bot", "BOT", "other", "a.b", "-x", "..", ".", "", "con", "a/b", "é", "x" * 300, "\u202e", "a b"),
@@ -48,7 +48,7 @@ OTHERS: tuple[Any, ...] = (
 )
 KEYS = (
     *("source", "package", "class", "output", "domain", "templates", "package_paths", "create_parents", "on_conflict"),
-    *("on_build", "base", "visualizer", "collisions", "meshes", "cross_check", "approach", "driven", "frames"),
+    *("on_build", "base", "visualizer", "collisions", "meshes", "approach", "driven", "frames"),
     *("inputs", "command", "library", "sources", "name", "", "x.y", "é"),
 )
 FITTING: Mapping[str, Sequence[Any]] = {
@@ -128,7 +128,7 @@ def _template(folder: Path) -> Path:
 def _configuration(random: Random) -> bytes:
     document: dict[str, Any] = {}
     if random.random() < 0.6:
-        document["defaults"] = {"cross_check": False, **_table(random, random.choice((0, 1, 3)))}
+        document["defaults"] = _table(random, random.choice((0, 1, 3)))
     if random.random() < 0.2:
         document["check"] = _table(random, 1) | ({"library": random.choice(PATHS)} if random.random() < 0.5 else {})
     robots = {}
@@ -137,7 +137,6 @@ def _configuration(random: Random) -> bytes:
         required = {
             "source": "bot.urdf",
             "package": random.choice((f"Bot{number}", f"Plant.Bot{number}")),
-            "cross_check": False,
         }
         robots[name] = required | _table(random, random.choice((0, 1, 1, 2, 4)))
     document["robots"] = robots

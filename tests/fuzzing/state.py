@@ -33,7 +33,7 @@ MINE = b"\n// mine\n"
 EDITED = (MODEL, RECORD, "modelica/Bot/Bench.mo", "modelica/notes.txt")
 """Files with an edit of the user's."""
 GENERATED = "modelica/Bot/"
-CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncross_check = false\n'
+CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 COMMANDS = (
     *(["build"], ["build"], ["build", "--full"], ["build", "--repair"], ["build", "--check"], ["build", "--dry-run"]),
     *(["build", "--svg"], ["status"], ["status", "--verbose"], ["diff"], ["diff", "--since-build"], ["hook", "check"]),

@@ -21,11 +21,11 @@ ANGLES = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", 
 SWING = "robot.boom_swing.revolute.phi"
 
 
-@pytest.mark.parametrize("names", [["six_axis_arm"], ["wheeled_robot"], ["planar_platform", "floating_buoy"]])
+@pytest.mark.parametrize("names", [["six_axis_arm"], ["wheeled_robot"]])
 def test_generated_examples_move_as_pinocchio_says(
     names: Sequence[str], modelica_library: Path, tmp_path: Path
 ) -> None:
-    """A mobile robot, a planar and a floating joint among them."""
+    """A mobile robot among them."""
     sources = [URDFSYNC / "Resources" / "robots" / name / f"{name}.urdf" for name in names]
     cases = [
         physics.prepare(source.read_bytes(), class_name(source.stem), base=BASES[source.stem]) for source in sources

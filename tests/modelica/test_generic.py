@@ -152,8 +152,8 @@ def in_form(name: str, form: str) -> physics.Case:
     probe = case.experiment.probe
     assert probe.source.count(".GenericRobot ") == 1
     source = probe.source.replace(".GenericRobot ", f".{form} ")
-    case.experiment.probe = msgspec.structs.replace(probe, source=source)
-    return case
+    experiment = msgspec.structs.replace(case.experiment, probe=msgspec.structs.replace(probe, source=source))
+    return physics.Case(experiment, case.package)
 
 
 def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:

@@ -77,7 +77,7 @@ class RcNetwork(Domain):
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         return (("Modelica", "4.0.0"),)
 
-    def read(self, content: bytes, file: str, options: Options, *, thorough: bool = False) -> Reading:
+    def read(self, content: bytes, file: str, options: Options) -> Reading:
         text = content.decode(errors="replace")
         try:
             network = msgspec.json.decode(content, type=Network)

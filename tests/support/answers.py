@@ -23,7 +23,6 @@ _URDF = """\
 """
 _CONFIG = """\
 [defaults]
-cross_check = false
 create_parents = true
 
 [robots.arm]

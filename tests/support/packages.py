@@ -55,7 +55,7 @@ class Package:
 
 def read(content: bytes, file: str = "robot.urdf") -> Reading:
     """What the domain reads, without the second reader."""
-    return DOMAIN.read(content, file, Options(cross_check=False))
+    return DOMAIN.read(content, file, Options())
 
 
 def proposed_base(content: bytes) -> str:
@@ -67,7 +67,7 @@ def proposed_base(content: bytes) -> str:
 
 def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
     """The package of a URDF that has no errors; `options` are those of the domain."""
-    chosen = Options(cross_check=False, **options)
+    chosen = Options(**options)
     path = source if isinstance(source, Path) else Path("robot.urdf")
     content = source if isinstance(source, bytes) else source.read_bytes()
     reading = DOMAIN.read(content, path.name, chosen)

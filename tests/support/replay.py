@@ -32,7 +32,6 @@ _CONFIGURATION = """\
 source = "bot.urdf"
 package = "Bot"
 base = "{base}"
-cross_check = false
 """
 _MESHES = {True: 'package_paths = ["ros"]\n', False: 'meshes = "skip"\n'}
 _MESH = re.compile(rb'filename="(package://|\./)?([\w+-][\w/.+-]*\.stl)"', re.IGNORECASE)

@@ -73,7 +73,7 @@ def mimic(leader: str, multiplier: float | None = None, offset: float | None = N
 
 def parsed(urdf: str) -> Robot:
     """The robot of a URDF without errors."""
-    found = read_robot(urdf.encode(), "own.urdf", cross_check=False)
+    found = read_robot(urdf.encode(), "own.urdf")
     assert found.robot is not None, found.diagnostics
     return found.robot
 

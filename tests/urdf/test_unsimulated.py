@@ -41,7 +41,7 @@ CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
 
 
 def warnings(urdf: str, *approach: str) -> list[str]:
-    options = Options(cross_check=False, approach=approach)  # type: ignore[arg-type]
+    options = Options(approach=approach)  # type: ignore[arg-type]
     found = DOMAIN.read(urdf.encode(), "own.urdf", options).diagnostics
     assert all(one.severity is Severity.WARNING for one in found)
     return [str(one) for one in found if one.code in CODES]
@@ -111,7 +111,7 @@ CLUTCH = urdfs.robot(
 
 
 def passive_warnings(urdf: str, **options: Any) -> list[Diagnostic]:
-    found = DOMAIN.read(urdf.encode(), "own.urdf", Options(cross_check=False, **options)).diagnostics
+    found = DOMAIN.read(urdf.encode(), "own.urdf", Options(**options)).diagnostics
     return [one for one in found if one.code == "passive-moves-no-mass"]
 
 

@@ -213,7 +213,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
         with contextlib.suppress(psutil.NoSuchProcess):
             found = psutil.Process(watch.process.pid).children(recursive=True)
-            if any("urdfsync.check.compilers" in process.cmdline() for process in found):
+            if any("urdfsync.check.process" in process.cmdline() for process in found):
                 return found
         time.sleep(0.05)
     raise AssertionError(watch.said)
@@ -238,8 +238,10 @@ def test_builds_go_on_beside_a_compiler_that_is_never_done_and_it_does_not_outli
     renew()
     stuck.wait("built", lambda event: bool(event["files"]), since)
     stuck.wait("checking", since=since)
-    assert psutil.wait_procs(first, LIMIT)[1] == [], "what is checked now is the newer package"
     helpers = compilers(stuck)
+    passing = [one for one in first if one not in helpers]  # Python keeps one for locks as long as the daemon runs
+    assert psutil.wait_procs(passing, LIMIT)[1] == []
+    assert len(passing) > 1, "what is checked now is the newer package"
     for number in signals:
         stuck.process.send_signal(number)
     assert stuck.process.wait(LIMIT) == code, stuck.said

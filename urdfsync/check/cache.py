@@ -15,10 +15,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
+import msgspec
 import platformdirs
 import psutil
 
-from urdfsync.check.results import from_text, to_text
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.files import put
 
@@ -35,7 +35,7 @@ class CacheError(UrdfsyncError):
     """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
 
 
-def fingerprint(*facts: object) -> str:
+def digest(*facts: object) -> str:
     """SHA-256 (hex) over facts whose `repr` says all of them."""
     return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 
@@ -71,10 +71,10 @@ class UserCache:
 
     def load(self, key: str, kind: type[T]) -> T | None:
         """What was saved with this key; None if nothing was, or if it can't be read."""
-        file = self.results / f"{key}.json"
+        file = self.results / key
         try:
             os.utime(file)  # its last use is noted
-            return from_text(file.read_bytes(), kind)
+            return msgspec.msgpack.decode(file.read_bytes(), type=kind)
         except (OSError, ValueError):
             return None
 
@@ -82,10 +82,10 @@ class UserCache:
         """Keep a result of a check, or forget the last one for None. A cache that can't be written to is none."""
         with contextlib.suppress(OSError):
             if value is None:
-                (self.results / f"{key}.json").unlink(missing_ok=True)
+                (self.results / key).unlink(missing_ok=True)
                 return
             self.results.mkdir(mode=0o700, parents=True, exist_ok=True)
-            put(self.results / f"{key}.json", to_text(value).encode())
+            put(self.results / key, msgspec.msgpack.encode(value))  # JSON has no infinite numbers
 
     def trim(self, limit: int = LIMIT) -> int:
         """Delete what was used longest ago, if the cache comes near the limit; returns the bytes that came free.

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import msgspec
 
-from urdfsync.check import compilers
+from urdfsync import registry
+from urdfsync.check import compilers, process
 from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
     CompileJob,
@@ -25,20 +26,21 @@ from urdfsync.check.compilers.compiler import (
     compile_task,
 )
 from urdfsync.check.package import CheckedPackage, PackageTexts, write_package
+from urdfsync.check.process import Limits
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
     CheckOptions,
     CheckResult,
-    CheckStep,
     CompiledModel,
     EditEffect,
     agrees,
     listed,
 )
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
-from urdfsync.domain import Deviation, Experiment
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
 from urdfsync.output.phrases import counted
+from urdfsync.workers import tell
 
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
@@ -50,22 +52,6 @@ _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 _Series: TypeAlias = Mapping[str, Sequence[float]]
 
 
-class CheckProgress:
-    """Tells the steps of a check, also from several threads; `total` is how many there will be, as far as is known."""
-
-    def __init__(self, robot: str, tell: Callable[[CheckStep], None]) -> None:
-        self._robot, self._tell = robot, tell
-        self._lock = threading.Lock()  # steps of several compilers must not mix
-        self._begun, self.total = 0, 6
-
-    def begin(self, what: str) -> None:
-        """Tell what is done next."""
-        with self._lock:
-            done = min(self._begun / self.total, 1.0)
-            self._begun += 1
-            self._tell(CheckStep(f"{self._robot}: {what}", done))
-
-
 class Compilation:
     """The compiling of one check: what it finds goes into the result."""
 
@@ -74,7 +60,7 @@ class Compilation:
         package: CheckedPackage,
         options: CheckOptions,
         result: CheckResult,
-        progress: CheckProgress,
+        limits: Limits,
         folder: Path,
         standard: tuple[Path, Mapping[str, Path]],
         libraries: Mapping[str, Path],
@@ -84,7 +70,7 @@ class Compilation:
         `standard` is the folder with a copy of the Modelica Standard Library, and what it is a copy of; `libraries` are
         needed besides.
         """
-        self._package, self._options, self._result, self._progress = package, options, result, progress
+        self._package, self._options, self._result, self._limits = package, options, result, limits
         self._folder, (self._standard, parts), self._libraries = folder, standard, libraries
         self._originals = {str(self._standard / name): path for name, path in parts.items() if path.suffix != ".mo"}
         self._compiler = compilers.COMPILERS[options.compiler]
@@ -98,11 +84,8 @@ class Compilation:
     def compare(self) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
         package, result = self._package, self._result
-        try:
-            experiment = self._experiment(complete=True)
-            plain = self._experiment(complete=False) if package.edits else None
-        except UrdfsyncError as error:
-            result.add(error.diagnostics)
+        experiment = self._experiment()
+        if experiment is None:
             self.compile_all()
             return
         result.notes, result.reference = experiment.notes, experiment.reference
@@ -111,10 +94,10 @@ class Compilation:
             result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
-        models = self._model_jobs(1)
-        jobs = {**models, "completed": (completed, [_moving_task(experiment)])}
-        if plain:  # the edited package, the generated one, and this one with each of the edits
-            move, files = [_moving_task(plain)], package.edits
+        models, move = self._model_jobs(1), [_moving_task(experiment)]
+        jobs = {**models, "completed": (completed, move)}
+        if package.edits:  # the edited package, the generated one, and this one with each of the edits
+            files = package.edits
             jobs["edited"] = package.files.texts, move
             if not is_same:
                 jobs["generated"] = package.generated, move
@@ -126,8 +109,8 @@ class Compilation:
         moved, said = self._series(done["completed"])
         result.add(said)
         if moved is not None:
-            result.deviations = tuple(experiment.compare(moved))
-        if plain:
+            result.deviations = compare(experiment.compared, moved, experiment.expected)
+        if package.edits:
             if not is_same:
                 moved, said = self._series(done["generated"])
                 result.add(said)
@@ -137,8 +120,8 @@ class Compilation:
             if edited is None or moved is None:
                 return
             alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
-            single = {file: plain.compare(one, moved) for file, one in alone.items() if one is not None}
-            whole = plain.compare(edited, moved)
+            single = {file: compare(experiment.compared, one, moved) for file, one in alone.items() if one is not None}
+            whole = compare(experiment.compared, edited, moved)
             result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
@@ -161,18 +144,26 @@ class Compilation:
                 elif task.title not in self._users_models:
                     self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
 
-    def _experiment(self, *, complete: bool) -> Experiment:
-        """The experiment for the package, with the source as it is, or `complete`. Raises UrdfsyncError without one."""
+    def _experiment(self) -> Experiment | None:
+        """The experiment for the package; None if there is none, and the result says why."""
         robot, content = self._package.robot, self._package.rendering.content
-        found = self._package.domain.experiment(content, shown(robot.source), robot.target, robot.options, complete)
-        if found is None:
-            message = "nothing can be compared: there is no reference for this package"
-            raise OutputError(Diagnostic(Severity.ERROR, "no-reference", message, hint="check without `--physics`"))
-        return found
+        tell(f"{robot.name}: asking the reference")
+        try:
+            arguments = robot.domain, content, shown(robot.source), robot.target, robot.options
+            (found,) = process.run(_experiments, *arguments, limits=self._limits)
+        except UrdfsyncError as error:
+            self._result.add(error.diagnostics)
+        except process.BrokenProcessError as error:
+            message, hint = f"the reference broke down: {error}", "check without `--physics`"
+            self._result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
+        else:
+            if isinstance(found, Experiment):
+                return found
+            self._result.gaps += (f"poses, efforts and masses were not compared: {found}",)
+        return None
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
-        self._progress.total = 2 + len(jobs)
         done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._options.compilers) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
@@ -197,9 +188,9 @@ class Compilation:
             imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
             with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
         job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
-        self._progress.begin(f"loading libraries, then compiling {listed([task.title for task in tasks])}")
+        tell(f"{robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
         results = []
-        for one in compilers.run_job(self._options.compiler, job, cache):
+        for one in compilers.run_job(self._options.compiler, job, cache, self._limits):
             problem = one.problem
             for copy, original in originals.items():
                 problem = problem.replace(copy, str(original))
@@ -232,11 +223,38 @@ def _readable(path: Path, folder: Path) -> str:
     return str(path)
 
 
+def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
+    """Yield the experiment of a domain, in a process of its own."""
+    yield registry.domain(domain).experiment(*arguments)
+
+
 def _moving_task(experiment: Experiment) -> CompileTask:
     """The task that moves a package as the experiment wants."""
     probe = experiment.probe
     run = Simulation(probe.stop, probe.step)
     return CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")
+
+
+def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> tuple[Deviation, ...]:
+    """How far values are from those expected, at the beginning and at the end; what is no number is infinitely far."""
+    deviations: list[Deviation] = []
+    for one in compared:
+        places = [(name, instant) for name in one.values for instant in (0, -1)]
+        pairs = [(_number(found, *place), _number(expected, *place)) for place in places]
+        differences = [abs(value - other) for value, other in pairs]
+        greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
+        value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
+        deviations.append(Deviation(one.quantity, one.element, greatest, value, 0.0, one.unit))
+    sizes: dict[tuple[str, str], float] = {}
+    for one_found in deviations:
+        kind = one_found.quantity, one_found.unit
+        sizes[kind] = max(sizes.get(kind, 0.0), one_found.value)
+    return tuple(msgspec.structs.replace(one, size=sizes[one.quantity, one.unit]) for one in deviations)
+
+
+def _number(series: _Series, name: str, instant: int) -> float:
+    numbers = series.get(name)
+    return numbers[instant] if numbers else math.nan
 
 
 def edit_effects(

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check.cache import UserCache, cache_errors, fingerprint
+from urdfsync.check.cache import UserCache, cache_errors, digest
 from urdfsync.check.package import package_texts, stored_files
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -172,7 +172,7 @@ def library_state(path: Path) -> str:
         with contextlib.suppress(OSError):  # somebody replaces it at this moment
             status = file.stat()
             found.append((str(file), status.st_size, status.st_mtime_ns))
-    return fingerprint(sorted(found))
+    return digest(sorted(found))
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
@@ -182,7 +182,7 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
     wants all parts in one folder, and would read all that is in this one. Raises CacheError.
     """
     whole = not all(map(_is_in_copy, texts))
-    key = fingerprint(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
+    key = digest(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
     target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
 
     def ignored(folder: str, names: list[str]) -> list[str]:

@@ -105,9 +105,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         raise UrdfsyncError(*built.diagnostics)
     rendering = Rendering(config, robot, options)
     domain = rendering.domain
-    reading = domain.read(rendering.content, shown(robot.source), robot.options, thorough=True)
     said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
-    said += [one for one in reading.diagnostics if one.severity is not Severity.WARNING]
     on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
     texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))

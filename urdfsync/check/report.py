@@ -15,6 +15,7 @@ from urdfsync.check.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
+    EditEffect,
     agrees,
     largest,
     listed,
@@ -32,6 +33,7 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
+_ADVICE = "; whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 
 
@@ -40,35 +42,34 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
-    wrong = [one for one in result.deviations or () if not agrees(one)]
-    differences = _phrases(wrong, against=f" from {result.reference or 'the reference'}")
-    if differences:
-        differences[0] += "; whatever you edited: look at `templates` of your own, else please report it as a bug, "
-        differences[0] += "with the source"
-    said = [(one, "bold red") for one in differences]
-    changed = "bold red" if strict else "cyan"
+    said, advice = list[tuple[str, str]](), _ADVICE
+    for one, others in _by_kind([one for one in result.deviations or () if not agrees(one)]):
+        what, amount = _amount(one)
+        size = f" (its largest is {_digits(one.value)} {one.unit})" if one.unit in ("N·m", "N", "kg") else ""
+        sentence = f"{one.element}: {what} differs from {result.reference or 'the reference'} by {amount}{size}"
+        said.append((f"{sentence}{others}{advice}", "bold red"))
+        advice = ""
     for found in result.effects:
-        edited = f"{listed(found.files)} {'was' if len(found.files) == 1 else 'were'} edited"
-        if phrases := "; ".join(_phrases(found.deviations, found.owners)):
-            said.append((f"{phrases} since {edited}", changed))
-        else:
-            said.append((f"{edited}; nothing that is compared changed", "dim"))
+        changed = "; ".join(_change(*each) for each in _by_kind(found.deviations, found.owners))
+        style = "dim" if not changed else "bold red" if strict else "cyan"
+        said.append((f"{_edited(found)} {changed or 'nothing that is compared'}", style))
     said += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
         said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
     elif result.conflicting:
-        advice = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
-        said.append((advice, "yellow"))
+        told = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
+        said.append((told, "yellow"))
     elif not result.in_step:
         said.append(("the package is not what a build would leave; run `urdfsync build`", "yellow"))
     if verbose:
         for model in result.compiled:
             size = f"{model.unknowns:,} equations = unknowns, {counted(model.states, 'state')}"
             said.append((f"{model.model}: {size if model.unknowns else 'compiles'}", "dim"))
-        said += [(f"{_deviation(one)} ({one.relative:.1e})", "dim") for one in result.deviations or ()]
+        for one in result.deviations or ():
+            what, amount = _amount(one)
+            said.append((f"{one.element}: {what} differs by {amount} ({one.relative:.1e})", "dim"))
         for found in result.effects:
-            files = listed(found.files)
-            said += [(f"{_deviation(one)} since {files} was edited", "dim") for one in found.deviations]
+            said += [(f"{_edited(found)} {_change(one)}", "dim") for one in found.deviations]
     yield from (line(("  ", ""), sentence) for sentence in said)
 
 
@@ -151,27 +152,33 @@ def verdict(result: CheckResult, strict: bool) -> str:
     return "out of step" if result.built else "not built"
 
 
-def _phrases(deviations: Sequence[Deviation], owners: Collection[str] = (), against: str = "") -> list[str]:
-    """A phrase for each kind of what differs; `owners` are the elements that were edited.
+def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
+    """Yield one deviation of each kind, and which other elements differ; `owners` are the elements that were edited.
 
     The element comes first that is nearest to the cause: one that was edited. Else, since a link that is displaced
     takes along all that hangs on it, the first from the root; and since each joint carries all that is behind it and
     the root carries everything, the last joint.
     """
-    said = []
     for _, quantities in _KINDS:
         found = [one for one in deviations if one.quantity in quantities]
         if quantities is EFFORTS:
             found.reverse()
         found.sort(key=lambda one: (one.element not in owners, one.quantity is Quantity.REACTION))
         if names := list(dict.fromkeys(one.element for one in found)):
-            others = f" (also {listed(names[1:])})" if names[1:] else ""
-            said.append(f"{_deviation(found[0], against)}{others}")
-    return said
+            yield found[0], f" (also {listed(names[1:])})" if names[1:] else ""
 
 
-def _deviation(one: Deviation, against: str = "") -> str:
-    """How far one quantity is off: `joint elbow: torque differs by 0.4 N·m, where up to 12.5 N·m are expected`.
+def _edited(effect: EditEffect) -> str:
+    return f"{listed(effect.files)} (edited) {'changes' if len(effect.files) == 1 else 'change'}"
+
+
+def _change(one: Deviation, others: str = "") -> str:
+    what, amount = _amount(one)
+    return f"the {what} of {one.element} by {amount}{others}"
+
+
+def _amount(one: Deviation) -> tuple[str, str]:
+    """What differs, and by how much: `torque`, `0.4 N·m`.
 
     Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
     """
@@ -182,10 +189,7 @@ def _deviation(one: Deviation, against: str = "") -> str:
         value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
     elif unit == "m":
         value, unit = 1000 * value, "mm"
-    if not math.isfinite(one.difference):
-        return f"{one.element}: {what} is not finite"
-    expected = "" if unit in ("°", "mm") else f", where up to {_digits(one.value)} {unit} are expected"
-    return f"{one.element}: {what} differs{against} by {_digits(value)} {unit}{expected}"
+    return what, f"{_digits(value)} {unit}" if math.isfinite(one.difference) else "more than any number"
 
 
 def _digits(value: float) -> str:

@@ -1,13 +1,11 @@
-"""What is to be checked, and what came out: plain data, passed between processes as JSON."""
+"""What is to be checked, and what came out: plain data."""
 
 from __future__ import annotations
 
 import enum
-import json
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
 import msgspec
 
@@ -22,10 +20,8 @@ MOST_SINGLE_EDITS = 6
 """So many edited files are tried one by one at most; more of them are looked at and told together."""
 
 POSES = (Quantity.POSITION, Quantity.ORIENTATION)
-EFFORTS = (Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION)
+EFFORTS = (Quantity.EFFORT, Quantity.REACTION)
 MASSES = (Quantity.MASS, Quantity.CENTRE)
-
-T = TypeVar("T")
 
 
 class CheckOptions(msgspec.Struct, frozen=True):
@@ -51,6 +47,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """How many compilers may run at the same time for one robot."""
     executor: str = ""
     """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
+    fresh: bool = False
+    """Whether what was right before is checked again."""
 
 
 class CheckStatus(enum.StrEnum):
@@ -134,14 +132,6 @@ class CheckResult(msgspec.Struct):
         """Add findings, each once."""
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
-    def take(self, models: CheckResult) -> None:
-        """Take over what compiling and comparing gave."""
-        for name in ("compiled", "deviations", "effects", "notes", "reference"):
-            setattr(self, name, getattr(models, name))
-        self.unchecked += models.unchecked
-        self.gaps += models.gaps
-        self.add(models.diagnostics)
-
     def status(self, strict: bool) -> CheckStatus:
         """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
         if self.failed:
@@ -149,25 +139,6 @@ class CheckResult(msgspec.Struct):
         if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
             return CheckStatus.DIFFERS
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
-
-
-class CheckStep(msgspec.Struct, frozen=True):
-    """What is being done, and how far the check of the robot is (0 to 1)."""
-
-    what: str
-    done: float
-    result: CheckResult | None = None
-    """What came out, with the last step."""
-
-
-def to_text(value: Any) -> str:
-    """A line of JSON; unlike that of msgspec it has infinite numbers."""
-    return json.dumps(msgspec.to_builtins(value, enc_hook=str))
-
-
-def from_text(text: str | bytes, kind: type[T]) -> T:
-    """The value that `to_text` gave a text for. Raises ValueError for any other text."""
-    return msgspec.convert(json.loads(text), kind, dec_hook=lambda path, value: path(value))
 
 
 def agrees(deviation: Deviation) -> bool:

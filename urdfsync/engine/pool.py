@@ -1,44 +1,30 @@
-"""Plans many robots at once, in worker processes of this machine or of a Dask cluster.
-
-Workers of a cluster see the project at the same path, such as on a shared file system, and have the same urdfsync. Only
-this process writes.
-"""
+"""Plans many robots at once, in worker processes of this machine or of a Dask cluster. Only this process writes."""
 
 from __future__ import annotations
 
 import contextlib
-import os
-import weakref
 from collections import deque
-from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, Future, wait
-from concurrent.futures.process import ProcessPoolExecutor
-from multiprocessing import active_children, get_context, parent_process
-from multiprocessing.connection import wait as wait_for
-from pathlib import Path
-from signal import SIG_IGN, SIGINT, signal
-from threading import Thread
-from types import TracebackType
-from typing import Self
+from collections.abc import Sequence
+from concurrent.futures import Future, wait
+from typing import Any, Self
 
 import msgspec
 
 from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.dependencies import Dependencies
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
-from urdfsync.extras import install_command
+from urdfsync.workers import Workers, workers
 
-LEAST_STALE = 6
-"""With fewer stale robots, importing urdfsync in each worker takes longer than it saves."""
+LEAST_ROBOTS = 6
+"""With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _AHEAD = 3
 """Plans per worker that may be under way or wait to be carried out: each holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
 """Workers that a cluster is taken to have, unless `--jobs` says otherwise."""
-_PATIENCE = 10
-"""Seconds to wait for a Dask scheduler to answer."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
@@ -49,29 +35,20 @@ class Pool:
     def __init__(self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> None:
         self._config, self._robots, self._options = config, robots, options
         self._is_started = False
-        self._executor: Executor | None = None
-        self._futures: dict[str, Future[Plan]] = {}
+        self._stack = contextlib.ExitStack()
+        self._workers: Workers | None = None
+        self._futures: dict[str, Future[tuple[Plan, Dependencies]]] = {}
         self._waiting: deque[RobotConfig] = deque()
-        self._stale = self._most = 0
+        self._most = 0
 
     def __enter__(self) -> Self:
         """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
         if self._options.executor:
-            self._executor = connect_cluster(self._options.executor)
+            self._workers = self._stack.enter_context(workers(_CLUSTER_WORKERS, self._options.executor))
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._executor is None:
-            return
-        if kind is not None and not issubclass(kind, Exception) and isinstance(self._executor, ProcessPoolExecutor):
-            for child in active_children():  # whoever interrupts does not want to wait
-                child.terminate()
-        else:  # not of a pool whose processes have ended: it fails with a traceback on futures that are cancelled
-            for future in self._futures.values():
-                future.cancel()
-        self._executor.shutdown()
+    def __exit__(self, *error: Any) -> None:
+        self._stack.__exit__(*error)
 
     def plan(self, robot: RobotConfig) -> Plan:
         """Plan one robot. Raises UrdfsyncError for whatever is wrong."""
@@ -83,28 +60,21 @@ class Pool:
         return plan_robot(self._config, robot, self._options)
 
     def _start(self) -> None:
-        """Find the stale robots, and start workers if they are many."""
-        stale = list(self._robots)
-        workers = self._options.jobs or (_CLUSTER_WORKERS if self._executor else machine.cores())
-        if self._executor is None:
-            if len(stale) < LEAST_STALE:
+        """Start workers if the robots are many."""
+        count = self._options.jobs or (_CLUSTER_WORKERS if self._workers else machine.cores())
+        if self._workers is None:
+            if len(self._robots) < LEAST_ROBOTS:
                 return
-            # no fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs
-            # a socket in the folder for temporary files, whose path may be too long for one.
-            workers = min(workers, len(stale))
-            with _safe_path():
-                self._executor = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_prepare_worker)
-        dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
-        self._stale, self._most, self._waiting = len(stale), _AHEAD * workers, deque(stale)
+            count = min(count, len(self._robots))
+            self._workers = self._stack.enter_context(workers(count))
+        self._most, self._waiting = _AHEAD * count, deque(self._robots)
         self._submit()
 
     def _submit(self) -> None:
-        options = msgspec.structs.replace(self._options, progress=no_progress, cache=None, executor="")
-        while self._executor is not None and self._waiting and len(self._futures) < self._most:
+        options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
+        while self._workers is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
-            with _safe_path():
-                arguments = str(Path.cwd()), self._config, robot, options
-                self._futures[robot.name] = self._executor.submit(_plan, *arguments)
+            self._futures[robot.name] = self._workers.submit(_plan, self._config, robot, options)
 
     def _result(self, robot: RobotConfig) -> Plan:
         message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
@@ -115,7 +85,8 @@ class Pool:
         while wait([future], _PAUSE).not_done:
             done = sum(other.done() for other in self._futures.values())
             left = len(self._waiting) + len(self._futures) + 1
-            self._options.progress("reading", self._stale - left + done, self._stale)
+            total = len(self._robots)
+            self._options.progress("reading", total - left + done, total)
         try:
             problem = future.exception()
             if problem is None or isinstance(problem, UrdfsyncError):
@@ -123,65 +94,18 @@ class Pool:
         except Exception as error:  # the workers are lost, in one of many ways
             raise lost from error
         if isinstance(problem, UrdfsyncError):
+            dependencies.mark_incomplete()
             raise problem
         if problem is not None:
             raise lost from problem
-        return future.result()
+        plan, found = future.result()
+        dependencies.include(found)
+        return plan
 
 
-def connect_cluster(address: str) -> Executor:
-    """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
-
-    Its answers are unpickled, so whoever answers at the address is trusted.
-    """
-    try:
-        from distributed import Client  # an extra, and a second to import
-    except ImportError:
-        message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
-    try:
-        client = Client(address, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
-        hint = "start one with `dask scheduler`, or go without `--executor`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
-    executor: Executor = client.get_executor()
-    weakref.finalize(executor, client.close)  # its own end does not close it: it would try to connect again for seconds
-    return executor
-
-
-def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
-    """Plan in a worker, in the folder that diagnostics name files from. Raises UrdfsyncError."""
-    os.chdir(folder)
-    return plan_robot(config, robot, options)
-
-
-@contextlib.contextmanager
-def _safe_path() -> Iterator[None]:
-    """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
-
-    An executor starts some when it is made, for its locks, and others when work is submitted. The variable is removed
-    afterwards: a command of the user's that runs later may want its own folder on the path.
-    """
-    before = os.environ.get("PYTHONSAFEPATH")
-    os.environ["PYTHONSAFEPATH"] = "1"
-    try:
-        yield
-    finally:
-        if before is None:
-            del os.environ["PYTHONSAFEPATH"]
-        else:
-            os.environ["PYTHONSAFEPATH"] = before
-
-
-def _prepare_worker() -> None:
-    """End when the parent ends, and not with Ctrl-C."""
-    signal(SIGINT, SIG_IGN)  # the parent gets it, too, and ends the workers
-    parent = parent_process()
-
-    def follow() -> None:
-        if parent is not None:
-            wait_for([parent.sentinel])
-            os._exit(1)
-
-    Thread(target=follow, daemon=True).start()
+def _plan(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
+    """Plan in a worker; also what that has read. Raises UrdfsyncError."""
+    with Dependencies() as found:
+        plan = plan_robot(config, robot, options)
+    found.add_modules()
+    return plan, found

@@ -34,8 +34,6 @@ class Checked(enum.StrEnum):
     RIGHT = "right"
     INCOMPLETE = "incomplete"
     """Nothing is wrong with it as far as it could be checked, but not everything could."""
-    UNCHECKED = "unchecked"
-    """Nothing could be checked, since this machine lacks something."""
     WRONG = "wrong"
 
 

@@ -106,11 +106,8 @@ def read(
 
 
 def read_cached(domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None) -> Reading:
-    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once.
-
-    Only the daemon has a cache, and it has the time to read thoroughly.
-    """
+    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once."""
     if cache is None:
         return domain.read(content, name, options)
     key = domain, options, content, name
-    return cache.get("source", key, lambda: domain.read(content, name, options, thorough=True))
+    return cache.get("source", key, lambda: domain.read(content, name, options))

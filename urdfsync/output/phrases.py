@@ -53,7 +53,6 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
     return {
         Checked.RIGHT: "checked: compiles",
         Checked.INCOMPLETE: "not checked completely",
-        Checked.UNCHECKED: "not checked",
         Checked.WRONG: f"checked: {error_count(diagnostics)}",
     }[checked]
 

@@ -51,10 +51,9 @@ class UrdfDomain(Domain):
         """Return the Modelica Standard Library, UrdfSync, and the library of the visualizer."""
         return options.uses
 
-    def read(self, content: bytes, file: str, options: Options, *, thorough: bool = False) -> Reading:
+    def read(self, content: bytes, file: str, options: Options) -> Reading:
         """Read a URDF; of one without errors, say also what can't be simulated."""
-        cross_check = thorough if options.cross_check is None else options.cross_check
-        robot, diagnostics, lines = read_robot(content, file, cross_check=cross_check)
+        robot, diagnostics, lines = read_robot(content, file)
         if robot is None:
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
@@ -63,6 +62,12 @@ class UrdfDomain(Domain):
         if "package" in options.approach:
             diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
         return Reading(to_snapshot(robot), diagnostics, lines)
+
+    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
+        """Return where yourdfpy finds other links, joints or poses."""
+        from urdfsync.urdf.parse.second_reader import cross_check  # most of a second, which no build needs
+
+        return cross_check(content, file)
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
@@ -158,13 +163,11 @@ class UrdfDomain(Domain):
         findings = out_of_scope(KinematicTree.of(robot), file, reading.lines)
         return Standalone(package.record(robot, target, options), tuple(findings))
 
-    def experiment(
-        self, content: bytes, file: str, target: Target, options: Options, complete: bool
-    ) -> Experiment | None:
-        """Return the comparison with Pinocchio; None if there is only a record, and no generic robot that reads it."""
+    def experiment(self, content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
+        """Return the comparison with Pinocchio; there is none of robots with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
-        return experiment(content, file, target, options, complete)
+        return experiment(content, file, target, options)
 
 
 DOMAIN = UrdfDomain()

@@ -74,7 +74,7 @@ _ERRORS = {
     "unknown-mimic": "add the joint, or correct its name",
     "mimic-cycle": "one joint of the cycle must move by itself",
     "mimic-type": "only revolute, continuous and prismatic joints mimic and are mimicked",
-    "second-reader-differs": "please report this file; cross_check = false builds it as urdfsync reads it",
+    "second-reader-differs": "please report this file: one of both reads it wrongly",
 }
 _WARNINGS = {
     # the file

@@ -17,7 +17,7 @@ COMMAND, STATE = '<command_interface name="velocity"/>', '<state_interface name=
 
 
 def read(*elements: str) -> RobotReading:
-    return read_robot(urdfs.robot(*BASE, *elements).encode(), "own.urdf", cross_check=False)
+    return read_robot(urdfs.robot(*BASE, *elements).encode(), "own.urdf")
 
 
 def actuated(reading: RobotReading) -> list[str]:

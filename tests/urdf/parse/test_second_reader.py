@@ -1,8 +1,7 @@
-"""yourdfpy as second reader: agreement is silent, disagreement an error, its failures notes; where it reads at all."""
+"""yourdfpy as second reader: agreement is silent, disagreement an error, its failures notes; `check` alone asks it."""
 
 from __future__ import annotations
 
-import json
 import logging
 import subprocess
 import sys
@@ -11,24 +10,25 @@ from typing import Any
 
 import msgspec
 import pytest
-import yourdfpy
-from support.daemon import Watch
+from support.urdfs import joint, links, mimic, parsed, robot
 
-from urdfsync import cli
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.parse.second_reader import compare_readers
-from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.parse.second_reader import compare_readers, cross_check
+from urdfsync.urdf.robot import Joint, Link, Origin, Robot
 
 TREE = '<link name="a"/><link name="b"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
 URDF = f'<robot name="r">{TREE}</robot>'
 ODD = URDF.replace(' name="r"', "")
 """A robot that yourdfpy can't read."""
 ROBOT = Robot("r", (Link("a"), Link("b")), (Joint("j", "fixed", "a", "b"),))
-
-
-def read(urdf: str) -> RobotReading:
-    return read_robot(urdf.encode(), "a.urdf", cross_check=True)
+MOVING = robot(
+    *links(base=4.0, upper=2.5, fore=1.5, hand=0.7, puck=0.3),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", rpy="0.4 0.5 0.6"),
+    joint("elbow", "prismatic", "upper", "fore", axis="0.3 -0.4 1.2", inside=[mimic("shoulder", -1.5, 0.2)]),
+    joint("wrist", "continuous", "fore", "hand", axis="1 1 0", inside=[mimic("elbow", 2)]),
+    joint("glide", "planar", "hand", "puck"),
+)
+"""Followers of followers, axes that are no unit vectors, and a joint without an axis of its own."""
 
 
 @pytest.mark.parametrize(("changes", "message"), [
@@ -37,11 +37,27 @@ def read(urdf: str) -> RobotReading:
     ({"joints": (Joint("j", "planar", "a", "b"),)}, "without j (planar, a → b); with j (fixed, a → b)"),
     ({"joints": ()}, "other joints: with j (fixed, a → b)"),
     ({"links": tuple(map(Link, "abcdefgh"))}, "other links: without c, d, e, f, g, …"),
+    ({"joints": (Joint("j", "fixed", "a", "b", origin=Origin((1.0, 0.0, 0.0))),)},
+     "link 'b': with all joints at zero the link is at (1, 0, 0) m, for yourdfpy at (0, 0, 0) m"),
+    ({"joints": (Joint("j", "fixed", "a", "b", origin=Origin(rpy=(0.0, 1e-6, 0.0))),)},
+     "for yourdfpy at (0, 0, 0) m, turned otherwise"),
 ])  # fmt: skip
-def test_disagreement_is_an_error(changes: dict[str, Any], message: str) -> None:
+def test_disagreement_is_told(changes: dict[str, Any], message: str) -> None:
     (finding,) = compare_readers(URDF.encode(), msgspec.structs.replace(ROBOT, **changes))
     assert finding.code == "second-reader-differs"
     assert finding.message.endswith(message)
+
+
+@pytest.mark.parametrize(("number", "axis", "link"), [(0, (0.0, 0.0, 1.0), "upper"), (1, (0.0, 1.0, 0.0), "fore")])
+def test_an_axis_that_is_read_otherwise_shows_where_joints_move(
+    number: int, axis: tuple[float, float, float], link: str
+) -> None:
+    read = parsed(MOVING)
+    assert list(compare_readers(MOVING.encode(), read)) == []
+    joints = [msgspec.structs.replace(one, axis=axis) if k == number else one for k, one in enumerate(read.joints)]
+    (finding,) = compare_readers(MOVING.encode(), msgspec.structs.replace(read, joints=tuple(joints)))
+    assert finding.path == f"link {link}"
+    assert "with all joints away from zero" in finding.message
 
 
 @pytest.mark.parametrize(
@@ -57,97 +73,20 @@ def test_disagreement_is_an_error(changes: dict[str, Any], message: str) -> None
         (f'<?xml version="1.0" encoding="utf-16"?>{URDF}', "TypeError"),
     ],
 )  # fmt: skip
-def test_what_only_the_strict_reader_accepts_is_a_note(urdf: str, reason: str) -> None:
-    reading = read(urdf)
-    assert reading.robot is not None
-    (note,) = [d for d in reading.diagnostics if d.code == "second-reader-failed"]
-    assert note.severity is Severity.NOTE
+def test_what_only_the_strict_reader_accepts_is_a_note(
+    urdf: str, reason: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (note,) = cross_check(urdf.encode(), "a.urdf")
+    assert (note.code, note.severity, note.line > 0) == ("second-reader-failed", Severity.NOTE, True)
     assert reason in note.message
-    assert note.line > 0
-
-
-def test_yourdfpy_is_silent_and_its_log_is_left_as_it_was(capfd: pytest.CaptureFixture[str]) -> None:
-    read(f'<?xml version="0.0"?>{URDF}')
-    read(ODD)
     assert not logging.getLogger("yourdfpy.urdf").disabled
     assert capfd.readouterr() == ("", "")
 
 
-def test_a_text_that_differs_in_numbers_alone_is_not_read_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts: list[str] = []
-    load = yourdfpy.URDF.load
-
-    def noting(file: Any, **options: Any) -> Any:
-        texts.append(file.getvalue().decode())
-        return load(file, **options)
-
-    monkeypatch.setattr(yourdfpy.URDF, "load", noting)
-    mass = '<link name="arm"><inertial><mass value="{}"/></inertial></link><joint name="k" type="fixed">'
-    heavy, light = (
-        URDF.replace("</robot>", f'{mass.format(kg)}<parent link="b"/><child link="arm"/></joint></robot>')
-        for kg in ("1.5e1", "2")
-    )
-    numbered = [URDF.replace('"b"', f'"b{number}"') for number in (1, 2)]
-    again = light.replace("fixed", "floating", 1)
-    for text in (heavy, light, *numbered, again, heavy):
-        assert "second-reader-differs" not in {found.code for found in read(text).diagnostics}
-    assert texts == [heavy, *numbered, again]
-
-
-# Where it reads
-
-
-def test_a_plain_build_does_not_load_it() -> None:
-    program = (
-        "import sys; from urdfsync.urdf.domain import DOMAIN; from urdfsync.urdf.options import Options;"
-        f"read = lambda given, **how: DOMAIN.read({URDF.encode()!r}, 'a.urdf', Options(cross_check=given), **how);"
-        "assert read(None).snapshot and read(False, thorough=True).snapshot;"
-        "assert not {'yourdfpy', 'numpy'} & sys.modules.keys();"
-        "read(CHOICE, thorough=THOROUGH); assert 'yourdfpy' in sys.modules"
-    )
-    for choice, thorough in (("None", "True"), ("True", "False")):
-        text = program.replace("CHOICE", choice).replace("THOROUGH", thorough)
-        assert subprocess.run([sys.executable, "-c", text], check=False).returncode == 0
-
-
-@pytest.fixture
-def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def test_a_build_does_not_load_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.urdf").write_text(ODD)
     (tmp_path / "urdfsync.toml").write_text('[robots.a]\nsource = "a.urdf"\npackage = "A"\n')
-    return tmp_path
-
-
-def codes(robots: list[dict[str, Any]]) -> list[str]:
-    return [found["code"] for robot in robots for found in robot["diagnostics"]]
-
-
-@pytest.mark.parametrize(
-    ("line", "reads"), [("", False), ("cross_check = false\n", False), ("cross_check = true\n", True)]
-)
-def test_builds_read_with_it_only_on_request(
-    project: Path, line: str, reads: bool, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(line)
-    assert cli.main(["build", "--json"]) == 0
-    assert ("second-reader-failed" in codes(json.loads(capsys.readouterr().out)["robots"])) == reads
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("line", ["", "cross_check = false\n"])
-def test_check_reads_with_it(project: Path, line: str, capfd: pytest.CaptureFixture[str]) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write(line)
-    cli.main(["build", "--quiet"])
-    (project / "modelica" / "A" / "A.mo").write_text("model A")  # with this, nothing is compiled
-    capfd.readouterr()
-    cli.main(["check", "--json"])
-    assert ("second-reader-failed" in codes(json.loads(capfd.readouterr().out)["robots"])) == (not line)
-
-
-def test_the_daemon_reads_with_it(project: Path) -> None:
-    with Watch(project) as watch:
-        watch.rest()
-        events = watch.wait("built", lambda event: True)
-    assert "second-reader-failed" in json.dumps(events)
+    program = "import sys; from urdfsync import cli; assert cli.main(['build', '--quiet']) == 0;"
+    program += "assert not {'yourdfpy', 'numpy'} & sys.modules.keys()"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

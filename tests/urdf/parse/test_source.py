@@ -66,7 +66,7 @@ ARM = """<?xml version="1.0" encoding="utf-8"?>
 
 
 def read(text: str) -> RobotReading:
-    return read_robot(text.encode(), "a.urdf", cross_check=False)
+    return read_robot(text.encode(), "a.urdf")
 
 
 def robot_of(text: str) -> Robot:
@@ -146,7 +146,7 @@ def test_lines_of_elements() -> None:
 @pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
 def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
     text = ARM.replace("utf-8", encoding.removesuffix("-sig")).replace("\n", line_end)
-    reading = read_robot(text.encode(encoding), "a.urdf", cross_check=False)
+    reading = read_robot(text.encode(encoding), "a.urdf")
     assert reading.diagnostics == ()
     assert reading.robot == robot_of(ARM)
     assert reading.lines == read(ARM).lines
@@ -475,7 +475,7 @@ def test_numbers_are_read_exactly(value: float) -> None:
 @example(b"\xfe\xff", 0, 0)
 def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
     arm = ARM.encode()
-    reading = read_robot(arm[:position] + noise + arm[position + removed :], "a.urdf", cross_check=False)
+    reading = read_robot(arm[:position] + noise + arm[position + removed :], "a.urdf")
     errors = [d for d in reading.diagnostics if d.severity is Severity.ERROR]
     assert (reading.robot is None) == bool(errors)
     assert all(d.line > 0 and d.hint for d in reading.diagnostics)

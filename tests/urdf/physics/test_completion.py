@@ -91,7 +91,7 @@ def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
     joints = [joint(f"to_{name}", "continuous", "base", name) for name in names]
     urdf = robot(link("base"), *map(link, names), *joints).encode()
     content, _ = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
-    reading = read_robot(content, "robot.urdf", cross_check=False)
+    reading = read_robot(content, "robot.urdf")
     assert reading.diagnostics == (), "the checks of the reader know what a tensor must be"
     assert reading.robot is not None
     inertials = {one.name: one.inertial for one in reading.robot.links}

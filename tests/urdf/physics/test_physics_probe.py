@@ -15,10 +15,10 @@ from urdfsync.urdf.physics.probe import probe
 URDF = robot(
     link("base", 4.0),
     link("upper arm", 2.5),
-    *links(hand=0.7, drone=0.7),
+    *links(hand=0.7, cover=0.7),
     joint("shoulder", "revolute", "base", "upper arm"),
     joint("slide", "prismatic", "upper arm", "hand", inside=[mimic("shoulder")]),
-    joint("tether", "floating", "upper arm", "drone"),
+    joint("weld", "fixed", "upper arm", "cover"),
 )
 ARM = Target("Plant.Robots.Arm", "Arm")
 
@@ -31,13 +31,12 @@ def test_it_relies_on_little_of_a_package_so_that_it_may_be_edited() -> None:
     found = probe(skeleton(), ARM, Options())
     parts = {re.sub(r"\[.*", "", value) for value in found.values}
     assert parts == {
-        *(f"robot.{name}.frame_a.{part}" for name in ("base", "upper_arm", "hand", "drone") for part in ("r_0", "R.T")),
-        *(f"robot.drone.body.{part}" for part in ("v_0", "w_a", "a_0", "z_a")),
-        *("robot.shoulderAxis.tau", "base.frame_b.f", "base.frame_b.t", "mass", "moment"),
+        *(f"robot.{name}.frame_a.{part}" for name in ("base", "upper_arm", "hand", "cover") for part in ("r_0", "R.T")),
+        *("robot.shoulderAxis.tau", "base.frame_b.f", "base.frame_b.t", "mass", "centre"),
     }
     inner = set(re.findall(r"robot\.\w+(?:\.\w+)*", found.source)) - {value for value in parts if "frame_a" in value}
-    bodies = {f"robot.{name}.body.{part}" for name in ("base", "upper_arm", "hand", "drone") for part in ("m", "r_CM")}
-    frames = {f"robot.{name}.frame_a.R" for name in ("base", "upper_arm", "hand", "drone")}
+    bodies = {f"robot.{name}.body.{part}" for name in ("base", "upper_arm", "hand", "cover") for part in ("m", "r_CM")}
+    frames = {f"robot.{name}.frame_a.R" for name in ("base", "upper_arm", "hand", "cover")}
     assert inner == {"robot.m", "robot.frame_a", "robot.shoulderAxis", *bodies, *frames}
 
 

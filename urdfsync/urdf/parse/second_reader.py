@@ -5,67 +5,113 @@ Loading this module takes most of a second, because of yourdfpy.
 
 from __future__ import annotations
 
-import hashlib
+import contextlib
 import io
 import logging
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
 import yourdfpy
 
-from urdfsync.urdf.robot import Robot
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.urdf.kinematics.poses import link_poses
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.parse.fields import Reader, summary
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
 
 # What yourdfpy raises for files that the strict reader accepts: it expects attributes that may be absent.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
 _SHOWN = 5
-_TEXTS = 100
+_TOLERANCE = 1e-9
+"""The greatest difference of two poses, in m and relative to the farthest link; for elements of rotations as well."""
 
-_Structure = Mapping[str, frozenset[str]]
-"""What both readers have to agree on: names of links, and names, types, parents and children of joints."""
 
-# The structure on which both readers have agreed, by the hash of a text without the characters of numbers. Most changes
-# in the daemon are of numbers; not to ask again saves 130 of the 250 ms that a changed mass of 1,000 links may take.
-_agreed: dict[bytes, _Structure] = {}
+def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
+    """Return where yourdfpy finds other names, types, parents or poses in a URDF than `read_robot`, which accepts it.
+
+    `file` is how diagnostics name it.
+    """
+    reading = read_robot(content, file)
+    if reading.robot is None:
+        return ()
+    reader = Reader({})
+    reader.lines.update(reading.lines)
+    reader.extend(compare_readers(content, reading.robot))
+    return summary(reader.diagnostics, file)
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
-    """Compare the names, types and tree of `robot` with what yourdfpy reads from the same bytes."""
-    ours = _structure(robot)
-    text = hashlib.sha256(content.translate(None, b"0123456789+-.eE")).digest()
-    if _agreed.get(text) == ours:
-        return
-    theirs: _Structure | None = None
-    failure = "finds no link in this file"
-    logger = logging.getLogger("yourdfpy.urdf")
-    before, logger.disabled = logger.disabled, True  # every problem is reported here
-    try:
-        theirs = _structure(yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False).robot)
-    except _FAILURES as error:
-        reason = f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
-        failure = f"can't read this file ({reason})"
-    finally:
-        logger.disabled = before
-    if theirs is None or (ours["links"] and not theirs["links"]):
+    """Compare the names, types, tree and poses of `robot` with what yourdfpy reads in the same bytes."""
+    failure, theirs = "finds no link in this file", None
+    with _silence():
+        try:
+            theirs = yourdfpy.URDF.load(io.BytesIO(content), load_meshes=False, build_scene_graph=False).robot
+        except _FAILURES as error:
+            reason = f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
+            failure = f"can't read this file ({reason})"
+    if theirs is None or (robot.links and not theirs.links):
         yield Finding("second-reader-failed", "robot", f"not cross-checked: yourdfpy {failure}")
         return
-    for kind, one in ours.items():
+    differs = False
+    for (kind, ours), others in zip(_structure(robot).items(), _structure(theirs).values(), strict=True):
         parts = []
-        for title, names in (("without", one - theirs[kind]), ("with", theirs[kind] - one)):
+        for title, names in (("without", ours - others), ("with", others - ours)):
             if names:
                 shown = sorted(names)[:_SHOWN] + ["…"] * (len(names) > _SHOWN)
                 parts.append(f"{title} {', '.join(shown)}")
         if parts:
+            differs = True
             yield Finding("second-reader-differs", "robot", f"yourdfpy reads other {kind}: {'; '.join(parts)}")
-    if theirs == ours:
-        _agreed[text] = ours
-        for old in list(_agreed)[:-_TEXTS]:
-            del _agreed[old]
+    if not differs:
+        yield from _compare_poses(robot, theirs)
 
 
-def _structure(robot: Any) -> _Structure:
-    """Return what has to agree; the attributes of both readers' robots have the same names."""
+def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
+    """Return names, types and tree; the attributes of both readers' robots have the same names."""
     return {
         "links": frozenset(str(link.name) for link in robot.links),
         "joints": frozenset(f"{joint.name} ({joint.type}, {joint.parent} → {joint.child})" for joint in robot.joints),
     }
+
+
+def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
+    """Compare where links are, with all joints at zero and then each somewhere else; the first one that differs counts.
+
+    Followers are moved by themselves here: yourdfpy does not follow a joint that follows another one.
+    """
+    tree, axes = KinematicTree.of(robot), {}
+    for link in theirs.links:
+        link.visuals.clear()  # they would be nodes among the links
+    for joint in theirs.joints:
+        joint.mimic = None
+        if joint.type in MOTION_KINDS:
+            axes[joint.name] = 1.0 if MOTION_KINDS[joint.type] == "rotational" else float(np.linalg.norm(joint.axis))
+    positions = {name: 0.3 + 0.1 * (number % 10) for number, name in enumerate(axes)}
+    with _silence(), np.errstate(all="ignore"):  # of positions without end
+        scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)
+        for moved, words in (({}, "at zero"), (positions, "away from zero")):
+            scene.update_cfg({name: position / axes[name] for name, position in moved.items()})
+            ours = {name: np.column_stack(pose) for name, pose in link_poses(tree, moved).items()}
+            reach = max(1.0, *(float(np.abs(pose).max()) for pose in ours.values()))
+            for name, pose in ours.items():
+                found = scene.get_transform(name)[:3]
+                if np.abs(found - pose).max() > _TOLERANCE * reach:
+                    place, other = (f"({x:.6g}, {y:.6g}, {z:.6g})" for x, y, z in (pose[:, 3], found[:, 3]))
+                    message = f"with all joints {words} the link is at {place} m, for yourdfpy at {other} m"
+                    turned = "" if place != other else ", turned otherwise"
+                    yield Finding("second-reader-differs", f"link {name}", f"link {name!r}: {message}{turned}")
+                    return
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Keep yourdfpy from logging: every problem is a finding."""
+    logger = logging.getLogger("yourdfpy.urdf")
+    before, logger.disabled = logger.disabled, True
+    try:
+        yield
+    finally:
+        logger.disabled = before

@@ -1,4 +1,4 @@
-"""Bytes of a URDF to a Robot: strict XML, URDF's defaults, the model checks, and yourdfpy as second reader.
+"""Bytes of a URDF to a Robot: strict XML, URDF's defaults, and the model checks.
 
 Defaults are those of ROS's urdfdom; what urdfdom accepts and this reader does not is an error with file and line.
 Where a robot can be read in one sensible way although something is amiss, that is a warning.
@@ -37,11 +37,10 @@ class RobotReading(NamedTuple):
     lines: Mapping[str, int]
 
 
-def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> RobotReading:
+def read_robot(content: bytes, file: str) -> RobotReading:
     """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
 
-    All faults of the model are reported, not only the first; a fault of the XML is one error. With `cross_check`,
-    yourdfpy reads a robot without errors too, and the two readings are compared.
+    All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
     try:
         document = xml.parse(content)
@@ -49,17 +48,8 @@ def read_robot(content: bytes, file: str, *, cross_check: bool = False) -> Robot
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines)
     robot = _read(reader, document) if _is_urdf(reader, document) else None
-    if cross_check and robot is not None and not reader.failed:
-        _cross_check(content, robot, reader)
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     return RobotReading(None if reader.failed else robot, diagnostics, reader.lines)
-
-
-def _cross_check(content: bytes, robot: Robot, reader: Reader) -> None:
-    # Late, since yourdfpy takes most of a second to load, and a plain build does without it.
-    from urdfsync.urdf.parse.second_reader import compare_readers
-
-    reader.extend(compare_readers(content, robot))
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:

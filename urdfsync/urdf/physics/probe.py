@@ -1,7 +1,6 @@
 """The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
 
-It relies on little of the package, so that packages may be edited: on the variables below, on `m`, and on the start
-values of planar and floating joints.
+It relies on little of the package, so that packages may be edited: on the variables below, and on `m`.
 """
 
 from __future__ import annotations
@@ -49,10 +48,9 @@ _BASE = """
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
 """What the robot does to the base that moves it, resolved in the root link's frame."""
-_BODY = ("v_0", "w_a", "a_0", "z_a")  # of a link behind a free joint: velocities and accelerations
 MASS = ("mass",)
-MOMENT = tuple(f"moment[{i}]" for i in (1, 2, 3))
-"""The sum of mass times place over all bodies, in kg·m."""
+CENTRE = tuple(f"centre[{i}]" for i in (1, 2, 3))
+"""Of mass in the world; zero without any mass."""
 
 
 class RobotVariables(msgspec.Struct, frozen=True):
@@ -68,8 +66,6 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
     """By joint that can be driven: the connector of its axis."""
-    bodies: Mapping[str, str]
-    """By link: its body, which tells velocities; empty where links have no components of their own."""
 
     def efforts(self, tree: KinematicTree) -> dict[str, str]:
         """By driven joint: what drives it, in the order of `motion.driven_axes`."""
@@ -78,17 +74,13 @@ class RobotVariables(msgspec.Struct, frozen=True):
             for joint in motion.driven_axes(tree)
         }
 
-    def of_body(self, link: str, part: str) -> tuple[str, ...]:
-        """The three elements of a vector of a link's body: v_0 and a_0 in the world, w_a and z_a in its frame."""
-        return tuple(f"{self.bodies[link]}.{part}[{i}]" for i in (1, 2, 3))
-
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
     """Return the names for the approach that is compared: that of the package, if there is a choice.
 
     With the record, the generic robot is moved: links are numbers there, and only their poses are told.
     """
-    places, axes, bodies = dict[str, list[str]](), dict[str, list[str]](), dict[str, str]()
+    places, axes = dict[str, list[str]](), dict[str, list[str]]()
     moments, three = list[str](), (1, 2, 3)
     if "package" in options.approach:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
@@ -97,7 +89,6 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
             part = f"robot.{tree.link(link.name).component}"
             places[link.name] = [f"{part}.frame_a.r_0[{i}]" for i in three]
             axes[link.name] = [f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three]
-            bodies[link.name] = f"{part}.body"
             centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
             moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
     else:
@@ -114,31 +105,26 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
             axes[link.name] = [f"robot.R_0[{k},{j},{i}]" for i in three for j in three]
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-    return RobotVariables(declaration, " + ".join(moments), places, axes, flanges, bodies)
+    return RobotVariables(declaration, " + ".join(moments), places, axes, flanges)
 
 
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
     """A model in which every axis of the robot moves, and the values to compare."""
     names = robot_variables(tree, target, options)
-    axes, free = motion.driven_axes(tree), motion.free_joints(tree)
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
     if options.base == "floating":
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
-    modifiers = ["checkLimits = false", "fixedStart = false"]
-    for joint in free:
-        start = motion.free_start(joint)._asdict().items()
-        texts = (f"{k}_start = {vector(v) if isinstance(v, tuple) else repr(v)}" for k, v in start)
-        modifiers.append(f"{tree.joint(joint.name).component}(fixedStart = true, {', '.join(texts)})")
-    declarations += ["MovingBase base", f"{names.declaration}{', '.join(modifiers)})"]
+    declarations += ["MovingBase base", f"{names.declaration}checkLimits = false, fixedStart = false)"]
     connections = ["base.frame_b, robot.frame_a"]
-    for k, joint in enumerate(axes, 1):
+    for k, joint in enumerate(motion.driven_axes(tree), 1):
         course = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({course})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    declarations += ["Real mass = robot.m", f"Real moment[3] = {names.moment}"]
+    centre = f"({names.moment})/(if mass > 0 then mass else 1)"
+    declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
     *path, turn = (f"{q!r} + ({v!r})*time + ({a!r})*time^2/2" for q, v, a in (*motion.PATH, motion.TURN))
     lines = [
         "package Probe_",
@@ -153,8 +139,6 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    stop = motion.duration(tree)
     values = [name for link in tree.links for name in (*names.places[link.name], *names.axes[link.name])]
-    values += [name for one in free for part in _BODY for name in names.of_body(one.child, part)]
-    values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *MOMENT]
-    return Probe("\n".join(lines), "Probe_.Probe", stop, stop / 4, tuple(values))
+    values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *CENTRE]
+    return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, tuple(values))

@@ -1,0 +1,122 @@
+"""Stand-ins for what a check is made of: a check of robots of all characters, functions for processes, a compiler."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import psutil
+
+from urdfsync.check import process
+from urdfsync.check.cache import UserCache
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint
+from urdfsync.check.process import LimitError, Limits
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.workers import Workers, tell
+
+FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
+
+
+def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None) -> CheckResult:
+    """In the place of the real one: the robot's name says what becomes of its check."""
+    name, result = robot.name, CheckResult(robot.name, robot.target.package)
+    Path(f"{name}.begun").touch()
+    tell(f"{name}: at work")
+    limits = Limits(f"the check of robot `{name}`", options.timeout, (options.memory or 0) * 1e9)
+    try:
+        if name.startswith("slow"):
+            process.run(act, "sleep", limits=limits)
+        elif name.startswith("big"):
+            process.run(act, "fill", limits=limits)
+        elif name == "crash":
+            os.abort()
+        elif name == "late":
+            while not Path("early.done").exists():
+                time.sleep(0.01)
+        result.compiled = (CompiledModel(f"{name.title()}Run", 10, 2),)
+    except LimitError as error:
+        result.add(error.diagnostics)
+    Path(f"{name}.done").touch()
+    return result
+
+
+def act(*deeds: str) -> Iterator[str]:
+    """Do one deed after the other in a process, and yield each."""
+    for deed in deeds:
+        match deed:
+            case "sleep":
+                time.sleep(600)
+            case "fill":
+                memory = bytearray(400_000_000)
+                time.sleep(1)
+                del memory
+            case "print":
+                os.write(1, b"noise")
+            case "abort":
+                sys.stderr.write("first words\nlast words\n")
+                sys.stderr.flush()
+                os.abort()
+            case "kill":
+                psutil.Process().kill()
+            case "leave":
+                os._exit(0)
+            case "refuse":
+                raise OutputError(FAULT)
+            case "import":
+                raise ImportError("no such wheel")
+        yield deed
+
+
+class Compiler:
+    """A compiler that does with a model what its text says: see `act`."""
+
+    TITLE = "the compiler"
+    MODULES: tuple[str, ...] = ()
+    INSTALL = "install it"
+    REPORT = "report it"
+    SIMULATES = False
+
+    def program(self) -> str | None:
+        """All of it is here."""
+        return ""
+
+    def environment(self, cache: str, folder: str) -> dict[str, str]:
+        """Nothing."""
+        return {}
+
+    def work(self, job: CompileJob) -> Iterator[CompileResult]:
+        """Find all models right."""
+        for task in job.tasks:
+            list(act(task.source))
+            yield CompileResult(unknowns=7, states=2)
+
+    def complaints(self, problem: str) -> list[Complaint]:
+        """One for all."""
+        return [Complaint(problem)]
+
+
+class Compiling:
+    """In the place of `compilers.run_job`: says the same of every model, and knows which ones it was given."""
+
+    def __init__(self) -> None:
+        self.problem, self.models, self.roots = "", list[str](), list[str]()
+
+    def __call__(self, name: str, job: CompileJob, cache: UserCache, limits: Limits) -> list[CompileResult]:
+        """Return a result for each task."""
+        self.roots += job.roots
+        self.models += [task.title for task in job.tasks]
+        return [CompileResult(self.problem, 7, 2) for _ in job.tasks]
+
+
+@contextlib.contextmanager
+def thread_workers(count: int, address: str = "") -> Iterator[Workers]:
+    """In the place of `workers`: threads of this process, which see what a test has replaced."""
+    with ThreadPoolExecutor(count) as executor:
+        yield Workers(executor, None)

@@ -1,0 +1,147 @@
+"""Runs jobs at the same time, in processes of this machine or by the workers of a Dask cluster.
+
+Workers of a cluster see the project at the same path, such as on a shared file system, and have the same urdfsync.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
+from concurrent.futures.process import ProcessPoolExecutor
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from multiprocessing.queues import SimpleQueue
+from signal import SIG_IGN, SIGINT, signal
+from threading import Thread
+from typing import Any, TypeVar
+
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.extras import install_command
+
+T = TypeVar("T")
+
+_PATIENCE = 10
+"""Seconds to wait for a Dask scheduler to answer."""
+
+_steps: SimpleQueue[str] | None = None
+"""Where jobs in this process say what they do; None in the process of the command, and on a cluster."""
+
+
+class Workers:
+    """Takes jobs, which are functions of modules with arguments that can be pickled."""
+
+    def __init__(self, executor: Executor, steps: SimpleQueue[str] | None) -> None:
+        self._executor, self._queue = executor, steps
+
+    def submit(self, job: Callable[..., T], *arguments: Any) -> Future[T]:
+        """Have a job done, in the folder that is the working folder now."""
+        folder = os.getcwd()  # noqa: PTH109 - as a text
+        with _safe_path():
+            return self._executor.submit(_run, folder, job, *arguments)
+
+    def steps(self) -> Iterator[str]:
+        """Yield what jobs have told since the last call; nothing on a cluster."""
+        while self._queue is not None and not self._queue.empty():
+            yield self._queue.get()
+
+
+@contextlib.contextmanager
+def workers(count: int, address: str = "") -> Iterator[Workers]:
+    """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if none answers.
+
+    All that was started ends with the context; if that ends by an exception, at once, and a cluster drops what it has
+    not begun.
+    """
+    if address:
+        with contextlib.closing(_connect(address)) as client:
+            executor = client.get_executor()
+            try:
+                yield Workers(executor, None)
+            except BaseException:
+                executor.shutdown(wait=False)  # cancels what no worker has begun
+                raise
+            executor.shutdown()
+        return
+    # No fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs a
+    # socket in the folder for temporary files, whose path may be too long for one.
+    context = get_context("spawn")
+    with _safe_path():
+        end, steps = context.Pipe(duplex=False), context.SimpleQueue()
+        executor = ProcessPoolExecutor(count, context, _begin, (end[0], steps))
+    try:
+        yield Workers(executor, steps)
+    except BaseException:
+        end[1].close()  # ends the workers: they read its other end
+        raise
+    finally:
+        executor.shutdown()
+        for one in (*end, steps):
+            one.close()
+
+
+def tell(step: str) -> None:
+    """Tell the process of the command what this job does now."""
+    if _steps is not None:
+        _steps.put(step)
+
+
+def _connect(address: str) -> Any:
+    """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
+
+    Its answers are unpickled, so whoever answers at the address is trusted.
+    """
+    try:
+        from distributed import Client  # an extra, and a second to import
+    except ImportError:
+        message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+    try:
+        return Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
+        hint = "start one with `dask scheduler`, or go without `--executor`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
+
+    An executor starts some when it is made, for its locks, and others when work is submitted. The variable is removed
+    afterwards: a command of the user's that runs later may want its own folder on the path.
+    """
+    before = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["PYTHONSAFEPATH"]
+        else:
+            os.environ["PYTHONSAFEPATH"] = before
+
+
+def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
+    """Prepare a process: it ends when the command closes the other end of a pipe, or ends itself; not with Ctrl-C."""
+    global _steps
+    _steps = steps
+    signal(SIGINT, SIG_IGN)  # the command gets it, too, and ends the workers
+
+    def follow() -> None:
+        with contextlib.suppress(EOFError, OSError):
+            end.recv_bytes()
+        import psutil  # 15 ms
+
+        for child in psutil.Process().children(recursive=True):
+            child.kill()  # a compiler at work sees no end of its stdin
+        os._exit(1)
+
+    Thread(target=follow, daemon=True).start()
+
+
+def _run(folder: str, job: Callable[..., T], *arguments: Any) -> T:
+    """Do a job in the folder that diagnostics name files from."""
+    os.chdir(folder)
+    return job(*arguments)
