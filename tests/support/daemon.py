@@ -177,7 +177,7 @@ class Daemons(Listener):
 
     def rest(self) -> None:
         """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""
-        until(lambda: all(watched.debouncer.is_idle for watched in self._daemon._robots.values()), 0.002)
+        until(lambda: all(watched.is_resting for watched in self._daemon._robots.values()), 0.002)
 
     def wait(self, kind: type, since: int = 0, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
         """The first event of this kind that is wanted, from the one with this number on; waits for it."""

@@ -512,17 +512,6 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
     assert daemon.after(lambda: put("ladder.json", 331), events.Built).recovered
 
 
-def test_a_source_with_crlf_that_is_built_is_not_parsed_again(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The manifest has the hash of the text, whatever its line endings are."""
-    source = Path("ladder.json")
-    source.write_bytes(source.read_bytes().replace(b"\n", b"\r\n"))
-    assert cli.main(["build", "--quiet"]) == 0
-    monkeypatch.setattr(build, "warm_up", lambda *_: None)  # it parses
-    domain = registry.domain("rcnetwork")
-    monkeypatch.setattr(type(domain), "read", lambda *_, **__: pytest.fail("it is built already"))
-    assert start().kinds() == ["Started", "Building", "Built"]
-
-
 @pytest.mark.parametrize(
     ("number", "hint"), [(errno.ENOSPC, "fs.inotify.max_user_watches"), (errno.EMFILE, "fs.inotify.max_user_instances")]
 )

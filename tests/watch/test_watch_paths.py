@@ -10,13 +10,12 @@ import pytest
 from support.networks import configure
 
 from urdfsync import cli, config
-from urdfsync.engine.cache import Cache
 from urdfsync.watch.paths import RobotPaths, WatchedPaths, find_robot_paths, find_watched_paths
 
 
 def ladder(project: Path) -> RobotPaths:
     loaded = config.load(project / "urdfsync.toml")
-    return find_robot_paths(loaded, loaded.robots[0], (), Cache())
+    return find_robot_paths(loaded, loaded.robots[0], ())
 
 
 def names(project: Path, paths: Iterable[str]) -> set[str]:

@@ -20,7 +20,7 @@ from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.rules import DesiredFile, renamed_files
-from urdfsync.files import digest, normalised, shown, text_digest
+from urdfsync.files import normalised, shown, text_digest
 from urdfsync.state.record import RecordState
 
 
@@ -188,7 +188,7 @@ def generate_robot(inputs: Inputs) -> Generation:
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
     domain, robot, options, recorded = inputs.domain, inputs.robot, inputs.options, inputs.recorded
-    snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source), options.cache)
+    snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source))
     found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = imports.bring_in(
         domain,
@@ -200,7 +200,7 @@ def generate_robot(inputs: Inputs) -> Generation:
     )
     now = Version(snapshot, imported.imports, inputs.generator.fingerprint)
     last_package, recovered = None, []
-    if inputs.last and recorded:  # first: the cache keeps one package, and that of now takes its place
+    if inputs.last and recorded:
         with contextlib.suppress(*NO_MODEL):
             last_package = _package(inputs, inputs.last, Target(recorded.package, recorded.class_))
     package = _package(inputs, now, robot.target)
@@ -215,18 +215,6 @@ def generate_robot(inputs: Inputs) -> Generation:
 
 
 def _package(inputs: Inputs, version: Version, target: Target) -> Package:
-    """Generate the package of a model. The daemon keeps the last one, which the next build compares with.
-
-    Saves a fifth of a build of 1,000 links in the daemon.
-    """
-    imported, options = version.imports or {}, inputs.robot.options
-
-    def make() -> Package:
-        return generate(inputs.domain, version.snapshot, imported, target, options, inputs.templates)
-
-    if inputs.options.cache is None:
-        return make()
-    # as bytes, since 0.0 == -0.0 although their texts differ
-    model = digest(msgspec.json.encode((version.snapshot, imported)))
-    key = inputs.domain.name, model, target, options, inputs.templates
-    return inputs.options.cache.get("package", key, make)
+    """Generate the package of a model."""
+    options = inputs.robot.options
+    return generate(inputs.domain, version.snapshot, version.imports or {}, target, options, inputs.templates)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import stat
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -66,33 +65,6 @@ class Imported(msgspec.Struct):
             self.contents[entry.target] = content
 
 
-def unchanged(dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], converter: int) -> bool:
-    """Whether every dependency is as it was, as far as it can be found on this machine."""
-    if {dependency.key for dependency in dependencies} != records.keys():
-        return False
-    for dependency in dependencies:
-        record = records[dependency.key]
-        if (record.uri, record.target) != (dependency.uri, dependency.target):
-            return False
-        found = _find(dependency)
-        known = {(record.source_hash, record.converter), (record.unreadable, record.unreadable_by)}
-        if isinstance(found, tuple) and (digest(found[1]), converter) not in known:
-            return False
-    return True
-
-
-def reminder(
-    dependencies: Sequence[Dependency], records: Mapping[str, DependencyRecord], source: str
-) -> tuple[Diagnostic, ...]:
-    """One note on what `bring_in` has left out, for a build that finds nothing to do and so imports nothing."""
-    nouns = Counter(d.noun for d in dependencies if d.key in records and records[d.key].target_hash is None)
-    if not nouns:
-        return ()
-    parts = [f"{count} {noun if count == 1 else _plural(noun)}" for noun, count in nouns.items()]
-    message, hint = f"{' and '.join(parts)} left out", "`urdfsync build --full` says which, and why"
-    return (Diagnostic(Severity.NOTE, "left-out", message, source, hint=hint),)
-
-
 def _plural(noun: str) -> str:
     return f"{noun}es" if noun.endswith(("s", "sh", "ch", "x")) else f"{noun}s"
 
@@ -108,31 +80,24 @@ def bring_in(
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
     A conversion of the last build serves again if it has the same input, unless `again`. What can't be found or read is
-    left out, or its recorded copy serves. What the last build did not find either is no warning again, but a note.
-    Raises StateError if a copy must serve of which the recorded facts are lost.
+    left out, or its recorded copy serves. Raises StateError if a copy must serve of which the recorded facts are lost.
     """
     result = Imported()
-    known: list[Dependency] = []
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
-        key, noun, record = dependency.key, dependency.noun, recorded.records.get(dependency.key)
-        trouble, unreadable = _import(domain, dependency, recorded, source, again, result)
-        if dependency.guessed and (unreadable or trouble is None):
+        noun = dependency.noun
+        trouble = _import(domain, dependency, recorded, source, again, result)
+        is_unreadable = trouble is not None and trouble.code == f"{noun}-unreadable"
+        if dependency.guessed and (is_unreadable or trouble is None):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
         if trouble is None:
             continue
         trouble = _keep_copy(dependency, recorded, result, trouble)
-        if unreadable:  # remembered, so that it is tried again only if it changes
-            facts = {"unreadable": unreadable, "unreadable_by": domain.converter}
-            result.records[key] = msgspec.structs.replace(result.records[key], **facts)
-        elif record and record.target_hash is None and record.unreadable is None and not again:
-            known.append(dependency)
-            continue
         # one warning for all files of a package, whose hint is the same
-        own = key if trouble.code.startswith(f"{noun}-unreadable") else ""
+        own = dependency.key if is_unreadable else ""
         failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
     for troubles in failed.values():
         first = min((trouble for _, trouble in troubles), key=lambda trouble: trouble.line)
@@ -147,24 +112,23 @@ def bring_in(
         hint = "rename the folder, or add that of the right package to `package_paths`"
         line = min(dependency.line for dependency in alike)
         result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
-    result.diagnostics += reminder(known, result.records, source)
     return result
 
 
 def _import(
     domain: Domain, dependency: Dependency, recorded: Recorded, source: str, again: bool, result: Imported
-) -> tuple[Diagnostic | None, str]:
-    """Add one import to the result; else return what is wrong, and the hash of a file that is there but unreadable."""
+) -> Diagnostic | None:
+    """Add one import to the result; else return what is wrong."""
     target, noun, found = dependency.target, dependency.noun, _find(dependency)
 
     def unreadable(message: str, hint: str) -> Diagnostic:
         return Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, source, dependency.line, hint=hint)
 
     if found is None:
-        return _not_found([dependency], source, dependency.line), ""
+        return _not_found([dependency], source, dependency.line)
     if isinstance(found, OSError):
         message = f"{_named([dependency])} can't be read: {found.strerror}"
-        return unreadable(message, f"put a {noun} in its place that can be"), ""
+        return unreadable(message, f"put a {noun} in its place that can be")
     path, content = found
     sha256 = digest(content)
     record, facts = recorded.records.get(dependency.key), recorded.facts.get(dependency.key)
@@ -176,17 +140,17 @@ def _import(
             moves = recorded.moved or record.target != target
             entry = Import(target, sha256, record.target_hash, domain.converter, needed)
             result.add(dependency, entry, copy if moves else None)
-            return None, ""
+            return None
     if content.startswith(_POINTER):
         message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
-        return unreadable(message, "get the file itself with `git lfs pull`"), sha256
+        return unreadable(message, "get the file itself with `git lfs pull`")
     try:
         conversion = domain.convert(dependency, path, content)
     except SourceError as error:
-        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), sha256
+        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
     entry = Import(target, sha256, digest(conversion.content), domain.converter, conversion.facts)
     result.add(dependency, entry, conversion.content)
-    return None, ""
+    return None
 
 
 def _needed(dependency: Dependency, recorded: ConversionFacts | None) -> Mapping[str, Any] | None:

@@ -216,8 +216,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
     """Read all that a build of a robot starts from. Raises UrdfsyncError for whatever is wrong with it."""
     domain = registry.domain(robot.domain)
-    cache = options.cache
-    files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
+    files = PackageFiles(config, robot)
     around = parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root), files.key(robot.folder)
     state, recovered = _load(store, files, robot.name, options)
@@ -244,9 +243,7 @@ def _load(
 ) -> tuple[State | None, repair.RecoveredState | None]:
     """Load the recorded state; with `--repair`, what is left of a broken one."""
     try:
-        if options.cache is None:
-            return store.load(robot), None
-        return options.cache.get("state", store.texts(robot), lambda: store.load(robot)), None
+        return store.load(robot), None
     except StateError:
         if not options.repair:
             raise

@@ -25,14 +25,15 @@ import msgspec
 
 from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
-from urdfsync.engine.plan import plan_if_current, plan_robot
+from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
 from urdfsync.extras import install_command
 
-LEAST_STALE = 6
-"""With fewer stale robots, importing urdfsync in each worker takes longer than it saves."""
+LEAST_ROBOTS = 6
+"""With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _AHEAD = 3
 """Plans per worker that may be under way or wait to be carried out: each holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
@@ -48,13 +49,11 @@ class Pool:
 
     def __init__(self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> None:
         self._config, self._robots, self._options = config, robots, options
-        self._current: dict[str, Plan] = {}
-        """Plans of robots for which there is nothing to generate, made by this process."""
         self._is_started = False
         self._executor: Executor | None = None
-        self._futures: dict[str, Future[Plan]] = {}
+        self._futures: dict[str, Future[tuple[Plan, Dependencies]]] = {}
         self._waiting: deque[RobotConfig] = deque()
-        self._stale = self._most = 0
+        self._most = 0
 
     def __enter__(self) -> Self:
         """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
@@ -82,35 +81,24 @@ class Pool:
             self._start()
         if robot.name in self._futures or robot in self._waiting:
             return self._result(robot)
-        return self._current.pop(robot.name, None) or plan_robot(self._config, robot, self._options)
+        return plan_robot(self._config, robot, self._options)
 
     def _start(self) -> None:
-        """Find the stale robots, and start workers if they are many."""
-        stale = []
-        for robot in self._robots:
-            try:
-                plan = plan_if_current(self._config, robot, self._options)
-            except (UrdfsyncError, OSError):
-                continue  # told when it is planned in its turn
-            if plan is None:
-                stale.append(robot)
-            else:
-                self._current[robot.name] = plan
+        """Start workers if the robots are many."""
         workers = self._options.jobs or (_CLUSTER_WORKERS if self._executor else machine.cores())
         if self._executor is None:
-            if len(stale) < LEAST_STALE:
+            if len(self._robots) < LEAST_ROBOTS:
                 return
             # no fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs
             # a socket in the folder for temporary files, whose path may be too long for one.
-            workers = min(workers, len(stale))
+            workers = min(workers, len(self._robots))
             with _safe_path():
                 self._executor = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_prepare_worker)
-        dependencies.mark_incomplete()  # what workers read is not recorded as a dependency of the answer
-        self._stale, self._most, self._waiting = len(stale), _AHEAD * workers, deque(stale)
+        self._most, self._waiting = _AHEAD * workers, deque(self._robots)
         self._submit()
 
     def _submit(self) -> None:
-        options = msgspec.structs.replace(self._options, progress=no_progress, cache=None, executor="")
+        options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
         while self._executor is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
             with _safe_path():
@@ -126,7 +114,8 @@ class Pool:
         while wait([future], _PAUSE).not_done:
             done = sum(other.done() for other in self._futures.values())
             left = len(self._waiting) + len(self._futures) + 1
-            self._options.progress("reading", self._stale - left + done, self._stale)
+            total = len(self._robots)
+            self._options.progress("reading", total - left + done, total)
         try:
             problem = future.exception()
             if problem is None or isinstance(problem, UrdfsyncError):
@@ -134,10 +123,13 @@ class Pool:
         except Exception as error:  # the workers are lost, in one of many ways
             raise lost from error
         if isinstance(problem, UrdfsyncError):
+            dependencies.mark_incomplete()
             raise problem
         if problem is not None:
             raise lost from problem
-        return future.result()
+        plan, found = future.result()
+        dependencies.include(found)
+        return plan
 
 
 def connect_cluster(address: str) -> Executor:
@@ -161,10 +153,13 @@ def connect_cluster(address: str) -> Executor:
     return executor
 
 
-def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
+def _plan(folder: str, config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
     """Plan in a worker, in the folder that diagnostics name files from. Raises UrdfsyncError."""
     os.chdir(folder)
-    return plan_robot(config, robot, options)
+    with Dependencies() as found:
+        plan = plan_robot(config, robot, options)
+    found.add_modules()
+    return plan, found
 
 
 @contextlib.contextmanager

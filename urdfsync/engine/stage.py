@@ -19,7 +19,7 @@ from urdfsync.engine.parents import SharedFile
 from urdfsync.files import shown, text_digest
 from urdfsync.state import manifest, modelfile
 from urdfsync.state.record import FileRecord, RecordState
-from urdfsync.state.store import State, Store, Witness
+from urdfsync.state.store import Store, Witness
 from urdfsync.state.transaction import FileChange
 
 _OLDER_BASE = (RecordState.CONFLICT, RecordState.WAITING, RecordState.ORPHAN)
@@ -187,9 +187,6 @@ def _recorded_texts(generation: Generation, decision: Decision) -> tuple[str, st
         files=decision.files,
     )
     text = manifest.dumps(whole)
-    if inputs.options.cache:
-        # What is loaded from these texts; saves the daemon half of a build of 1,000 links.
-        inputs.options.cache.put("state", (text, model_text), State(whole.recorded, model, intact=True))
     return text, model_text
 
 

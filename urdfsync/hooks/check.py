@@ -61,7 +61,6 @@ def check_index(
     stashed = index.patched(stash[0]) if stash else set()  # changes that pre-commit brings back after the hooks
     faults: list[CommitFault] = []
     for file in files:
-        started = uptodate.read_clocks()
         try:
             with Dependencies() as dependencies:
                 found = _check_configuration(index, file, options, writing, stashed)
@@ -73,7 +72,7 @@ def check_index(
             here, top = Path.cwd(), f"{index.top.as_posix()}/"
             read = {(here / path).as_posix().removeprefix(top) for _, path in dependencies.entries}
             key = answer_key(str(index.top), str(file))
-            uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies, started)
+            uptodate.save_answer(str(file), key, sorted(filter(index.tracks, read)), dependencies)
     return faults, diagnostics
 
 

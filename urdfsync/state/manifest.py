@@ -64,9 +64,6 @@ class DependencyRecord(msgspec.Struct, frozen=True, omit_defaults=True):
     source_hash: str | None = None
     target_hash: str | None = None
     converter: int | None = None
-    unreadable: str | None = None
-    """Hash of the source that was found last, if `unreadable_by` (the converter's version) could not read it."""
-    unreadable_by: int | None = None
 
 
 class Manifest(msgspec.Struct, frozen=True, kw_only=True):

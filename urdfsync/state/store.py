@@ -9,7 +9,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
-from urdfsync.dependencies import is_folder, list_folder
+from urdfsync.dependencies import list_folder, mark_incomplete
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError
 from urdfsync.files import TEMPORARY, Tree, digest, failure, shown, text_digest
 from urdfsync.state import file_operations, manifest, modelfile
@@ -133,10 +133,6 @@ class Store:
         except (OSError, OutputError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return {}
 
-    def has_bases(self, robot: str) -> bool:
-        """Whether the texts that were written last are kept."""
-        return is_folder(self.folder / "base" / robot)
-
     def bases(self, robot: str) -> BaseStore:
         """The texts that were written last, as far as they are kept."""
         return BaseStore(self.folder / "base" / robot)
@@ -146,6 +142,8 @@ class Store:
         folder = self.folder / "conflicts" / robot
         folders = [folder, *([folder.with_name(former)] if former else [])]
         known = [one for one in folders if self._tree.check_folder(one)]  # a link may lead to all of the disk
+        if known:
+            mark_incomplete()  # what is in there is not recorded as a dependency
         there = sorted(path for one in known for path in one.rglob("*") if not path.is_dir())
         wanted = {folder / path: content for path, content in contents.items()}
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]

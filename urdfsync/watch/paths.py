@@ -17,7 +17,6 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
-from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.store import State, Store
@@ -39,14 +38,13 @@ class RobotPaths(msgspec.Struct, frozen=True):
     """Kind and name of each element in the last build."""
 
 
-def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
+def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root), None
     inputs = {str(config.file), str(robot.source)}
     outputs = {*parents.files(robot), *map(str, store.paths(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
-        # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
-        state = cache.get("state", store.texts(robot.name), lambda: store.load(robot.name))
+        state = store.load(robot.name)
     if state is None:
         return RobotPaths(frozenset(inputs), frozenset(outputs))
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
