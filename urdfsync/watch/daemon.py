@@ -328,11 +328,13 @@ class Daemon:
             watched.state = Invalid(now + min(_POLL, self._options.times.give_up_after), now)
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. One of which a file is other than before has to settle again."""
+        """Build robots. One that has written, or of which a file is other than before, has to settle again."""
         self._show_all([events.Building(watched.name) for watched in robots if watched.is_told])
-        before = {watched.name: watched.hashes for watched in robots}
+        before, writers = {watched.name: watched.hashes for watched in robots}, set()
         for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
+            if result.renews_state or any(action.writes for action in result.actions):
+                writers.add(result.robot)
             if not result.failed:
                 self._take_result(watched, result)
             elif watched.read_files() == before[watched.name]:
@@ -340,7 +342,7 @@ class Daemon:
         self._renew_paths(robots)
         for watched in robots:
             old, now = before[watched.name], watched.read_files()
-            if now == old:
+            if now == old and watched.name not in writers:  # git may have taken back what was written
                 self._rest(watched)
             elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
                 watched.state = Resting()
