@@ -335,7 +335,7 @@ class Domain(Protocol):
     def read(self, content: bytes, file: str, options: Any, *, thorough: bool = False) -> Reading:
         """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`.
 
-        With `thorough`, checks run too that take longer than a plain build should: the daemon and `check` ask for them.
+        With `thorough`, checks run too that take longer than a build should: `check` asks for them.
         """
         ...
 

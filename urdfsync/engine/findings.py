@@ -31,7 +31,7 @@ def find_all(generation: Generation, actions: Actions, names: list[Diagnostic]) 
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
     if inputs.recovered:
         message = f"the recorded state of robot `{inputs.robot.name}` was made again from what could be read of it"
-        hint = "files that are not what was ever written are shown as edited or in conflict"
+        hint = "files with texts that urdfsync did not write are shown as edited or in conflict"
         found.append(Diagnostic(Severity.NOTE, "repaired-state", message, shown(inputs.store.folder), hint=hint))
     found += [*_left_behind(inputs, actions), *_lost_connectors(generation), *_outdated(inputs, actions)]
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))

@@ -25,7 +25,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     meshes: Literal["import", "skip"] = "import"
     """Whether mesh files are brought into the package, or left out."""
     cross_check: bool | None = None
-    """Whether yourdfpy reads each changed source, too, and has to agree; None for `check` and the daemon alone."""
+    """Whether yourdfpy reads each changed source, too, and has to agree; None for `check` alone."""
     approach: tuple[Literal["package", "record"], ...] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None

@@ -32,8 +32,6 @@ class RobotPaths(msgspec.Struct, frozen=True):
     """Configuration, source and dependencies, wherever these may be found, as configuration and source name them."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
-    built_hash: str = ""
-    """Text hash of the source in the last build; empty if there was none."""
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
 
@@ -51,7 +49,7 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     outputs.update(placed(prefix, key) for key in (*state.manifest.files, *state.manifest.orders))
     inputs.update(_dependencies(robot, state, package_paths))
     names = frozenset((kind, name) for kind, found in state.manifest.names.items() for name in found)
-    return RobotPaths(frozenset(inputs), frozenset(outputs), state.manifest.source.hash, names)
+    return RobotPaths(frozenset(inputs), frozenset(outputs), names)
 
 
 def _dependencies(robot: RobotConfig, state: State, package_paths: Sequence[Path]) -> Iterator[str]:
