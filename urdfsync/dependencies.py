@@ -16,8 +16,6 @@ from contextvars import ContextVar, Token
 
 Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
-NO_STAT: Stat = (0, 0, 0, 0, 0, 0)
-"""Of a path at which nothing is."""
 
 YOUNG = 2_000_000_000
 """Nanoseconds after a change in which a file is read again, whatever its stat values are."""

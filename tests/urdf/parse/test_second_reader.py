@@ -12,7 +12,6 @@ from typing import Any
 import msgspec
 import pytest
 import yourdfpy
-from support.daemon import Watch
 
 from urdfsync import cli
 from urdfsync.diagnostics import Severity
@@ -144,10 +143,3 @@ def test_check_reads_with_it(project: Path, line: str, capfd: pytest.CaptureFixt
     capfd.readouterr()
     cli.main(["check", "--json"])
     assert ("second-reader-failed" in codes(json.loads(capfd.readouterr().out)["robots"])) == (not line)
-
-
-def test_the_daemon_reads_with_it(project: Path) -> None:
-    with Watch(project) as watch:
-        watch.rest()
-        events = watch.wait("built", lambda event: True)
-    assert "second-reader-failed" in json.dumps(events)
