@@ -6,8 +6,9 @@ import gc
 import os
 import shutil
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import settings
@@ -16,6 +17,9 @@ from support.commands import Execute, Printed
 from support.networks import RC_FOLDER
 
 from urdfsync.check.libraries import LibraryError, find_standard_library
+
+if TYPE_CHECKING:
+    from support.daemon import Start, Watch
 
 REPOSITORY = Path(__file__).parents[1]
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
@@ -120,6 +124,25 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     )
     monkeypatch.chdir(folder)
     return folder
+
+
+@pytest.fixture
+def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
+    """A function that starts a daemon in the project, and waits until all is built; it is killed after the test."""
+    from support.daemon import Watch  # watchdog takes 45 ms
+
+    running = []
+
+    def begin(*arguments: str, before: Sequence[str] = (), robots: int = 1) -> Watch:
+        path, store = [rc_site, RC_FOLDER], str(tmp_path / "pre-commit")
+        quick = ("--settle", "20", "--sample", "10", "--rescan", "100000", *arguments)
+        running.append(Watch(project, *quick, path=path, before=before, PRE_COMMIT_HOME=store).__enter__())
+        running[-1].rest(robots=robots)
+        return running[-1]
+
+    yield begin
+    for watch in running:
+        watch.__exit__()
 
 
 @pytest.fixture

@@ -31,7 +31,6 @@ _GARBAGE_THRESHOLD = 1_000_000
 def main(given: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. Whatever happens is told in one line, never by a traceback alone."""
     gc.set_threshold(_GARBAGE_THRESHOLD, *gc.get_threshold()[1:])
-    started = uptodate.PROGRAM_START if given is None else uptodate.read_clocks()
     given = sys.argv[1:] if given is None else list(given)
     try:
         config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
@@ -42,7 +41,7 @@ def main(given: Sequence[str] | None = None) -> int:
             code = _run(given, transcript)
         if code == Exit.IN_STEP:
             answer = [text for entry in transcript if entry[1] for text in entry]
-            uptodate.save_answer(config_file, key, answer, dependencies, started)
+            uptodate.save_answer(config_file, key, answer, dependencies)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
         Console().end("", Exit.ERROR, [_unforeseen(error)])
         return Exit.ERROR

@@ -9,14 +9,16 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import sys
+import time
 from collections.abc import Iterator
 from contextvars import ContextVar, Token
 
 Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
-NO_STAT: Stat = (0, 0, 0, 0, 0, 0)
-"""Of a path at which nothing is."""
 
+YOUNG = 2_000_000_000
+"""Nanoseconds after a change in which a file is read again, whatever its stat values are."""
 MAX_FILE = 100_000_000
 """Bytes of a file that is read. More is no source, mesh or output, but may be a stranger's, to fill the memory."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
@@ -37,6 +39,7 @@ class Dependencies:
 
     def __init__(self) -> None:
         self._token: Token[Dependencies | None] | None = None
+        self.started = time.time_ns()
         self.entries: Entries = {}
         self.complete = True
         """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
@@ -48,11 +51,19 @@ class Dependencies:
     def __exit__(self, *_: object) -> None:
         if self._token is not None:
             _current.reset(self._token)
+        self._token = None  # a worker sends its record to the process that prints the answer
 
     def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
         """Record what was found at a path, before its content is read."""
         if self.entries.setdefault((check, os.fspath(path)), found) != found:
             self.complete = False  # it changed between two reads
+
+    def add_modules(self) -> None:
+        """Record the program itself, which somebody may be working on; Python goes by its version."""
+        for name, module in list(sys.modules.items()):
+            file = getattr(module, "__file__", None)
+            if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
+                self.entries[STAT, os.path.abspath(file)] = stat_of(os.stat(file))
 
 
 _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=None)
@@ -62,6 +73,22 @@ def mark_incomplete() -> None:
     """Say that the answer depends on more than what is recorded: it can't be saved."""
     if (dependencies := _current.get()) is not None:
         dependencies.complete = False
+
+
+def include(found: Dependencies) -> None:
+    """Record what another process recorded for this one."""
+    if (dependencies := _current.get()) is not None:
+        for (check, path), value in found.entries.items():
+            dependencies.add(check, path, value)
+        dependencies.complete &= found.complete
+
+
+def is_young(found: tuple[int, ...], now: int) -> bool:
+    """Whether a file changed less than two seconds before `now` (ns), or later.
+
+    The next change may show the same stat values, since no clock of a file system is coarser than that of FAT.
+    """
+    return max(found[-2:]) > now - YOUNG
 
 
 def stat_of(status: os.stat_result) -> Stat:

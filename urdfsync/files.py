@@ -125,31 +125,19 @@ class Tree:
         Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
         """
         path = os.fspath(path)
-        is_there = self.check_folder(path.rpartition(os.sep)[0]) and self.status(path) is not None
-        return self.content(path) if is_there else None
-
-    def status(self, path: str) -> os.stat_result | None:
-        """What the system says of a file in a folder that was checked, before it is read; None if there is none.
-
-        Raises OutputError as `read`.
-        """
+        if not self.check_folder(path.rpartition(os.sep)[0]):
+            return None
         try:
             status = read_stat(path)
+            if status is None or stat.S_ISREG(status.st_mode):
+                return None if status is None else read_unrecorded(path)
+        except (FileNotFoundError, NotADirectoryError):
+            return None  # it is gone since
         except OSError as error:
-            raise _unreadable(path, error) from None
-        if status is None or stat.S_ISREG(status.st_mode):
-            return status
+            hint = _HINTS.get(error.errno or 0, "")
+            raise _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
         message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
         raise _refusal("output-in-the-way", path, message, "move it away")
-
-    def content(self, path: str) -> bytes | None:
-        """The content of a file of which `status` was asked, None if it is gone since. Raises OutputError as `read`."""
-        try:
-            return read_unrecorded(path)
-        except (FileNotFoundError, NotADirectoryError):
-            return None
-        except OSError as error:
-            raise _unreadable(path, error) from None
 
     def check_folder(self, folder: str | os.PathLike[str]) -> bool:
         """Whether a folder below the root exists. Raises OutputError if it is a file, a link, or not below the root."""
@@ -164,10 +152,6 @@ class Tree:
             raise _refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")
         self._checked[folder] = bool(mode)
         return bool(mode)
-
-
-def _unreadable(path: str, error: OSError) -> OutputError:
-    return _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", _HINTS.get(error.errno or 0, ""))
 
 
 def _refusal(code: str, path: str, message: str, hint: str = "") -> OutputError:

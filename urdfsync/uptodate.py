@@ -10,17 +10,12 @@ from __future__ import annotations
 
 import os
 import sys
-import time
-from collections.abc import Iterator
 
 from urdfsync import __version__, streams
-from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, Dependencies, Entries, check_path, stat_of
+from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, Dependencies, Entries, check_path, is_young
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"
-HAS_CHANGE_TIMES = os.name != "nt"
-"""Whether files have a time of change that nobody can set: on Windows `st_ctime` is the time of creation."""
-PROGRAM_START = time.monotonic_ns(), time.time_ns()
 
 _FORMAT = "urdfsync answers 3"
 _FOLDER, _NAME = ".urdfsync", "stamp"
@@ -32,9 +27,6 @@ _VARIABLES = (
 _MAX_ANSWERS = 16
 _MAX_CHARACTERS = 2_000_000
 """Longer answers are not saved. That of the hook names all that has to be tracked: 300,000 for 8,000 outputs."""
-_TICK, _COARSE_TICK, _SKEW = 50_000_000, 2_000_000_000, 60_000_000_000
-"""Nanoseconds: the coarsest clock of a file system that counts fractions of seconds, the coarsest one of all (FAT), and
-the largest difference allowed between the clocks of two file systems, one of which may be on another machine."""
 
 
 class SavedAnswers:
@@ -140,28 +132,21 @@ def print_answer(arguments: list[str]) -> str | None:
         return output.trouble
 
 
-def save_answer(
-    config_file: str, key: str, answer: list[str], dependencies: Dependencies, started: tuple[int, int]
-) -> None:
-    """Save the answer of a command that began to read at `started` (see `read_clocks`) and exited with 0.
+def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
+    """Save the answer of a command that exited with 0.
 
-    Nothing is saved if one of the dependencies is racy, or if it is not certain that they are all there are.
+    Nothing is saved if one of the dependencies has just changed, or if it is not certain that they are all there are.
     """
     from pathlib import PurePath  # 10 ms, which the check does without
 
-    here = os.getcwd()
-    recorded = {(check, os.path.join(here, path)): found for (check, path), found in dependencies.entries.items()}
-    has_read = dependencies.complete and (STAT, str(PurePath(config_file))) in recorded  # not so for `--help`
-    if not has_read or sum(map(len, answer)) > _MAX_CHARACTERS:
+    if not dependencies.complete or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
-    for name, module in list(sys.modules.items()):  # somebody may be working on urdfsync; Python goes by its version
-        file = getattr(module, "__file__", None)
-        if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
-            recorded[STAT, os.path.abspath(file)] = stat_of(os.stat(file))
-    folder = os.path.join(os.path.dirname(config_file), _FOLDER)
-    clock, elapsed = read_clock(folder), elapsed_since(started)
-    stats = [found for (check, _), found in recorded.items() if check in (LSTAT, STAT)]
-    if clock is None or any(is_racy(found, clock, elapsed) for found in stats):
+    here, folder = os.getcwd(), os.path.join(os.path.dirname(config_file), _FOLDER)
+    dependencies.add_modules()
+    recorded = {(check, os.path.join(here, path)): found for (check, path), found in dependencies.entries.items()}
+    if (STAT, str(PurePath(config_file))) not in recorded:
+        return  # such as `--help`, which reads nothing
+    if any(is_young(found, dependencies.started) for (check, _), found in recorded.items() if check in (LSTAT, STAT)):
         return
     answers, saved = {key: answer}, read_answers(config_file)
     before = saved.check() if saved and len(saved.answers) < _MAX_ANSWERS else None
@@ -176,6 +161,9 @@ def save_answer(
         descriptor = _create(temporary)
         try:
             status = os.fstat(descriptor)  # which the file is bound to
+            os.utime(descriptor, ns=(0, 0))
+            if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
+                return  # on Windows, FAT and sshfs, a file has no time of change that nobody can set
             head = [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), str(_hash(recorded))]
             text = "\0\0".join("\0".join(section) for section in (head, checks, *listed, [str(len(listed))]))
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))
@@ -202,70 +190,3 @@ def _create(path: str) -> int:
 def _remove(path: str) -> None:
     if os.path.lexists(path):
         os.unlink(path)
-
-
-# Racy files: those that may have changed after they were read, and show the same stat values. The rule is git's.
-
-
-class Clock:
-    """The clock of a file system, which may be another machine's."""
-
-    def __init__(self, created: os.stat_result, is_reliable: bool, tmpfs: frozenset[int] = frozenset()) -> None:
-        """Store what a file showed that was created just now.
-
-        `is_reliable` says that nobody can set the time of change of a file's status. `tmpfs` are devices on which
-        the system does not note stores through a memory map.
-        """
-        self.created, self.is_reliable, self.tmpfs = created, is_reliable, tmpfs
-
-
-def read_clock(folder: str | os.PathLike[str]) -> Clock | None:
-    """Read the clock of a folder's file system from a file created there; None if that is not possible."""
-    if not HAS_CHANGE_TIMES:
-        return None
-    path = os.path.join(folder, ".clock.urdfsync-tmp")
-    try:
-        file = _create(path)
-    except OSError:
-        return None
-    try:
-        created = os.fstat(file)
-        os.utime(file, ns=(0, 0))  # FAT and sshfs let this set the time of change of the status, too
-        return Clock(created, os.fstat(file).st_ctime_ns >= created.st_ctime_ns, frozenset(_tmpfs_devices()))
-    finally:
-        os.close(file)
-        _remove(path)
-
-
-def _tmpfs_devices() -> Iterator[int]:
-    """The devices of all tmpfs file systems, on Linux. See proc_pid_mountinfo(5)."""
-    if sys.platform != "linux":
-        return
-    with open("/proc/self/mountinfo", errors="surrogateescape") as file:
-        for line in file:
-            fields, _, kind = line.partition(" - ")
-            if kind.startswith("tmpfs "):
-                major, minor = fields.split()[2].split(":")
-                yield os.makedev(int(major), int(minor))
-
-
-def is_racy(found: tuple[int, ...], clock: Clock, elapsed: int) -> bool:
-    """Whether a file may have changed since it was read, at most `elapsed` ns ago, and show the same stat values."""
-    _, _, device, _, changed, status_changed = found
-    now = clock.created.st_mtime_ns
-    if not clock.is_reliable or device in clock.tmpfs or status_changed <= 0:
-        return True
-    if device != clock.created.st_dev:
-        return max(changed, status_changed) >= now - elapsed - _SKEW
-    is_coarse = any(moment % 1_000_000_000 == 0 for moment in (changed, status_changed, now))
-    return status_changed >= now - elapsed - (_COARSE_TICK if is_coarse else _TICK)
-
-
-def read_clocks() -> tuple[int, int]:
-    """This moment by two clocks, for `elapsed_since`."""
-    return time.monotonic_ns(), time.time_ns()
-
-
-def elapsed_since(started: tuple[int, int]) -> int:
-    """Nanoseconds since `read_clocks`, or more: one clock stops while the machine sleeps, the other one may be set."""
-    return max(time.monotonic_ns() - started[0], time.time_ns() - started[1])

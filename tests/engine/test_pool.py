@@ -14,10 +14,10 @@ from support.networks import edit, run_all
 from support.replay import contents
 
 from urdfsync import config
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
-from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.workers import Workers, workers
 
@@ -65,30 +65,20 @@ def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, star
     assert together[2].diagnostics == alone[2].diagnostics
 
 
-def test_no_process_is_started_for_what_is_in_step(robots: Path, started: list[int]) -> None:
-    run_all(jobs=1)
+def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Path) -> None:
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
-    (robots / "n5.json").unlink()
-    results = run_all(jobs=2)
-    assert [one.in_step for one in results] == [number not in (2, 5) for number in range(COUNT)]
-    assert results[5].failed
-    assert started == []
-
-
-def test_the_daemon_sees_all_edits_after_workers_have_planned(robots: Path, started: list[int]) -> None:
-    """What workers see does not get into its cache: the next builds look at all files again."""
-    cache = Cache()
-    run_all(jobs=2, cache=cache)
-    assert started == [2]
-    record = robots / "modelica/Plant/Networks/N5/Elements/R2Parameters.mo"
-    edit(record, "220.5", "221")
-    for number in (0, 5):
-        edit(robots / f"n{number}.json", "220.5", "330")
-    results = run_all(jobs=2, cache=cache)
-    assert {one.robot for one in results if any(action.writes for action in one.actions)} == {"n0"}
-    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
-    again = run_all(jobs=1, cache=cache)
-    assert [one.in_step for one in again] == [number not in (2, 5) for number in range(COUNT)]
+    run_all(jobs=1)
+    with Dependencies() as alone:
+        run_all(jobs=1)
+    with Dependencies() as together:
+        run_all(jobs=2)
+    assert alone.complete
+    assert together.complete
+    assert alone.entries.items() <= together.entries.items()
+    (robots / "n2.json").write_text("{")
+    with Dependencies() as failed:
+        run_all(jobs=2)
+    assert not failed.complete
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:

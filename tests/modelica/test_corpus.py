@@ -8,8 +8,6 @@ import check_corpus
 import pytest
 from support import corpus as corpora
 
-from urdfsync.check.cache import UserCache
-
 IN_CI = {
     *("matlab-robotisTurtleBot3Burger", "oems-QARM", "oems-jackal"),
     *("random-schunk_pg70", "ros-industrial-robotiq-3f-gripper_mesh"),

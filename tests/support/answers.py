@@ -61,7 +61,7 @@ def built(folder: Path) -> Path:
 
 
 def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
-    """Repeat a step until an answer is saved: that takes as long as its dependencies are racy."""
+    """Repeat a step until an answer is saved: that takes as long as its dependencies are young."""
     end = time.monotonic() + LIMIT
     while not is_done():
         step()
@@ -77,11 +77,6 @@ def save(*arguments: str) -> None:
 def saved(*arguments: str) -> list[str] | None:
     """The saved answer of a command, if it holds."""
     return uptodate.saved_answer(list(arguments))
-
-
-def tmpfs(path: Path) -> bool:
-    """Whether a path is on tmpfs, where no answer is saved."""
-    return path.stat().st_dev in set(uptodate._tmpfs_devices())
 
 
 def _write(path: Path, text: str) -> None:

@@ -148,6 +148,10 @@ class Watch(Listener):
         self._reader.join()
         return code
 
+    def kinds(self, since: int = 0) -> list[str]:
+        """The names of the events from the one with this number on."""
+        return [event["event"] for event in self.events[since:]]
+
     @property
     def errors(self) -> str:
         """What the process has written to its error stream."""
@@ -161,23 +165,27 @@ class Watch(Listener):
         return "\n".join([*lines, self.errors])
 
 
-class Daemons(Listener):
-    """A daemon in a thread of the test, in its working folder, and what it told."""
+Start = Callable[..., Watch]
+"""The fixture `start` of `tests/watch`."""
 
-    def __init__(self, times: Times = QUICK, robots: int = 1, *, rests: bool = True, **options: Any) -> None:
-        """Wait for the first builds of so many robots; with `rests` until nothing is left to do."""
+
+class Daemons(Listener):
+    """A daemon in a thread of the test, in its working folder, and what it told: for faults that a test puts in."""
+
+    def __init__(self, then: Callable[[Any], object] = lambda event: None, **options: Any) -> None:
+        """Wait for the first build. The daemon waits while `then` is called, with each event."""
         super().__init__()
-        build = BuildOptions(wait=1, jobs=options.pop("jobs", None))
-        self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), times=times, build=build, **options), self)
+        self._then = then
+        build = BuildOptions(wait=1)
+        self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), times=QUICK, build=build, **options), self)
         self._thread = threading.Thread(target=self._daemon.run)
         self._thread.start()
-        self.until(lambda: len([one for one in self.events if isinstance(one, ENDED)]) >= robots)
-        if rests:
-            self.rest()
+        self.until(lambda: any(isinstance(one, ENDED) for one in self.events))
 
-    def rest(self) -> None:
-        """Wait until nothing is left to do: an end of a build is told before the build that confirms it."""
-        until(lambda: all(watched.debouncer.is_idle for watched in self._daemon._robots.values()), 0.002)
+    def show(self, event: Any) -> None:
+        """Take an event."""
+        super().show(event)
+        self._then(event)
 
     def wait(self, kind: type, since: int = 0, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
         """The first event of this kind that is wanted, from the one with this number on; waits for it."""

@@ -18,7 +18,7 @@ from pathlib import Path
 from support.meshes import write_hostile
 from support.urdfs import joint, limit, link, robot
 
-CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ncross_check = false\n'
+CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 MANIFEST = ".urdfsync/robots/arm.state"
 RECORD = "modelica/Arm/Links/TipParameters.mo"
 MINE = "modelica/Other/Mine.mo"

@@ -58,7 +58,7 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
 
     def begin(compiler: Compiler) -> Daemons:
         monkeypatch.setattr(run, "check_robots", compiler)
-        running.append(Daemons(rests=False))
+        running.append(Daemons())
         return running[-1]
 
     configure('on_build = "check"\n')
@@ -157,7 +157,6 @@ def test_one_package_is_checked_at_a_time_in_the_order_of_builds(project: Path, 
     assert len(compiler.saw) == 1
     edit(MODEL, "end R2;", "  Foo foo;\nend R2;")  # takes the place of the first
     until(lambda: daemon.kinds().count("Built") == 3)
-    daemon.rest()
     compiler.free.set()
     until(lambda: daemon.kinds().count("CheckDone") == 2)
     found = [event for event in daemon.events if isinstance(event, events.CheckDone)]

@@ -28,7 +28,6 @@ BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf", 
 ODD = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 7)
 MOVED = Diagnostic(Severity.WARNING, "odd", "this is odd", "arm.urdf", 8)
 OTHER = Diagnostic(Severity.WARNING, "odd", "this is odd, too", "arm.urdf", 9)
-SUMMARY = Diagnostic(Severity.NOTE, "left-out", "1 mesh left out", "arm.urdf")
 NO_CLASS = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", ELBOW, 4)
 LACKING = Diagnostic(Severity.WARNING, "no-compiler", "there is no compiler", hint="install it")
 EVIL = Diagnostic(Severity.ERROR, "odd", "\x1b[2Jgone", "arm.urdf")
@@ -119,15 +118,6 @@ SAID: dict[str, Case] = {
     "warnings that come again are told again": (
         (built(), built(diagnostics=(ODD,)), built(), built(diagnostics=(ODD,))),
         [IS_ODD, IS_ODD],
-    ),
-    "builds with nothing to do have warnings of their own": (
-        2 * (built(diagnostics=(SUMMARY,)), built(action(Kind.UPDATE), diagnostics=(ODD,))),
-        [
-            "! arm.urdf: note: 1 mesh left out [left-out]",
-            IS_ODD,
-            f"{TIME}arm  1 file written",
-            f"{TIME}arm  1 file written",
-        ],
     ),
     "what concerns the daemon": (
         (events.Noted((ODD, BROKEN)), events.Recovered("all folders are watched again"), events.Stopping("SIGINT")),

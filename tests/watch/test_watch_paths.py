@@ -10,13 +10,12 @@ import pytest
 from support.networks import configure
 
 from urdfsync import cli, config
-from urdfsync.engine.cache import Cache
 from urdfsync.watch.paths import RobotPaths, WatchedPaths, find_robot_paths, find_watched_paths
 
 
 def ladder(project: Path) -> RobotPaths:
     loaded = config.load(project / "urdfsync.toml")
-    return find_robot_paths(loaded, loaded.robots[0], (), Cache())
+    return find_robot_paths(loaded, loaded.robots[0], ())
 
 
 def names(project: Path, paths: Iterable[str]) -> set[str]:
@@ -42,7 +41,7 @@ def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> No
 
 def test_a_state_that_can_not_be_read_is_still_watched(project: Path) -> None:
     assert cli.main(["build", "--quiet"]) == 0
-    (project / ".urdfsync/robots/ladder.toml").write_text("<<<<<<<")
+    (project / ".urdfsync/robots/ladder.state").write_text("<<<<<<<")
     assert ".urdfsync/robots/ladder.toml" in names(project, ladder(project).outputs)
 
 

@@ -185,7 +185,7 @@ class RobotFiles:
 
 def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[Fault]:
     """Return the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
-    started, index = uptodate.read_clocks(), commit.index
+    index = commit.index
     file, key = hook.answer_place(index, path)
     with Dependencies() as everything:
         config = configuration.load(Path(file))
@@ -195,7 +195,7 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
     if not any(one.needs_build or one.find_unstaged() or one.select(index.hidden) for one in robots):
         needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, one.states)}
-        uptodate.save_answer(file, key, sorted(needed), everything, started)
+        uptodate.save_answer(file, key, sorted(needed), everything)
         return []
     faults, to_build = [], []
     for one in robots:

@@ -73,7 +73,7 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 it is told, in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
+        "exit codes: 0 no conflict, whether in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
     )
 
 
@@ -88,9 +88,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             console.add_robot(_values(result))
             continue
-        # warnings about the source are for whoever builds it
+        # notes about the source are for whoever builds it
         source, found = sources[result.robot], result.diagnostics
-        told = [one for one in found if console.verbose or one.file != source or one.severity is Severity.ERROR]
+        told = [one for one in found if console.verbose or one.file != source or one.severity is not Severity.NOTE]
         console.findings(told)
         console.stop_progress()
         if not console.quiet or result.conflicts:

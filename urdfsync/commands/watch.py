@@ -22,10 +22,10 @@ _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
 """Signals that end the daemon; the last one comes from its own timer."""
 _TIMES = (
-    ("settle", "MS", 300, "build after so long without an event, in milliseconds"),
-    ("sample", "MS", 200, "and after two equal samples so far apart, in milliseconds"),
-    ("patience", "S", 30, "a source that is no model for so long is an error, in seconds"),
-    ("rescan", "S", 30, "look at everything so often, in seconds"),
+    ("settle", "MS", 300, "milliseconds without an event before a build"),
+    ("sample", "MS", 200, "milliseconds between two reads that have to show the same"),
+    ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
+    ("rescan", "S", 30, "seconds between two reads of all files, since the system may drop events"),
 )
 _GRACE = 10.0
 """Seconds after the first signal in which the work in hand has to end."""
@@ -39,14 +39,16 @@ def add(commands: arguments.Commands) -> None:
         run,
         "robots --robot --wait --trust --jobs",
         help="keep the packages in step while their sources change",
-        description="Build whenever a source or anything else that matters has changed and settled, until interrupted.",
+        description="Build whenever a source, a mesh, a template or a generated file has changed, until interrupted.",
         epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
     )
     for name, unit, default, words in _TIMES:
         words = f"{words} ({default})"
         parser.add_argument(f"--{name}", type=_duration, metavar=unit, default=default, help=words)
     command = "shell command to run after a build that changed files"
-    parser.add_argument("--poll", action="store_true", help="do without events, for network and container mounts")
+    parser.add_argument(
+        "--poll", action="store_true", help="read the sources every second, for network and container mounts"
+    )
     parser.add_argument("--exec", metavar="CMD", default="", help=command)
 
 

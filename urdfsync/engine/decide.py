@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.dependencies import is_file
+from urdfsync.dependencies import is_file, mark_incomplete
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
@@ -139,6 +139,7 @@ def _find_vanished(
     """
     from urdfsync.engine import vanished  # the parser takes a tenth of a small build to load
 
+    mark_incomplete()  # what the resolver reads is not recorded as a dependency of the answer
     planned, merged = resolve(actions, conflicts, choices, merging=True)
     planned = _keep_needed(generation, planned, merged)
     found = vanished.find_vanished(generation, planned, merged)

@@ -21,7 +21,7 @@ from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.rules import DesiredFile
-from urdfsync.files import digest, normalised, shown, text_digest
+from urdfsync.files import normalised, shown, text_digest
 from urdfsync.state.record import Open, role_of
 
 
@@ -204,7 +204,7 @@ def generate_robot(inputs: Inputs) -> Generation:
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
     domain, robot, options = inputs.domain, inputs.robot, inputs.options
-    snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source), options.cache)
+    snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source))
     found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = imports.bring_in(
         domain,
@@ -215,7 +215,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports)
-    last_packages = tuple(_recorded_packages(inputs))  # first: the cache keeps one package: that of now takes its place
+    last_packages = tuple(_recorded_packages(inputs))
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
     is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written
@@ -238,18 +238,5 @@ def _recorded_packages(inputs: Inputs) -> Iterable[Package]:
 
 
 def _package(inputs: Inputs, version: Version, target: Target, options: Any) -> Package:
-    """Generate the package of a model. The daemon keeps the last one, which the next build compares with.
-
-    Saves a fifth of a build of 1,000 links in the daemon.
-    """
-    imported = version.imports or {}
-
-    def make() -> Package:
-        return generate(inputs.domain, version.snapshot, imported, target, options, inputs.templates)
-
-    if inputs.options.cache is None:
-        return make()
-    # as bytes, since 0.0 == -0.0 although their texts differ
-    model = digest(msgspec.json.encode((version.snapshot, imported)))
-    key = inputs.domain.name, model, target, options, inputs.templates
-    return inputs.options.cache.get("package", key, make)
+    """Generate the package of a model."""
+    return generate(inputs.domain, version.snapshot, version.imports or {}, target, options, inputs.templates)

@@ -168,8 +168,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
     """Read all that a build of a robot starts from. Raises UrdfsyncError for whatever is wrong with it."""
     domain = registry.domain(robot.domain)
-    cache = options.cache
-    files = PackageFiles(config, robot, cache.states(robot.name) if cache and not options.full else {})
+    files = PackageFiles(config, robot)
     around = parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root), files.key(robot.folder)
     record, former = store.load(robot.name, strict=not options.full), None

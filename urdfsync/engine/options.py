@@ -8,7 +8,6 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.engine.cache import Cache
 from urdfsync.state.record import Choice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -43,5 +42,3 @@ class BuildOptions(msgspec.Struct, frozen=True):
     executor: str = ""
     """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
     progress: Progress = no_progress
-    cache: Cache | None = None
-    """What a process that builds again and again keeps between builds."""

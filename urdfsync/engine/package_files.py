@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
@@ -19,28 +19,21 @@ from urdfsync.files import Tree, digest, placed, text_digest
 class FileState(NamedTuple):
     """A file at the moment of reading."""
 
-    stat: dependencies.Stat
     sha256: str
     """Hex, of the bytes."""
     text_sha256: str
     """Hex, of the text with its line endings as line feeds."""
 
 
-FileStates: TypeAlias = Mapping[str, FileState | None]
-"""Files by absolute path; None for a path without a file."""
-
-
 class PackageFiles:
     """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
 
-    def __init__(self, config: Config, robot: RobotConfig, known: FileStates | None = None) -> None:
-        """`known` are states that hold as long as a file has the same stat values."""
+    def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root, self._output = config.root, robot.output
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
-        self._known = known or {}
-        self.states: dict[str, FileState | None] = {}
+        self._states: dict[str, FileState | None] = {}
         """State of each file that was looked at, by absolute path."""
 
     def key(self, path: Path) -> str:
@@ -64,8 +57,7 @@ class PackageFiles:
     def text(self, key: str) -> str | None:
         """Return a file as text; bytes that are not UTF-8 survive `encode`."""
         content = self.read(key)
-        state = None if content is None else state_of(dependencies.NO_STAT, content)
-        self.states.setdefault(self._place(key), state)
+        self._states.setdefault(self._place(key), None if content is None else state_of(content))
         return None if content is None else content.decode(errors="surrogateescape")
 
     def any_text(self, key: str) -> str:
@@ -78,17 +70,10 @@ class PackageFiles:
     def state(self, key: str) -> FileState | None:
         """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
         path = self._place(key)
-        if path in self.states:
-            return self.states[path]
-        folder = path.rpartition(os.sep)[0]
-        tree, state = self._tree(folder), None
-        if tree and tree.check_folder(folder) and (status := tree.status(path)):
-            stat, state = dependencies.stat_of(status), self._known.get(path)
-            if state is None or state.stat != stat:
-                content = tree.content(path)
-                state = None if content is None else state_of(stat, content)
-        self.states[path] = state
-        return state
+        if path not in self._states:
+            content = self.read(key)
+            self._states[path] = None if content is None else state_of(content)
+        return self._states[path]
 
     def hash(self, key: str, role: Role) -> str | None:
         """Return the hash of a file: of an imported one of its bytes, of others of their text; None for no file."""
@@ -158,10 +143,10 @@ def key_of(path: Path, root: Path) -> str:
     return Path(os.path.relpath(path, root)).as_posix()
 
 
-def state_of(stat: dependencies.Stat, content: bytes) -> FileState:
-    """Return the state of a file with these stat values and this content."""
+def state_of(content: bytes) -> FileState:
+    """Return the state of a file with this content."""
     sha256 = digest(content)
-    return FileState(stat, sha256, text_digest(content) if b"\r" in content else sha256)
+    return FileState(sha256, text_digest(content) if b"\r" in content else sha256)
 
 
 def encode(text: str) -> bytes:

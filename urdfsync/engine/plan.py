@@ -5,6 +5,7 @@ What `build` writes, a dry run shows and a hook judges is one and the same plan.
 
 from __future__ import annotations
 
+from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all
@@ -19,4 +20,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     inputs = inspect(config, robot, options)
     generation = generate_robot(inputs)
     decision = decide_package(generation)
+    is_still = decision.is_complete and not any(action.writes for action in decision.actions)
+    if options.full or options.draw or not is_still:
+        dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
     return stage(generation, decision, find_all(generation, decision))

@@ -13,7 +13,6 @@ from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.dependencies import is_folder, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
-from urdfsync.engine.cache import Cache
 from urdfsync.files import kind_of, shown, templates_digest
 
 MAX_TEMPLATE = 10_000_000
@@ -92,22 +91,12 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
     return found
 
 
-def read(
-    domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None = None
-) -> tuple[Snapshot, Reading]:
+def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
     """Return the model in a source, and all that was read; `name` is how diagnostics call the source.
 
     Raises SourceError with all that is wrong in it.
     """
-    reading = read_cached(domain, options, content, name, cache)
+    reading = domain.read(content, name, options)
     if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
-
-
-def read_cached(domain: Domain, options: Any, content: bytes, name: str, cache: Cache | None) -> Reading:
-    """Return what the domain reads in a source. The daemon judges a source, then builds it, and parses it once."""
-    if cache is None:
-        return domain.read(content, name, options)
-    key = domain, options, content, name
-    return cache.get("source", key, lambda: domain.read(content, name, options))

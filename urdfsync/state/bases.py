@@ -11,12 +11,13 @@ import contextlib
 import errno
 import itertools
 import re
+import stat
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import read_unrecorded
+from urdfsync.dependencies import file_type, read_file
 from urdfsync.files import TEMPORARY, failure, text_digest
 from urdfsync.state import file_operations
 
@@ -95,7 +96,7 @@ class BaseStore:
             self._content = b""
             with contextlib.suppress(OSError):
                 self._check_links()
-                self._content = read_unrecorded(self._file)
+                self._content = read_file(self._file)
             self._places = {line[1].decode(): slice(*line.span(2)) for line in re.finditer(_LINE, self._content)}
             self._added.clear()
         return self._content
@@ -103,7 +104,7 @@ class BaseStore:
     def _check_links(self) -> None:
         """Refuse to go through a link. Raises OSError."""
         for path in (self._folder.parent.parent, self._folder.parent, self._folder, self._file):
-            if path.is_symlink():
+            if stat.S_ISLNK(file_type(path, follow=False)):
                 raise NotADirectoryError(errno.ENOTDIR, "a symbolic link is where a folder is needed", str(path))
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
-from urdfsync.dependencies import list_folder
+from urdfsync.dependencies import list_folder, mark_incomplete
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest, shown
 from urdfsync.state import planned, statefile
@@ -99,6 +99,8 @@ class Store:
         folder = self.folder / "conflicts" / robot
         folders = [folder, *([folder.with_name(former)] if former else [])]
         known = [one for one in folders if self._tree.check_folder(one)]  # a link may lead to all of the disk
+        if known:
+            mark_incomplete()  # what is in there is not recorded as a dependency
         there = sorted(path for one in known for path in one.rglob("*") if not path.is_dir())
         wanted = {folder / path: content for path, content in contents.items()}
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]

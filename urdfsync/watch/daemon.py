@@ -10,7 +10,6 @@ itself: after a build that wrote something, or during which somebody else did, t
 from __future__ import annotations
 
 import contextlib
-import math
 import os
 import time
 from collections.abc import Iterable, Sequence
@@ -22,7 +21,6 @@ import msgspec
 from urdfsync import config, precommit
 from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.engine.cache import Cache
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
@@ -32,7 +30,7 @@ from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import Debouncer, Times, WatchedRobot, read_state
+from urdfsync.watch.robot import Invalid, Resting, Settling, Times, WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
@@ -62,8 +60,7 @@ class Daemon:
 
     def __init__(self, options: WatchOptions, listener: events.Listener) -> None:
         self._options, self._listener = options, listener
-        self._cache = Cache()
-        self._build_options = msgspec.structs.replace(options.build, progress=self._progress, cache=self._cache)
+        self._build_options = msgspec.structs.replace(options.build, progress=self._progress)
         self._queue: SimpleQueue[object] = SimpleQueue()
         """Paths that may have changed, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
         self._observer = Observer(self._queue)
@@ -75,7 +72,7 @@ class Daemon:
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
-        self._is_paused = self._is_warm = False
+        self._is_paused = False
         self._next_poll = self._next_rescan = 0.0
 
     def stop(self, signal: str) -> None:
@@ -137,12 +134,11 @@ class Daemon:
         self._checks.use(loaded)
         before, self._robots = self._robots, {}
         for robot in robots:  # of those that were watched before, the last results are still known
-            paths = find_robot_paths(loaded, robot, self._options.build.package_paths, self._cache)
-            watched = before.get(robot.name) or WatchedRobot(robot, paths, Debouncer(self._options.times))
-            watched.robot, watched.paths, watched.built, watched.is_announced = robot, paths, None, True
-            watched.debouncer.touch(time.monotonic())
+            paths = find_robot_paths(loaded, robot, self._options.build.package_paths)
+            state = Settling(time.monotonic() + self._options.times.settle)
+            watched = before.get(robot.name) or WatchedRobot(robot, paths, state)
+            watched.robot, watched.paths, watched.state, watched.built = robot, paths, state, None
             self._robots[robot.name] = watched
-        self._cache.forget_others(self._robots)
         self._listener.show(events.Started(loaded.file, tuple(self._robots), again))
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
@@ -186,7 +182,7 @@ class Daemon:
         known = (path in one.files or path in one.paths.outputs for one in affected for path in by_robot[one.name])
         if not all(known):
             self._watch_folders()  # a folder or a link may have been replaced
-        self._touch([one for one in affected if one.is_announced or one.has_changed(by_robot[one.name])])
+        self._touch([one for one in affected if one.is_told or one.has_changed(by_robot[one.name])])
 
     def _show_all(self, found: Iterable[events.Event]) -> None:
         for event in found:
@@ -194,22 +190,18 @@ class Daemon:
 
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
-        due = [watched.debouncer.due for watched in self._robots.values()]
-        if not self._is_warm and min(due) == math.inf:
-            return 0.0  # nobody waits: `_build_settled` gets ready for the first change
-        due += [self._next_rescan]
+        due = [self._next_rescan, *(watched.state.due for watched in self._robots.values())]
         due += [self._next_poll] if self._is_polling else []
         due += [now + _PAUSE] if self._is_paused else []
         return max(min(due) - now, 0.0)
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let robots settle, since something changed; all from the same moment, so that they are built together."""
-        now = time.monotonic()
+        due = time.monotonic() + self._options.times.settle
         for watched in robots:
-            if not watched.is_announced:
+            if not watched.is_told:
                 self._listener.show(events.Settling(watched.name))
-            watched.is_announced, watched.source_errors = True, ()
-            watched.debouncer.touch(now)
+            watched.state = Settling(due)
 
     # Looks without an event
 
@@ -234,17 +226,17 @@ class Daemon:
         now = time.monotonic()
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         self._watch_folders()
-        idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
-        self._touch([watched for watched in idle if watched.has_changed()])
-        for watched in idle:
-            if watched.failure is not None and watched.debouncer.is_idle:
-                watched.debouncer.touch(now)
+        resting = [watched for watched in self._robots.values() if watched.is_resting]
+        self._touch([watched for watched in resting if watched.has_changed()])
+        for watched in resting:
+            if watched.failure is not None and watched.is_resting:
+                watched.state = Settling(now, is_told=False)
 
     def _poll(self) -> None:
         """Look at the inputs of all robots."""
         self._next_poll = time.monotonic() + _POLL
-        idle = [watched for watched in self._robots.values() if watched.debouncer.is_idle]
-        self._touch([watched for watched in idle if watched.has_changed(watched.files.keys() - watched.paths.outputs)])
+        resting = [watched for watched in self._robots.values() if watched.is_resting]
+        self._touch([one for one in resting if one.has_changed(one.files.keys() - one.paths.outputs)])
 
     def _update_pause(self) -> bool:
         """Return whether nothing must be built now, since pre-commit has stashed changes away."""
@@ -260,69 +252,77 @@ class Daemon:
     # Builds
 
     def _build_settled(self) -> None:
-        """Build the robots whose files have settled; while there is nothing to do, get ready for the first change."""
-        now, robots = time.monotonic(), self._robots.values()
+        """Look at the robots that are due, and build those whose files have settled."""
+        now = time.monotonic()
         if self._is_paused:
             self._update_pause()
-        due = [watched for watched in robots if watched.debouncer.due <= now]
-        samples = [watched.read_files(inputs_only=True) for watched in due]
-        settled = [one for one, sample in zip(due, samples, strict=True) if one.debouncer.add_sample(sample, now)]
+        due = [watched for watched in self._robots.values() if watched.state.due <= now]
+        settled = [watched for watched in due if self._has_settled(watched, now)]
         if settled and self._reload_config():
             return
         ready = [watched for watched in settled if self._is_ready(watched, now)]
         if ready and self._update_pause():
             for watched in ready:
-                watched.debouncer.touch(now + _PAUSE)
+                watched.state = Settling(now + _PAUSE, is_told=watched.is_told)
         elif ready:
             self._build(ready)
-        elif not self._is_warm and all(watched.debouncer.is_idle for watched in robots):
-            self._is_warm = True
-            build.warm_up(self._config, [watched.robot for watched in robots])
+
+    def _has_settled(self, watched: WatchedRobot, now: float) -> bool:
+        """Look at a robot's files; return whether they are as at the last look, or time is up for an invalid source."""
+        times, before = self._options.times, watched.hashes
+        sample = watched.read_files()
+        match watched.state:
+            case Invalid(_, since) as state:
+                end = since + times.give_up_after
+                if sample == before and now < end:
+                    watched.state = Invalid(min(now + _POLL, end), since)
+                    return False
+                if sample == before:
+                    return True
+                watched.state = Settling(now + times.sample, sample)
+                return not times.sample
+            case Settling() as state:
+                watched.state = msgspec.structs.replace(state, due=now + times.sample, sample=sample)
+                return sample == state.sample or not times.sample
+        return False
 
     def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
         """Return whether a robot is to be built, of which the files have settled."""
-        # the sample has the inputs only, so outputs are read now; not after a failure, which may have had another cause
-        if watched.failure is None and watched.hashes() == watched.built == watched.read_files():
-            if watched.is_announced:
+        # not after a failure, which may have had another cause
+        if watched.failure is None and watched.hashes == watched.built:
+            if watched.is_told:
                 self._listener.show(events.Unchanged(watched.name))
-            watched.invalid_since = None
             self._rest(watched)
             return False
-        is_built = watched.source.text_sha256 == watched.paths.built_hash
-        errors, lost = build.judge_source(self._config, watched, self._cache) if not is_built else ((), 0)
+        errors, lost = build.judge_source(self._config, watched.robot, watched.paths)
         if errors:
             self._wait_for_valid(watched, errors, now)
             return False
-        watched.invalid_since, watched.source_errors = None, ()
-        if lost and watched.rechecked != watched.source.sha256:
-            watched.rechecked = watched.source.sha256
+        source = watched.files[str(watched.robot.source)].sha256
+        if lost and isinstance(watched.state, Settling) and watched.state.shrunk != source:
             reason = f"{lost} of {len(watched.paths.built_names)} elements are gone, so it is watched a little longer"
             self._listener.show(events.Waiting(watched.name, reason))
-            watched.debouncer.due = now + self._options.times.recheck_shrunk
+            watched.state = Settling(now + self._options.times.recheck_shrunk, watched.hashes, shrunk=source)
             return False
         return True
 
     def _wait_for_valid(self, watched: WatchedRobot, errors: tuple[Diagnostic, ...], now: float) -> None:
-        """Look again at a source that is invalid; after some time that is an error."""
-        watched.invalid_since = now if watched.invalid_since is None else watched.invalid_since
-        end = watched.invalid_since + self._options.times.give_up_after
-        if now >= end:
+        """Wait for the exporter, which may be at work on a source that is invalid; after some time that is an error."""
+        if isinstance(watched.state, Invalid) or errors == watched.failure:
             self._take_failure(watched, build.failed_result(self._config, watched.robot, errors))
             self._rest(watched)
         else:
-            if errors != watched.source_errors:
-                self._listener.show(events.Waiting(watched.name, "waiting for the exporter", errors))
-            watched.source_errors, watched.debouncer.due = errors, min(now + _POLL, end)
+            self._listener.show(events.Waiting(watched.name, "waiting for the exporter", errors))
+            watched.state = Invalid(now + min(_POLL, self._options.times.give_up_after), now)
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. One of which a file is other than before has to settle again."""
-        told = [watched for watched in robots if watched.is_announced]
-        self._show_all([events.Building(watched.name) for watched in told])
-        # processes of a pool would leave the cache empty; a build that nobody waits for fills it
-        options = self._build_options if told else msgspec.structs.replace(self._build_options, jobs=1)
-        before = {watched.name: watched.hashes() for watched in robots}
-        for result in build.build_robots(self._config, [watched.robot for watched in robots], options):
+        """Build robots. One that has written, or of which a file is other than before, has to settle again."""
+        self._show_all([events.Building(watched.name) for watched in robots if watched.is_told])
+        before, writers = {watched.name: watched.hashes for watched in robots}, set()
+        for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
+            if result.renews_state or any(action.writes for action in result.actions):
+                writers.add(result.robot)
             if not result.failed:
                 self._take_result(watched, result)
             elif watched.read_files() == before[watched.name]:
@@ -330,41 +330,40 @@ class Daemon:
         self._renew_paths(robots)
         for watched in robots:
             old, now = before[watched.name], watched.read_files()
-            if now == old:
+            if now == old and watched.name not in writers:  # git may have taken back what was written
                 self._rest(watched)
             elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
+                watched.state = Resting()
                 self._touch([watched])  # somebody saved meanwhile: the user is told
-            else:
-                watched.debouncer.touch(time.monotonic())  # most likely its own writes: confirmed without a word
+            else:  # most likely its own writes: confirmed without a word
+                watched.state = Settling(time.monotonic() + self._options.times.settle, is_told=False)
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""
         before = [watched.paths for watched in robots]
         for watched in robots:
-            paths = self._options.build.package_paths
-            watched.paths = find_robot_paths(self._config, watched.robot, paths, self._cache)
+            watched.paths = find_robot_paths(self._config, watched.robot, self._options.build.package_paths)
         if before != [watched.paths for watched in robots]:
             self._watch_folders()
 
     def _rest(self, watched: WatchedRobot) -> None:
         """Leave a robot alone until something changes; check its package, unless it could not be built."""
-        watched.built, watched.is_announced = watched.hashes(), False
-        watched.debouncer.rest()
+        watched.built, watched.state = watched.hashes, Resting()
         if watched.failure is None:
             self._show_all(self._checks.check(watched.robot))
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
         again = watched.failure == result.diagnostics
-        if watched.is_announced or not again:
+        if watched.is_told or not again:
             self._listener.show(events.Failed(result, again))
-        watched.failure, watched.is_announced = result.diagnostics, False
+        watched.failure = result.diagnostics
 
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
         left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
-        if watched.is_announced or files or recovered or left_alone != watched.left_alone:
+        if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener.show(events.Built(result, files, recovered))
-        watched.failure, watched.is_announced, watched.left_alone = None, False, left_alone
+        watched.failure, watched.left_alone = None, left_alone
         if files:
             self._show_all(self._commands.run(watched.robot, files))

@@ -93,10 +93,8 @@ class EventLog:
     def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
         """Yield the line of a build that did or found anything, below its new findings and above its new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
-        # a build with nothing to do reads no source and so has other findings: it is compared with the last such one
-        topic = "findings" if event.files or result.changes else "findings of nothing to do"
-        before = self._told.get((robot, topic), ())
-        keys = self._told[robot, topic] = [(one.code, one.message, one.file) for one in result.diagnostics]
+        before = self._told.get((robot, "findings"), ())
+        keys = self._told[robot, "findings"] = [(one.code, one.message, one.file) for one in result.diagnostics]
         new = [one for one, key in zip(result.diagnostics, keys, strict=True) if verbose or key not in before]
         yield from self._findings(new)
         had_conflicts = bool(self._told.get((robot, "conflicts")))

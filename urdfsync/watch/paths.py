@@ -17,7 +17,6 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
-from urdfsync.engine.cache import Cache
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.files import placed
 from urdfsync.state.record import Record
@@ -34,31 +33,25 @@ class RobotPaths(msgspec.Struct, frozen=True):
     """Configuration, source and dependencies, wherever these may be found, as configuration and source name them."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
-    built_hash: str = ""
-    """Text hash of the source in the last build; empty if there was none."""
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
 
 
-def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path], cache: Cache) -> RobotPaths:
+def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
     store, state = Store(config.root), None
     inputs = {str(config.file), str(robot.source)}
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
-        # a build has just recorded it; loading it again takes a fifth of the time of a changed mass in 1,000 links
         state = store.load(robot.name)
     if state is None:
         return RobotPaths(frozenset(inputs), frozenset(outputs))
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
     outputs.update(placed(prefix, key) for key in state.files)
     inputs.update(_dependencies(robot, state, package_paths))
-    names = frozenset(
-        (kind, name)
-        for kind, found in registry.domain(robot.domain).names(state.snapshot or {}, robot.target).items()
-        for name in found
-    )
-    return RobotPaths(frozenset(inputs), frozenset(outputs), "", names)
+    found = registry.domain(robot.domain).names(state.snapshot or {}, robot.target)
+    names = frozenset((kind, name) for kind, identifiers in found.items() for name in identifiers)
+    return RobotPaths(frozenset(inputs), frozenset(outputs), names)
 
 
 def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Path]) -> Iterator[str]:
