@@ -146,7 +146,7 @@ EDITS: dict[str, Edit] = {
         f"other write {path}": _edit(path, old=True)
         for path in (
             *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.json"),
-            *(".urdfsync/robots/gone.toml", "modelica/Leg/package.order"),
+            *(".urdfsync/robots/gone.state", "modelica/Leg/package.order"),
         )
     },
     "a mesh that is better placed": _edit("robots/arm_meshes/base.stl"),
@@ -159,7 +159,7 @@ EDITS: dict[str, Edit] = {
     "a package above all": _edit("modelica/package.mo"),
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
     "a folder that is a class": _edit("modelica/Lab/Arm/Links/Base/package.mo", "absent"),
-    "another stray state": _edit(".urdfsync/robots/other.toml"),
+    "another stray state": _edit(".urdfsync/robots/other.state"),
     "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
     "an interrupted build": _edit(".urdfsync/planned.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
@@ -318,7 +318,10 @@ def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Captu
     time.sleep(0.1)  # so that it would be saved
     assert cli.main(BUILD) == 0
     assert capsys.readouterr().out == f"{IN_STEP}\n"
-    assert sorted(path.name for path in Path(".urdfsync").iterdir() if path.name.startswith(".")) == [".gitignore"]
+    assert sorted(path.name for path in Path(".urdfsync").iterdir() if path.name.startswith(".")) == [
+        ".gitattributes",
+        ".gitignore",
+    ]
 
 
 # Check and command agree, whatever happens to the files
@@ -327,7 +330,7 @@ def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Captu
 PATHS = (
     *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", "robots/arm_meshes/base.stl", "own/link.mo.jinja"),
     *("modelica/Leg/package.order", "modelica/Leg/Links/Tip/package.mo", "modelica/Lab/package.mo"),
-    *(".urdfsync/robots/leg.json", ".urdfsync/robots/leg.toml", ".urdfsync/robots/gone.toml"),
+    *(".urdfsync/robots/leg.state", ".urdfsync/robots/gone.state"),
     *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/planned.json"),
 )
 CHANGES = st.tuples(

@@ -82,7 +82,7 @@ def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Pat
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "plan_robot", _die)
+    monkeypatch.setattr(pool, "_plan", _die)
     results = run_all(jobs=2)
     assert all(result.failed for result in results)
     (found,) = results[0].diagnostics

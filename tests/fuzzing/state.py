@@ -35,7 +35,7 @@ EDITED = (MODEL, RECORD, "modelica/Bot/Bench.mo", "modelica/notes.txt")
 GENERATED = "modelica/Bot/"
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 COMMANDS = (
-    *(["build"], ["build"], ["build", "--full"], ["build", "--repair"], ["build", "--check"], ["build", "--dry-run"]),
+    *(["build"], ["build"], ["build", "--full"], ["build", "--check"], ["build", "--dry-run"]),
     *(["build", "--svg"], ["status"], ["status", "--verbose"], ["diff"], ["diff", "--since-build"], ["hook", "check"]),
     *(["hook", "build"], ["resolve", "--all", "--keep"], ["resolve", "--all", "--merge"], ["build", "--json"], WATCH),
     ["resolve", MODEL, "--keep"],
@@ -169,9 +169,9 @@ def _damage(work: Workplace, random: Random) -> None:
 
 _NAMES = (
     *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp"),
-    *("lock", "watch.lock", "robots/other.toml", "robots/bot.json", "robots/bot.toml"),
-    *("robots/BOT.toml", "robots/-x.toml", "robots/.toml", "robots/\x1b[2J.toml", "robots/a.b.toml", "conflicts/bot/x"),
-    *("svg/bot.svg", ".gitignore", "config", "robots/bot.toml.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
+    *("lock", "watch.lock", "robots/other.state", "robots/bot.state"),
+    *("robots/BOT.state", "robots/-x.state", "robots/.state", "robots/\x1b[2J.state", "robots/a.b.state", "conflicts/bot/x"),
+    *("svg/bot.svg", ".gitignore", "config", "robots/bot.state.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
 )
 DAMAGES = (
     *(*["values"] * 8, "noise", "noise", "cut", "swap", "swap", "large", "delete", "folder", "link", "link"),

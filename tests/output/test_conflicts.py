@@ -70,8 +70,7 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
     assert seen(texts_of(EDITED, EXPORTED), width=100) == [
         "",
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
-        "    You edited it, and its generated text changed too. The changes fit together: --merge takes",
-        "    both.",
+        "    You edited it, and its generated text changed too. The changes fit together: --merge takes both.",
         "",
         "    -- lines 1 to 6: your edit and what is new",
         "               1  within Arm;",

@@ -295,7 +295,7 @@ def test_what_a_user_edits_is_left_alone_and_each_is_told_once(start: Start) -> 
     assert watch.mark == since
 
 
-OUTPUTS = (MODEL, "modelica/Ladder/package.order", ".urdfsync/robots/ladder.toml", ".urdfsync/robots/ladder.json")
+OUTPUTS = (MODEL, "modelica/Ladder/package.order", ".urdfsync/robots/ladder.state")
 
 
 @pytest.mark.parametrize("output", OUTPUTS)
@@ -340,7 +340,7 @@ def test_saves_right_after_the_build_has_looked(start: Start) -> None:
 
 def test_the_state_folder_is_deleted(start: Start) -> None:
     watch = start("--rescan", "0.1")
-    lock, manifest = Path(".urdfsync/watch.lock"), Path(".urdfsync/robots/ladder.toml")
+    lock, manifest = Path(".urdfsync/watch.lock"), Path(".urdfsync/robots/ladder.state")
     for _ in range(2):
         shutil.rmtree(".urdfsync", ignore_errors=True)  # the daemon may be at it
     until(lambda: lock.is_file() and manifest.is_file())

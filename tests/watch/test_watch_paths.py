@@ -42,7 +42,7 @@ def test_a_dependency_may_turn_up_wherever_it_is_looked_for(project: Path) -> No
 def test_a_state_that_can_not_be_read_is_still_watched(project: Path) -> None:
     assert cli.main(["build", "--quiet"]) == 0
     (project / ".urdfsync/robots/ladder.state").write_text("<<<<<<<")
-    assert ".urdfsync/robots/ladder.toml" in names(project, ladder(project).outputs)
+    assert ".urdfsync/robots/ladder.state" in names(project, ladder(project).outputs)
 
 
 def test_parents_and_templates_matter(project: Path) -> None:

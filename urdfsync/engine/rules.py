@@ -90,7 +90,7 @@ def decide(
         else:
             if path in left:
                 base, mine = None, None
-            elif old_base and there is None and not _is_free(record, mine):
+            elif old_base and there is None and isinstance(mine, str) and path not in recorded:
                 base = old_base  # the user moved the file there by hand
             kind = decide_file(base, mine, generated)
             if kind is Kind.DELETE and record.is_ambiguous:

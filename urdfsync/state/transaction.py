@@ -24,6 +24,7 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations, planned
@@ -130,7 +131,7 @@ class Transactions:
 
     def is_pending(self) -> bool:
         """Whether a build is at work, or was when its process ended."""
-        return planned.is_interrupted(self._state_folder) or os.path.lexists(self._draft)
+        return planned.is_interrupted(self._state_folder) or file_type(self._draft, follow=False) != 0
 
     def _load(self, file: Path) -> PlannedBuild | None:
         """The planned hashes of a file, None if there are none, or none of this place. Raises OutputError for links."""
