@@ -158,7 +158,7 @@ class _Reader:
         return CheckConfig(_absolute(self._root / keys.library), table.lines["library"])
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
-        """Two robots must not share a manifest or a package's folder, nor may one stand in the other's."""
+        """Two robots must not share a record or a package's folder, nor may one stand in the other's."""
         names: dict[str, str] = {}
         folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:

@@ -139,7 +139,7 @@ class _Builder:
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.
 
-        Nearly every build writes the manifest as its last file, so it is read again here; the others are when they are
+        Nearly every build writes the record as its last file, so it is read again here; the others are when they are
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}

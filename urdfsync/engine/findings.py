@@ -39,7 +39,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if inputs.old_folder == inputs.folder or any(action.held for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.kind in DELETES}
-    # a manifest may be a stranger's: no look into a folder elsewhere, and no command that deletes it
+    # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
     is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]

@@ -6,7 +6,7 @@
 4. Each target is exchanged with its new file, deletions last. The old file stands under the temporary name then, where
    its hash shows whether it is the one that was planned with. If it is not, somebody has saved the target in between:
    the two are exchanged back, and the target is *overtaken*.
-5. The recorded state takes its place, the manifest last, unless a target was overtaken.
+5. The recorded state takes its place, unless a target was overtaken.
 6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken.
 
 From the fourth on, every write can be done twice: whoever finds planned hashes in their place begins there again. A
@@ -50,7 +50,7 @@ class FileChange(msgspec.Struct, frozen=True):
     is_moved: bool = False
     """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
     record: FileRecord | None = None
-    """The file's entry in the manifest then; None if it has none."""
+    """The file's record then; None if it has none."""
 
 
 class Applied(msgspec.Struct, frozen=True):
