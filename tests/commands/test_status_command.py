@@ -191,4 +191,4 @@ def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
     assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
-    assert sum("waits until the other conflicts are resolved" in line for line in shown) == 2
+    assert sum("waits until the conflicts are resolved" in line for line in shown) == 2

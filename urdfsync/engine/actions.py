@@ -93,8 +93,10 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def waits_for(self) -> str:
         """What it waits for, if it does, as a clause."""
-        resolved = "resolved, " if self.choice else ""
-        return f"{resolved}waits until the other conflicts are resolved" if self.held else ""
+        if not self.held:
+            return ""
+        waits = "resolved, waits until the other" if self.choice else "waits until the"
+        return f"{waits} conflicts are resolved"
 
     @property
     def replaceable(self) -> bool:

@@ -29,7 +29,9 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; what urdfsync recorded of it goes"
         place = shown(inputs.config.file), inputs.robot.lines[""]
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
-    found += [*_left_behind(inputs, actions), *_lost_connectors(generation), *_outdated(inputs, actions)]
+    found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
+    if decision.is_complete:
+        found += _lost_connectors(generation)
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
