@@ -170,7 +170,14 @@ def _damage(work: Workplace, random: Random) -> None:
 _NAMES = (
     *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp"),
     *("lock", "watch.lock", "robots/other.state", "robots/bot.state"),
-    *("robots/BOT.state", "robots/-x.state", "robots/.state", "robots/\x1b[2J.state", "robots/a.b.state", "conflicts/bot/x"),
+    *(
+        "robots/BOT.state",
+        "robots/-x.state",
+        "robots/.state",
+        "robots/\x1b[2J.state",
+        "robots/a.b.state",
+        "conflicts/bot/x",
+    ),
     *("svg/bot.svg", ".gitignore", "config", "robots/bot.state.urdfsync-tmp", "conflicts/bot/Links/Arm.merge.mo.txt"),
 )
 DAMAGES = (

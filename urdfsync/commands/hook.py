@@ -33,7 +33,7 @@ from urdfsync.state import planned
 from urdfsync.state.lock import build_lock
 from urdfsync.state.store import Store
 
-_FEW = 5
+_FEW = 4
 """So many files are named one by one."""
 _UNNEEDED = (Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
 """Actions on files that a clone can do without."""

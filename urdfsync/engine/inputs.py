@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -182,17 +182,18 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
         file = shown(store.path(robot.name))
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
-    written = _find_written(store, files)
+    written = _find_written(store, files, {folder, record.folder if record else folder})
     return Inputs(
         *(config, robot, options, domain, files, around, store, record, former, written, templates, content, generator)
     )
 
 
-def _find_written(store: Store, files: PackageFiles) -> dict[str, FileRecord | None]:
-    """Return the files that builds which are not complete have written or deleted: they are as was planned."""
+def _find_written(store: Store, files: PackageFiles, folders: Collection[str]) -> dict[str, FileRecord | None]:
+    """Return the files below `folders` that builds which are not complete have written or deleted, as was planned."""
     found: dict[str, FileRecord | None] = {}
+    inside = tuple(f"{folder}/" for folder in folders)
     for one in store.planned_files():
-        if (one.new is None or one.record) and files.is_inside(one.path):
+        if (one.new is None or one.record) and one.path.startswith(inside) and files.is_inside(one.path):
             state = files.state(one.path)
             if (state.sha256 if state else None) == one.new:
                 found[one.path] = one.record

@@ -129,7 +129,8 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
     old = {key: one for key, one in inputs.recorded_files.items() if not one.is_users or inputs.files.read(key)}
     files = files_after(decision.actions, old)
     for action in decision.actions:
-        if action.kind in (Kind.ORPHAN, Kind.NEEDED) and action.role is not Role.IMPORT:
+        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED) and action.path.startswith(inside)
+        if is_left and action.role is not Role.IMPORT:
             (base,) = files[action.path].hashes
             if (text := generation.base(action.path, base)) is not None:
                 texts[base] = text
@@ -173,11 +174,11 @@ def _missing_bases(generation: Generation, record: Record) -> dict[str, str]:
     inputs, found = generation.inputs, dict[str, str]()
     kept = inputs.store.bases(inputs.robot.name)
     for key, file in record.files.items():
-        path = inputs.path(key)
+        path = key.removeprefix(f"{record.folder}/")
         for sha256 in file.hashes if role_of(path) is not Role.IMPORT else ():
             if sha256 not in kept and sha256 not in record.texts:
                 is_generated = path in generation.package.artifacts and generation.hash(path) == sha256
-                text = generation.content(key).decode() if is_generated else generation.base(key, sha256)
+                text = generation.content(inputs.key(path)).decode() if is_generated else generation.base(key, sha256)
                 if text is not None:
                     found[sha256] = text
     return found

@@ -106,10 +106,13 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
     newer urdfsync wrote. Unless `strict`, lines that can't be read are passed over.
     """
     found: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
-    facts = set()
+    facts, seen_lines = set(), set()
     for number, content in enumerate(text.split("\n"), 1):
         if not content or content.startswith("#"):
             continue
+        if content in seen_lines:
+            continue
+        seen_lines.add(content)
         if not content.startswith(_SUM):
             facts.add(content)
         try:
@@ -121,8 +124,7 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
         if word == "format" and value > FORMAT:
             message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
             raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, number, hint="update urdfsync"))
-        if value not in found[word]:
-            found[word].append(value)
+        found[word].append(value)
     missing = [word for word in ("format", *_HEADINGS) if not found[word]]
     if missing:
         raise _broken(file, 1, f"it has no {' and no '.join(missing)}")

@@ -18,6 +18,7 @@ from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
 from urdfsync.engine.imports import find_dependencies
+from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.files import placed
 from urdfsync.state.record import Record
 from urdfsync.state.store import Store
@@ -49,8 +50,10 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
     outputs.update(placed(prefix, key) for key in state.files)
     inputs.update(_dependencies(robot, state, package_paths))
-    found = registry.domain(robot.domain).names(state.snapshot or {}, robot.target)
-    names = frozenset((kind, name) for kind, identifiers in found.items() for name in identifiers)
+    names: frozenset[tuple[str, str]] = frozenset()
+    with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
+        found = registry.domain(robot.domain).names(state.snapshot or {}, robot.target)
+        names = frozenset((kind, name) for kind, identifiers in found.items() for name in identifiers)
     return RobotPaths(frozenset(inputs), frozenset(outputs), names)
 
 

@@ -89,6 +89,7 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
         joint.mimic = None
         if joint.type in MOTION_KINDS:
             axes[joint.name] = 1.0 if MOTION_KINDS[joint.type] == "rotational" else float(np.linalg.norm(joint.axis))
+    parents = {joint.child: joint.parent for joint in robot.joints}
     positions = {name: 0.3 + 0.1 * (number % 10) for number, name in enumerate(axes)}
     with _silence(), np.errstate(all="ignore"):  # of positions without end
         scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)
@@ -96,8 +97,12 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
             scene.update_cfg({name: position / axes[name] for name, position in moved.items()})
             ours = {name: np.column_stack(pose) for name, pose in link_poses(tree, moved).items()}
             reach = max(1.0, *(float(np.abs(pose).max()) for pose in ours.values()))
-            for name, pose in ours.items():
-                found = scene.get_transform(name)[:3]
+            places: dict[str, Any] = {}
+            for name, pose in ours.items():  # joint by joint: from the root, a long chain would take minutes
+                parent = parents.get(name)
+                step = scene.get_transform(name, parent) if parent else scene.get_transform(name)
+                places[name] = places[parent] @ step if parent else step
+                found = places[name][:3]
                 if np.abs(found - pose).max() > _TOLERANCE * reach:
                     place, other = (f"({x:.6g}, {y:.6g}, {z:.6g})" for x, y, z in (pose[:, 3], found[:, 3]))
                     message = f"with all joints {words} the link is at {place} m, for yourdfpy at {other} m"
