@@ -21,11 +21,7 @@ def main() -> int:
             return 0
         from urdfsync import cli  # 30 ms, which a command without work does not have
 
-        code = cli.main() if trouble is None else cli.tell_unwritten(trouble)
-        import signal  # loaded by `cli`
-
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C has nothing to interrupt, only the clearing away
-        return code
+        return cli.main() if trouble is None else cli.tell_unwritten(trouble)
     except KeyboardInterrupt:
         return 130
 
