@@ -54,7 +54,7 @@ def decide_package(generation: Generation) -> Decision:
     recorded, desired, known = inputs.recorded_files, generation.desired_files(), generation.recorded_roles()
     roles = {key: role for key, (role, _) in known.items()} | {key: one.role for key, one in desired.items()}
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
-    actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves(), known))
+    actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {action.path: _conflict(generation, action) for action in disputed}

@@ -155,8 +155,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             return found
         return msgspec.structs.replace(found, generator=True, options=inputs.changed_options())
 
+    @cached_property
     def moves(self) -> dict[str, str]:
-        """Return new and old key of text files whose element was renamed, or whose package moved."""
+        """New and old key of text files whose element was renamed, or whose package moved."""
         inputs, last = self.inputs, self.last_package
         hashes = {inputs.old_path(key): one.hashes for key, one in inputs.recorded_files.items() if not one.is_users}
         texts = set(hashes)

@@ -201,7 +201,7 @@ def _lost_parts(generation: Generation, before: Mapping[str, str], after: Mappin
 
     Where a class inherits from a library that is not at hand, such a name counts as gone.
     """
-    new_keys, found = {old: new for new, old in generation.moves().items()}, set[str]()
+    new_keys, found = {old: new for new, old in generation.moves.items()}, set[str]()
     for key, text in before.items():
         now = after.get(new_keys.get(key, key))
         if now != text:
@@ -229,7 +229,7 @@ def mentioned_records(generation: Generation, actions: Sequence[Action], merged:
     Those that a renamed element left are not needed: the user is told the new name.
     """
     inputs, files = generation.inputs, generation.inputs.files
-    left = set(generation.moves().values())
+    left = set(generation.moves.values())
     leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in left]
     if not leaving:
         return frozenset()
