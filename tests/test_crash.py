@@ -21,6 +21,9 @@ from support import crashes
 from support.crashes import CHANGES, Operation, before_each, contents, kill, operations, run
 from support.networks import LADDER, configure, edit
 
+from urdfsync import config
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 from urdfsync.state.planned import is_interrupted
@@ -100,7 +103,7 @@ def scenario(request: pytest.FixtureRequest) -> Path:
     return path
 
 
-def build(project: Path) -> Wanted:
+def build_twice(project: Path) -> Wanted:
     """Build, and see that the next build has nothing to write."""
     result = run(project)
     assert not result.failed, result.diagnostics
@@ -113,7 +116,7 @@ def expected(project: Path, work: Path, before: Callable[[Path], object] = lambd
     """What an undisturbed build makes of the project."""
     clean = crashes.copy(project, work)
     before(clean)
-    return build(clean)
+    return build_twice(clean)
 
 
 def every(project: Path, work: Path, names: Sequence[str]) -> Iterator[tuple[Operation, Path]]:
@@ -141,7 +144,7 @@ def assert_finished(start: Path, work: Path, names: Sequence[str], *, half: bool
     wanted = expected(start, work / "clean")
     for operation, project in every(start, work / "work", names):
         kill(project, operation.number, half=half)
-        assert build(project) == wanted, operation
+        assert build_twice(project) == wanted, operation
 
 
 @pytest.mark.parametrize(("scenario", "names"), IN_SCENARIO.items(), indirect=["scenario"])
@@ -180,7 +183,7 @@ def test_a_recovery_may_be_killed_too(crashed: Path, tmp_path: Path) -> None:
     wanted = expected(crashed, tmp_path / "clean")
     for operation, project in every(crashed, tmp_path / "work", ["exchange", "replace", "remove", "sync"]):
         kill(project, operation.number)
-        assert build(project) == wanted, operation
+        assert build_twice(project) == wanted, operation
 
 
 def test_what_the_user_does_after_a_crash_is_kept(changed: Path, tmp_path: Path) -> None:
@@ -210,7 +213,7 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
     for operation, project in every(changed, tmp_path / "work", CHANGES):
         kill(project, operation.number)
         change(project)
-        assert build(project) == wanted, operation
+        assert build_twice(project) == wanted, operation
 
 
 # Errors of the system
@@ -236,7 +239,7 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
         assert result.unfinished or contents(project) == before, operation
         assert lasting or not result.unfinished or is_interrupted(project / ".urdfsync"), operation
         tally[f"{errno.errorcode[number]}"] += 1
-        assert build(project) == wanted, operation
+        assert build_twice(project) == wanted, operation
 
 
 def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> None:
@@ -250,7 +253,7 @@ def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> Non
         with before_each(interrupt), pytest.raises(KeyboardInterrupt):
             run(project)
         assert contents(project) in (before, wanted[1]), operation
-        assert build(project) == wanted, operation
+        assert build_twice(project) == wanted, operation
 
 
 # Saves in the instant of the change
@@ -385,6 +388,32 @@ def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> Non
     assert [found.code for found in result.diagnostics] == ["restless"]
     assert set(target.read_bytes().split(b"\n")) == {b"", b"// mine"}
     assert [action.path for action in run(changed).conflicts] == [RECORD]
+
+
+def test_another_robot_leaves_the_planned_hashes_of_an_overtaken_one(changed: Path) -> None:
+    """A save overtakes the build, and the source can't be read then; meanwhile the other robot is built."""
+    shutil.copy(changed / "ladder.json", changed / "other.json")
+    configure('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    text, mine = (changed / "ladder.json").read_text(), changed / REMOVED
+
+    def meddle(found: Operation) -> None:
+        if found.name == "exchange":
+            mine.write_bytes(MINE)
+            (changed / "ladder.json").write_text("")
+
+    loaded = config.load(changed / "urdfsync.toml")
+    with before_each(meddle):
+        (result,) = build(loaded, loaded.robots[:1], BuildOptions())
+    assert result.failed
+    for _ in range(2):
+        (result,) = build(loaded, loaded.robots[1:], BuildOptions())
+        assert not result.failed
+        assert is_interrupted(changed / ".urdfsync")
+    (changed / "ladder.json").write_text(text)
+    (result,) = build(loaded, loaded.robots[:1], BuildOptions())
+    assert (result.failed, result.conflicts) == (False, []), "what was written then is urdfsync's own"
+    assert mine.read_bytes() == MINE
+    assert not is_interrupted(changed / ".urdfsync")
 
 
 # What is found after a crash

@@ -63,7 +63,8 @@ class _Builder:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
         self._state_folder = config.root / STATE_FOLDER
         outputs = list(dict.fromkeys(robot.output for robot in config.robots))
-        self._transactions = Transactions(config.root, self._state_folder, outputs)
+        robots = {robot.name for robot in config.robots}
+        self._transactions = Transactions(config.root, self._state_folder, outputs, robots)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 

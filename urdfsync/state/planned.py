@@ -1,7 +1,8 @@
 """The planned hashes: what a build is about to write, put aside before its first write.
 
 `planned.json` in the state folder. It goes when the build is complete, so what stands there is of a build that was
-killed or overtaken by a save. The next build tells from these hashes and from the files what is urdfsync's own.
+killed or overtaken by a save. The next build of that robot tells from these hashes and from the files what is
+urdfsync's own.
 """
 
 from __future__ import annotations
@@ -33,6 +34,13 @@ class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
     """As in `transaction.FileChange`."""
 
 
+class OvertakenBuild(msgspec.Struct, frozen=True):
+    """What a build was about to write that a save has overtaken; kept until a build of its robot is complete."""
+
+    robot: str
+    files: tuple[PlannedFile, ...]
+
+
 class PlannedBuild(file_operations.Bound, frozen=True):
     """What one build is about to write."""
 
@@ -42,8 +50,12 @@ class PlannedBuild(file_operations.Bound, frozen=True):
     files: tuple[PlannedFile, ...]
     emptied: tuple[str, ...] = ()
     """Folders that go if the build leaves them empty, innermost first."""
-    earlier: tuple[PlannedFile, ...] = ()
-    """What earlier builds were about to write that are not complete either."""
+    earlier: tuple[OvertakenBuild, ...] = ()
+    """Builds before this one that are not complete either, of this robot or another one."""
+
+    def overtaken(self) -> tuple[OvertakenBuild, ...]:
+        """All builds that are not complete, this one as the last."""
+        return (*self.earlier, OvertakenBuild(self.robot, self.files)) if self.files else self.earlier
 
 
 def is_interrupted(state_folder: Path) -> bool:

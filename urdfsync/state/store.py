@@ -78,7 +78,7 @@ class Store:
         """What builds that are not complete were about to write, in their order. Raises OutputError for a link."""
         path = self.folder / planned.FILE
         build = planned.parse(path, self._bytes(path))
-        return (*build.earlier, *build.files) if build else ()
+        return tuple(file for one in build.overtaken() for file in one.files) if build else ()
 
     def witness(self) -> Witness:
         """What all files were when they were loaded."""

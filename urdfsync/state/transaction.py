@@ -7,7 +7,8 @@
    its hash shows whether it is the one that was planned with. If it is not, somebody has saved the target in between:
    the two are exchanged back, and the target is *overtaken*.
 5. The recorded state takes its place, unless a target was overtaken.
-6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken.
+6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken: those
+   stand until a build of this robot is complete.
 
 From the fourth on, every write can be done twice: whoever finds planned hashes in their place begins there again. A
 temporary name that holds bytes that nobody planned with holds a save of the user's. It is put back, or kept beside the
@@ -64,9 +65,11 @@ class Applied(msgspec.Struct, frozen=True):
 class Transactions:
     """The writer of one configuration; for the holder of the build lock only."""
 
-    def __init__(self, root: Path, state_folder: Path, outputs: Sequence[Path] = ()) -> None:
-        """`root` is the configuration's folder; `outputs` may be written to as well."""
-        self._root, self._state_folder, self._outputs = root, state_folder, outputs
+    def __init__(
+        self, root: Path, state_folder: Path, outputs: Sequence[Path] = (), robots: Collection[str] = ()
+    ) -> None:
+        """`root` is the configuration's folder, `robots` are its names; `outputs` may be written to as well."""
+        self._root, self._state_folder, self._outputs, self._robots = root, state_folder, outputs, robots
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._planned = state_folder / planned.FILE
         self._draft = state_folder / planned.DRAFT
@@ -83,7 +86,7 @@ class Transactions:
             for one, new in zip(changes, hashes, strict=True)
         )
         before = self._load(self._planned)
-        earlier = (*before.earlier, *before.files) if before else ()
+        earlier = before.overtaken() if before else ()
         build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)), earlier)
         targets, made, has_begun = self._targets(build), self._missing_folders(changes), False
         try:
@@ -114,13 +117,13 @@ class Transactions:
                 self._discard(self._targets(draft))
             file_operations.remove(self._draft)
             build = self._load(self._planned)
-            if build is not None:
+            if build is not None and build.files:
                 applied = self._finish(build, self._targets(build))
                 found = applied.diagnostics
                 if not applied.not_done:
                     message = f"the last build of robot `{build.robot}` was interrupted; it is finished"
                     found = Diagnostic(Severity.NOTE, "recovered", message), *found
-            elif planned.is_interrupted(self._state_folder):
+            elif build is None and planned.is_interrupted(self._state_folder):
                 file_operations.remove(self._planned)
                 message = "an interrupted build was none of this very folder, or can't be read; nothing was done of it"
                 hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
@@ -194,8 +197,18 @@ class Transactions:
         for key in build.emptied:
             file_operations.remove_folder(Path(placed(self._prefix, key)))
         if not not_done:
-            file_operations.remove(self._planned)
+            self._forget(build)
         return Applied(tuple(not_done), tuple(found))
+
+    def _forget(self, build: PlannedBuild) -> None:
+        """Remove the planned hashes of a complete build, and of those of its robot before. Raises OSError."""
+        left = tuple(one for one in build.earlier if one.robot != build.robot and one.robot in self._robots)
+        if left:
+            file_operations.remove(self._draft)
+            file_operations.write_bound(self._draft, PlannedBuild(build.robot, build.token, (), (), left))
+            file_operations.replace(self._draft, self._planned)
+        else:
+            file_operations.remove(self._planned)
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to make, outermost first."""
