@@ -172,7 +172,7 @@ def test_noise_is_a_number_that_changed_by_a_millionth_or_less(old: Any, new: An
 
 
 MODEL = Role.MODEL
-A, B, C = (f"link {name}" for name in "abc")
+A, B, C, D = (f"link {name}" for name in "abcd")
 
 
 @pytest.mark.parametrize(
@@ -180,7 +180,8 @@ A, B, C = (f"link {name}" for name in "abc")
     [
         pytest.param({"A.mo": A, "C.mo": C}, {"B.mo": B, "C.mo": C}, {"A.mo": "B.mo"}, id="with a renamed element"),
         pytest.param({"A.mo": C}, {"A_2.mo": C, "A.mo": B}, {"A.mo": "A_2.mo"}, id="another takes its place"),
-        pytest.param({"A.mo": B, "B.mo": C}, {"B.mo": B, "C.mo": C}, {"A.mo": "B.mo", "B.mo": "C.mo"}, id="in a row"),
+        pytest.param({"A.mo": D, "B.mo": C}, {"B.mo": D, "C.mo": C}, {"A.mo": "B.mo", "B.mo": "C.mo"}, id="in a row"),
+        pytest.param({"A.mo": A, "B.mo": B}, {"B.mo": B}, {"A.mo": "B.mo"}, id="with the name of one that is gone"),
         pytest.param({"A.mo": "robot", "ARun.mo": "robot"}, {"B.mo": "robot", "BRun.mo": "robot"}, {}, id="no guess"),
     ],
 )

@@ -126,15 +126,18 @@ def moved_files(
 
     Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
     with an identifier that had to give way to another element's. Where an element has several files of one template
-    that moved, nothing is matched.
+    that moved, nothing is matched. Files of an element whose name another one has now are left where they are.
     """
     if old == new and not renames:
         return {}
     owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
+    gone = set(owners.values()) - owners.keys()
     sources, targets = defaultdict[Hashable, list[str]](list), defaultdict[Hashable, list[str]](list)
     staying = set()
     for path, (owner, template) in old.items():
         key = owners.get(owner, owner), template
+        if owner in gone:
+            continue
         if new.get(path) == key:
             staying.add(path)
         else:

@@ -141,7 +141,7 @@ class Project:
         records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
         numbers = {path for path, (old, new) in texts.items() if numbers_only(old, new)}
-        return hold(actions, numbers, moves=False), merged
+        return hold(actions, numbers, self.moves().values(), moves=False), merged
 
     def _found(self, path: str) -> OnDisk:
         if path in self.files:

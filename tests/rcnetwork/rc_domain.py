@@ -148,8 +148,9 @@ class RcNetwork(Domain):
         return {("element", before[key]): after[key] for key in before if key in after}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        names = {name: renames.get(("element", name), name) for name in snapshot["elements"]}
-        elements = {names[name]: {**element, "name": names[name]} for name, element in snapshot["elements"].items()}
+        gone = {name for name in renames.values() if ("element", name) not in renames}  # another element has their name
+        names = {name: renames.get(("element", name), name) for name in snapshot["elements"] if name not in gone}
+        elements = {new: {**snapshot["elements"][old], "name": new} for old, new in names.items()}
         return {**snapshot, "elements": elements}
 
     def describe(

@@ -53,13 +53,15 @@ def decide_package(generation: Generation) -> Decision:
     inputs, files = generation.inputs, generation.inputs.files
     recorded, desired, known = inputs.recorded_files, generation.desired_files(), generation.recorded_roles()
     roles = {key: role for key, (role, _) in known.items()} | {key: one.role for key, one in desired.items()}
-    on_disk = {key: files.on_disk(key, role) for key, role in roles.items()}
+    users = {key for key, one in recorded.items() if one.is_users} - desired.keys()
+    on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {action.path: _conflict(generation, action) for action in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
-    remembered = remembered_choices({(inputs.key(path), sides): one for (path, sides), one in pending.items()}, actions)
+    keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
+    remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
     choices = {**remembered, **inputs.options.choices}
     warnings: tuple[Diagnostic, ...] = ()
     if _takes_names_away(generation):
@@ -70,7 +72,8 @@ def decide_package(generation: Generation) -> Decision:
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
     numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
-    held = Actions(hold((*actions, *order_actions), numbers, inputs.folder != inputs.old_folder))
+    moves = inputs.folder != inputs.old_folder
+    held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), moves))
     waiting = {action.path for action in held if action.held}
     decision = Decision(
         held,

@@ -87,9 +87,15 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return None
 
     def is_rendered(self, path: str, hashes: Collection[str]) -> bool:
-        """Whether one of these hashes is that of a text of the last package, as it is rendered here."""
-        packages = (package for package in self.last_packages if path in package.artifacts)
+        """Whether one of these hashes is that of a text that was written last, as it is rendered here."""
+        packages = (package for package in (*self.last_packages, *self._seen_packages) if path in package.artifacts)
         return any(package.hash(path) in hashes for package in packages)
+
+    @cached_property
+    def _seen_packages(self) -> tuple[Package, ...]:
+        """The package of the model last seen: builds that are not complete have renewed files from it."""
+        record = self.inputs.record
+        return tuple(_recorded_packages(self.inputs, [record.open.seen])) if record and record.open else ()
 
     def desired_files(self) -> dict[str, DesiredFile]:
         """Return every file that the package should have, by key."""
@@ -183,10 +189,12 @@ def find_renames(domain: Domain, recorded: Snapshot, open_: Open | None, now: Sn
         return direct
     later = domain.renames(open_.seen, now) if open_.seen != now else {}
     there, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
-    followed = {}
+    followed, taken = {}, {(kind, name) for (kind, _), name in open_.renamed.items()}
     for kind, name in _elements(domain, recorded):
         last_name = open_.renamed.get((kind, name), name)
         new_name = later.get((kind, last_name), last_name)
+        if (kind, name) in taken and (kind, name) not in open_.renamed:
+            continue  # it is gone, and another element has its name
         if (kind, last_name) in elements and (kind, new_name) in there:
             followed[kind, name] = new_name
     taken = {(kind, name) for (kind, _), name in followed.items()}
@@ -216,7 +224,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports)
-    last_packages = tuple(_recorded_packages(inputs))
+    last_packages = tuple(_recorded_packages(inputs, inputs.record.snapshots if inputs.record else ()))
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
     is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written
@@ -227,12 +235,12 @@ def generate_robot(inputs: Inputs) -> Generation:
     )
 
 
-def _recorded_packages(inputs: Inputs) -> Iterable[Package]:
-    """Yield the package of each model that may be that of the last complete build."""
+def _recorded_packages(inputs: Inputs, snapshots: Iterable[Snapshot]) -> Iterator[Package]:
+    """Yield the package of each recorded model, as far as it can be generated."""
     record = inputs.record
     if record is None or record.generator.domain != inputs.robot.domain:
         return
-    for snapshot in record.snapshots:
+    for snapshot in snapshots:
         with contextlib.suppress(*NO_MODEL):
             options = inputs.recorded_options or inputs.robot.options
             yield _package(inputs, inputs.version(record, snapshot), inputs.old_target, options)

@@ -35,7 +35,7 @@ class Recorded(msgspec.Struct, frozen=True):
     """What is known of the imports of the last build, and how their copies in the package are read."""
 
     imports: Mapping[str, tuple[Import, ...]]
-    """Several for one file if git has united two states: the one that its copy is of counts."""
+    """Several for one file if git has united two states, or if it was renewed since: the one of its copy counts."""
     copy: Callable[[str], bytes | None]
     """Content of an imported file, by its target."""
     bases: Mapping[str, Collection[str]] = {}

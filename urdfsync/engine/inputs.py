@@ -10,6 +10,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
@@ -147,8 +148,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     def recorded_imports(self) -> imports.Recorded:
         """The imports of the last build, and how their copies in the package are read."""
         bases = {self.old_path(key): one.hashes for key, one in self.recorded_files.items()}
+        found = dict(self.record.imports) if self.record else {}
+        for key, one in self.record.open.imports.items() if self.record and self.record.open else ():
+            found[key] = (*found.get(key, ()), one)
         return imports.Recorded(
-            self.record.imports if self.record else {},
+            found,
             copy=lambda target: self.files.read(self.old_key(target)),
             bases={path: hashes for path, hashes in bases.items() if path.startswith(RESOURCES)},
             moved=self.old_folder != self.folder,
@@ -208,7 +212,8 @@ def option_values(options: msgspec.Struct) -> dict[str, Any]:
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record that are not configured, and the key of their folder; None if it can't be read."""
-    known = {robot.name.casefold() for robot in config.robots}
+    # not by its listed name: a file system that folds case has one record for `arm` and `Arm`
+    known = {robot.name.casefold() for robot in config.robots if is_file(store.path(robot.name))}
     for name in store.names():
         if name.casefold() not in known:
             try:

@@ -142,16 +142,18 @@ def keep_needed(
     return tuple(kept.get(action.path, action) for action in actions)
 
 
-def hold(actions: Iterable[Action], numbers_only: Collection[str], moves: bool) -> tuple[Action, ...]:
+def hold(
+    actions: Iterable[Action], numbers_only: Collection[str], origins: Collection[str], moves: bool
+) -> tuple[Action, ...]:
     """Put off structural changes of a robot while one of its files is in conflict.
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
-    `numbers_only`), imported files, and files that are restored as they were. Nothing is if the package `moves`.
+    `numbers_only`), imported files, and files that are restored as they were; but none of `origins`, which elements
+    leave that have another name now. Nothing is if the package `moves`.
     """
     actions = tuple(actions)
     if not any(action.kind in CONFLICTS for action in actions):
         return actions
-    origins = {action.origin for action in actions}
 
     def waits(action: Action) -> bool:
         if not action.writes:

@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.changes import Changes
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DELETES, Action, Actions, Kind
@@ -19,7 +20,7 @@ from urdfsync.engine.package_files import encode
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.rules import files_after, pending_choices, renewed_files
 from urdfsync.files import shown
-from urdfsync.state.record import RESOURCES, Open, Record, role_of
+from urdfsync.state.record import RESOURCES, FileRecord, Open, Record, role_of
 from urdfsync.state.store import Witness
 from urdfsync.state.transaction import FileChange
 
@@ -126,7 +127,9 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
     """Return the record of a build after which nothing is open."""
     inputs, texts = generation.inputs, dict[str, str]()
     inside = inputs.key("")
-    old = {key: one for key, one in inputs.recorded_files.items() if not one.is_users or inputs.files.read(key)}
+    old = {
+        key: one for key, one in inputs.recorded_files.items() if not one.is_users or is_file(inputs.files.path(key))
+    }
     files = files_after(decision.actions, old)
     for action in decision.actions:
         is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED) and action.path.startswith(inside)
@@ -164,8 +167,14 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
     texts = {one.hashes[0]: generation.content(key).decode() for key, one in renewed.items() if imported not in key}
     hashes = {sha256 for file in files.values() for sha256 in file.hashes}
     texts = {sha256: text for sha256, text in {**record.texts, **texts}.items() if sha256 in hashes}
+    known = record.open.imports if record.open else {}
+    imports = {
+        key: one
+        for key, one in generation.imported.imports.items()
+        if files.get(inputs.key(one.target)) == FileRecord((one.target_hash,)) and record.imports.get(key) != (one,)
+    }
     choices = {(inputs.path(key), sides): one for (key, sides), one in pending_choices(decision.actions).items()}
-    open_ = Open(choices, generation.now.snapshot, generation.renames)
+    open_ = Open(choices, generation.now.snapshot, generation.renames, {**known, **imports})
     return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
 
 

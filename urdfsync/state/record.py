@@ -77,6 +77,8 @@ class Open(msgspec.Struct, frozen=True):
     """The model that the last build saw."""
     renamed: Mapping[ElementKey, str] = {}
     """Elements of the last complete build that have another name in the model last seen."""
+    imports: Mapping[str, Import] = {}
+    """Imported files that were renewed since, as the build that renewed them read them."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):

@@ -46,6 +46,7 @@ _FACTS: Mapping[str, Any] = {
     "choice": tuple[str, str, Choice],
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
+    "renewed": tuple[str, Import],
 }
 """The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
 _SUM = "sum "
@@ -88,6 +89,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
+        yield from (("renewed", item) for item in record.open.imports.items())
 
 
 def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
@@ -165,7 +167,12 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         renamed = {(kind, old): new for kind, old, new in found["renamed"]}
         is_known = len(seen) == 1 and len(renamed) == len(found["renamed"])
         once = len(choices) == len(found["choice"])
-        open_ = Open(choices if once else {}, seen[0] if is_known else {}, renamed if is_known else {})
+        open_ = Open(
+            choices if once else {},
+            seen[0] if is_known else {},
+            renamed if is_known else {},
+            dict(found["renewed"]),
+        )
     return Record(
         package=package,
         class_=class_,
@@ -220,9 +227,11 @@ def _strange_paths(record: Record) -> Iterator[str]:
     if not (_is_normal(folder) and folder.split("/")[-len(package) :] == package):
         yield folder
     below = len(folder) + 1
+    imports = [one for found in record.imports.values() for one in found]
+    imports += record.open.imports.values() if record.open else ()
     rules: list[tuple[Iterator[str], Callable[[str], bool]]] = [
         ((key[below:] for key in record.files), lambda path: path.startswith(RESOURCES) or path.endswith(".mo")),
-        ((one.target for found in record.imports.values() for one in found), lambda path: path.startswith(RESOURCES)),
+        ((one.target for one in imports), lambda path: path.startswith(RESOURCES)),
     ]
     for paths, is_written in rules:
         yield from (path for path in paths if not (_is_inside(path) and is_written(path)))

@@ -20,8 +20,13 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     """
     links, joints, extensions = snapshot["links"], snapshot["joints"], snapshot["extensions"]
     if renames:
-        links = {renames.get(("link", name), name): link for name, link in links.items()}
-        joints = {renames.get(("joint", name), name): _joint(joint, renames) for name, joint in joints.items()}
+        gone = {(kind, name) for (kind, _), name in renames.items()} - renames.keys()  # another element has their name
+        links = {renames.get(("link", name), name): link for name, link in links.items() if ("link", name) not in gone}
+        joints = {
+            renames.get(("joint", name), name): _joint(joint, renames)
+            for name, joint in joints.items()
+            if ("joint", name) not in gone
+        }
         extensions = {}
         for owner, tags in snapshot["extensions"].items():
             kind, _, name = owner.partition(" ")

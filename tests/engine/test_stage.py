@@ -1,0 +1,112 @@
+"""What a build records while something is open, and what the builds after it make of that."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from support.networks import C1, LADDER, MANIFEST, R1, R2, edit, kinds, rename, run, source
+
+from urdfsync.engine.actions import Kind
+from urdfsync.state.record import Choice
+
+C2 = f"{LADDER}/Elements/C2.mo"
+R2_RECORD = f"{LADDER}/Elements/R2Parameters.mo"
+OTHER = "modelica/Other"
+
+
+@pytest.fixture
+def conflict(project: Path) -> str:
+    """A package that was built, of which one file is in conflict since."""
+    run()
+    edit(C2, "end C2;", "  // mine\nend C2;")
+    edit("ladder.json", '"farad": 4.7e-6', '"ohm": 7')
+    assert kinds(run())[C2] is Kind.CONFLICT
+    return C2
+
+
+def take_out(name: str) -> None:
+    """Remove an element from the source."""
+    network = json.loads(Path("ladder.json").read_text())
+    network["elements"] = [one for one in network["elements"] if one["name"] != name]
+    Path("ladder.json").write_text(json.dumps(network))
+
+
+def move_package() -> None:
+    edit("urdfsync.toml", '"Ladder"', '"Other"')
+
+
+def block_moved_package() -> str:
+    """Put a file of the user's where the moved package wants one."""
+    place = Path(f"{OTHER}/Elements/R1.mo")
+    place.parent.mkdir(parents=True)
+    place.write_text("within Other.Elements;\nmodel R1\nend R1;\n")
+    return place.as_posix()
+
+
+def test_a_renewed_import_keeps_its_own_facts_when_its_source_goes(conflict: str) -> None:
+    table = Path("step.csv")
+    table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
+    assert kinds(run())[f"{LADDER}/Resources/step.txt"] is Kind.UPDATE
+    table.unlink()
+    run(choices={conflict: Choice.TAKE})
+    assert '"Voltage over time, 5 rows"' in Path(f"{LADDER}/Ladder.mo").read_text()
+
+
+def test_an_element_may_get_the_name_of_one_that_is_gone(conflict: str) -> None:
+    edit(R1, "end R1", "  // mine\nend R1")
+    take_out("R2")
+    run()
+    rename("R1", "R2")
+    run(), run()
+    run(choices={conflict: Choice.TAKE})
+    assert "// mine" in Path(R2).read_text()
+    assert not Path(R1).exists()
+
+
+def test_a_record_that_was_renewed_moves_with_its_package(conflict: str) -> None:
+    source('"ohm": 220.5', '"ohm": 300')
+    assert kinds(run())[R2_RECORD] is Kind.UPDATE
+    edit(R2_RECORD, "end R2", "  // mine\nend R2")
+    move_package()
+    run(choices={one.path: Choice.TAKE for one in run().conflicts})
+    assert "// mine" in Path(R2_RECORD.replace(LADDER, OTHER)).read_text()
+    assert not Path(LADDER).exists()
+
+
+def test_a_choice_on_an_orphan_waits_while_the_package_moves(project: Path) -> None:
+    run()
+    edit(C1, "end C1", "  // mine\nend C1")
+    take_out("C1")
+    move_package()
+    blocked = block_moved_package()
+    run(choices={C1: Choice.TAKE})
+    assert {one.path: one.choice for one in run().actions}[C1] is Choice.TAKE
+    run(choices={blocked: Choice.TAKE})
+    assert not Path(C1).exists()
+
+
+def test_a_robot_that_is_renamed_in_case_only_keeps_its_record(project: Path) -> None:
+    run()
+    edit(R1, "end R1", "  // mine\nend R1")
+    edit("urdfsync.toml", "robots.ladder", "robots.Ladder")
+    assert kinds(run())[R1] is Kind.KEEP
+    assert [path.name for path in Path(".urdfsync/robots").iterdir()] == ["Ladder.state"]
+
+
+@pytest.mark.parametrize("how", ["a link", "empty", "deleted"])
+def test_what_the_user_does_with_a_file_that_is_his_is_his_business(project: Path, how: str) -> None:
+    run()
+    edit(C1, "end C1", "  // mine\nend C1")
+    take_out("C1")
+    run()
+    run(choices={C1: Choice.KEEP})
+    path = Path(C1)
+    path.rename("kept.mo")
+    if how == "a link":
+        path.symlink_to(Path("kept.mo").resolve())
+    elif how == "empty":
+        path.touch()
+    assert not run(full=True).failed
+    assert ("file user  Elements/C1.mo" in Path(MANIFEST).read_text()) is (how != "deleted")
