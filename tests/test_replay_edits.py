@@ -31,7 +31,6 @@ from urdfsync.state.record import Choice
 STEPS = replay.STEPS or 60
 EPISODE = 40 if replay.STEPS else 20
 """Steps with one project."""
-SEED = 3
 LARGEST = 60
 """Links that a robot has at most; the larger ones take seconds a step, and no other way."""
 CONFLICTS = ".urdfsync/conflicts/bot"
@@ -327,7 +326,7 @@ def run(folder: Path, steps: int) -> collections.Counter[str]:
     """Replay so many steps, with a project for some of them at a time; what was counted."""
     histories = [all_of for all_of in replay.histories().values() if size(all_of) <= LARGEST]
     tally = collections.Counter[str]()
-    for seed in itertools.count(SEED):
+    for seed in itertools.count(replay.SEED):
         if tally["steps"] >= steps:
             return tally
         random, work = Random(seed), folder / str(seed)
