@@ -38,41 +38,29 @@ class VanishedNames(msgspec.Struct, frozen=True):
     """In files outside of the package."""
 
 
+class _Texts(msgspec.Struct, frozen=True):
+    """The user's texts, in which names are looked up."""
+
+    own: Mapping[str, str]
+    """Models of the user's inside of the package, by key."""
+    edited: Mapping[str, str]
+    """Generated files that the user edited, by the key that they get; those of renamed elements move."""
+    places: Mapping[str, str]
+    """Where each edited file is now: key by key."""
+    around: Mapping[Path, bytes]
+    """Models outside of the package that have to do with it."""
+
+
 def find_vanished(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> VanishedNames:
     """Find names that meant something in the last complete build, and mean nothing once all actions are done.
 
     Looked at are edited files, `merged` ones (texts by key) and models of the user's, inside of the package and around.
     """
-    inputs, files = generation.inputs, generation.inputs.files
-    written = {action.path for action in actions} | inputs.recorded_files.keys()
-    users = {key: files.any_text(key) for key in files.classes(inputs.folder) - written}
-    edited = {action.path: action.origin or action.path for action in actions if action.kind in USERS}
-    mine = {key: files.any_text(place) for key, place in edited.items()}
-    around = dict(files.users_files({inputs.folder, inputs.old_folder}))
-    if inputs.old_folder != inputs.folder:
-        left = files.classes(inputs.old_folder) - written
-        around |= {files.path(key): files.any_text(key).encode() for key in left}
-    if not (users or mine or around):
+    inputs, texts = generation.inputs, _users_texts(generation, actions)
+    if not (texts.own or texts.edited or texts.around):
         return VanishedNames({}, {})
-    staying = {action.path for action in actions if action.kind is Kind.NEEDED or action.released}
-    kept = {key: files.any_text(key) for key in staying}
-
-    before_texts = {
-        key: generation.base(key, record.hashes[0]) or ""
-        for key, record in inputs.recorded_files.items()
-        if record.hashes and key.endswith(".mo")
-    }
-    after_texts = {
-        inputs.key(path): generation.content(inputs.key(path)).decode() for path in generation.package.artifacts
-    }
-    doubtful = _lost_parts(generation, before_texts, after_texts)
-    before_texts |= {place: mine[key] for key, place in edited.items()}
-    if inputs.old_folder == inputs.folder:
-        before_texts |= users
-    after_texts |= {**users, **kept, **mine, **merged}
-    before = Scopes(_classes(generation, inputs.old_target, inputs.old_folder, before_texts, around, now=False))
-    planned = _classes(generation, inputs.robot.target, inputs.folder, after_texts, around, now=True)
-    after = Scopes(planned)
+    stored_before, stored_after, doubtful = _packages(generation, actions, texts, merged)
+    before, after = Scopes(stored_before), Scopes(stored_after)
 
     def vanished(name: ClassName, old_name: ClassName) -> list[Unresolved]:
         known = {one.name for one in _unresolved(old_name, before, doubtful)}
@@ -81,16 +69,58 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
 
     package, old_package = inputs.robot.target.package, inputs.old_target.package
     in_package = {}
-    for key in (*users, *edited):
-        old_key = edited.get(key, key)
-        old_name = _class_name(old_package, inputs.old_path(old_key))
+    for key in (*texts.own, *texts.edited):
+        old_name = _class_name(old_package, inputs.old_path(texts.places.get(key, key)))
         in_package[key] = vanished(_class_name(package, inputs.path(key)), old_name)
     elsewhere: dict[Path, list[Unresolved]] = {}
-    for name, node in planned.users.items():
+    for name, node in stored_after.users.items():
         elsewhere.setdefault(Path(node.file), []).extend(vanished(name, name))
     return VanishedNames(
         {key: found for key, found in in_package.items() if found},
         {file: found for file, found in elsewhere.items() if found},
+    )
+
+
+def _users_texts(generation: Generation, actions: Sequence[Action]) -> _Texts:
+    inputs, files = generation.inputs, generation.inputs.files
+    written = {action.path for action in actions} | inputs.recorded_files.keys()
+    places = {action.path: action.origin or action.path for action in actions if action.kind in USERS}
+    around = dict(files.users_files({inputs.folder, inputs.old_folder}))
+    if inputs.old_folder != inputs.folder:
+        left = files.classes(inputs.old_folder) - written
+        around |= {files.path(key): files.any_text(key).encode() for key in left}
+    return _Texts(
+        own={key: files.any_text(key) for key in files.classes(inputs.folder) - written},
+        edited={key: files.any_text(place) for key, place in places.items()},
+        places=places,
+        around=around,
+    )
+
+
+def _packages(
+    generation: Generation, actions: Sequence[Action], texts: _Texts, merged: Mapping[str, str]
+) -> tuple[StoredClasses, StoredClasses, frozenset[str]]:
+    """Return the package of the last complete build and as this build leaves it, with the user's texts in both.
+
+    Also the names that count as gone where a class inherits from a library that is not at hand.
+    """
+    inputs, files = generation.inputs, generation.inputs.files
+    before = {
+        key: generation.base(key, record.hashes[0]) or ""
+        for key, record in inputs.recorded_files.items()
+        if record.hashes and key.endswith(".mo")
+    }
+    after = {inputs.key(path): generation.content(inputs.key(path)).decode() for path in generation.package.artifacts}
+    doubtful = _lost_parts(generation, before, after)
+    before |= {place: texts.edited[key] for key, place in texts.places.items()}
+    if inputs.old_folder == inputs.folder:
+        before |= texts.own
+    staying = {action.path for action in actions if action.kind is Kind.NEEDED or action.released}
+    after |= {**texts.own, **{key: files.any_text(key) for key in staying}, **texts.edited, **merged}
+    return (
+        _classes(generation, inputs.old_target, inputs.old_folder, before, texts.around, now=False),
+        _classes(generation, inputs.robot.target, inputs.folder, after, texts.around, now=True),
+        doubtful,
     )
 
 
