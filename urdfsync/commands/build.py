@@ -41,7 +41,9 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument(
-        "--explain", action="store_true", help="list each file that is not just unchanged, what happens to it and why"
+        "--explain",
+        action="store_true",
+        help="list all changes, each file that is not just unchanged, what happens to it and why",
     )
 
 

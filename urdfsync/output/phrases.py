@@ -89,15 +89,16 @@ _ACTION_PHRASES = {
 """For each kind of action what a build would do and what it did, in the order in which they are told."""
 
 
-def reason(action: Action, changes: Changes | None) -> str:
+def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
     """Why an action happens, as the end of a sentence that begins with the path, and what it waits for.
 
-    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`.
+    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`, or by `link
+    forearm` alone if `brief`, where all changes are listed beside it.
     """
-    return "; ".join(filter(None, [_cause(action, changes), action.waits_for]))
+    return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.waits_for]))
 
 
-def _cause(action: Action, changes: Changes | None) -> str:
+def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
     if action.kind not in _NAMED or changes is None:
         return action.reason
     # records follow from the changes of their element, models and packages from structural ones
@@ -109,7 +110,10 @@ def _cause(action: Action, changes: Changes | None) -> str:
     if not (found or changes.generator):
         return action.reason
     cause = generator_change(changes)
-    if found:
+    if found and brief:
+        elements = list(dict.fromkeys(change.element for change in found))
+        cause = f"{elements[0]} and {len(elements) - 1} more" if len(elements) > 1 else elements[0]
+    elif found:
         more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
         cause = f"{found[0].element}: {change_row(found[:1])}{more}"
     return _NAMED[action.kind].format(cause)

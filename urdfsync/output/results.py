@@ -76,12 +76,15 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
 def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
     """What changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
     changed = change_lines(result.changes, everything=verbose) if result.changes else []
-    yield from first_lines([line((f"  {words}", "")) for words in changed], _CHANGES, "change", verbose=verbose)
+    yield from first_lines(
+        [line((f"  {words}", "")) for words in changed], _CHANGES, "change", verbose=verbose or explain
+    )
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
         actions = [action for action in actions if action.kind in _ALWAYS_LISTED]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
-        yield file_line(shown_path(result, action.path), *action_word(action), reason(action, result.changes))
+        why = reason(action, result.changes, brief=True)
+        yield file_line(shown_path(result, action.path), *action_word(action), why)
     if explain and (rest := len(result.actions) - len(actions)):
         yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
     if any(action.kind is Kind.ORPHAN for action in actions):
