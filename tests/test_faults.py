@@ -170,7 +170,6 @@ DENIED = [
     (MODEL, 0o000, f"{MODEL}: error: "),
     (".urdfsync", 0o500, ".urdfsync/planned.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
-    (".urdfsync/base/ladder/texts", 0o400, ".urdfsync/base/ladder: error: "),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
     (".urdfsync/robots", 0o000, ".urdfsync/robots"),
     (MANIFEST, 0o000, f"{MANIFEST}: error: "),

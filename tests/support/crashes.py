@@ -27,8 +27,8 @@ from urdfsync.state.store import Store
 
 CHANGES = ("exchange", "place", "replace")
 """Operations on targets, and on the planned hashes."""
-NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "append", "write_bound", "remove", "sync")
-WRITES = ("write", "append", "write_bound")
+NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_bound", "remove", "sync")
+WRITES = ("write", "write_bound")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that asks for all, if it is set to anything."""

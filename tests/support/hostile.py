@@ -150,7 +150,7 @@ class Stranger:
         text, name = b"\xff\xfe", Path(RECORD).relative_to("modelica/Arm")
         manifest = (self.project / MANIFEST).read_text()
         self.write(MANIFEST, re.sub(rf"file \w+  {name}", f"file {_digest(text)}  {name}", manifest))
-        self.write(".urdfsync/base/arm/texts", f"{_digest(text)} ".encode() + b'"%s"\n' % text)
+        self.write(f".urdfsync/base/arm/{_digest(text)}", text)
 
     def entities(self) -> None:
         declared = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(12))

@@ -107,7 +107,7 @@ class _Builder:
                     return plan
                 continue
             told = _joined(first, plan) if first else plan
-            writes = plan.writes or plan.bases or any(action.writes for action in plan.actions)
+            writes = plan.writes or any(action.writes for action in plan.actions)
             if not writes and not self._transactions.is_pending():
                 return told
             dependencies.mark_incomplete()  # what was read is about to change
@@ -127,14 +127,8 @@ class _Builder:
         files, store = PackageFiles(self._config, robot), Store(self._config.root)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
         changes = [*shared, *store.for_git(), *plan.writes]
-        bases = store.bases(robot.name)
-        bases.add(plan.bases)
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
-        if not applied.not_done:
-            bases.prune(plan.mentioned)
-            if plan.former_name:
-                store.bases(plan.former_name).prune(())
         return applied.not_done
 
     def _is_current(self, plan: Plan) -> bool:

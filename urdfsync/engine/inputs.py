@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import is_file
+from urdfsync.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
@@ -19,7 +19,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
 from urdfsync.files import shown
-from urdfsync.state.bases import BaseStore
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
 from urdfsync.state.store import Store
 
@@ -97,8 +96,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
 
     @cached_property
-    def bases(self) -> BaseStore:
-        """The texts that urdfsync wrote last, as far as they are stored."""
+    def bases(self) -> Mapping[str, str]:
+        """The texts that urdfsync wrote last, by their hashes, as far as they are kept: those of edited files."""
         return self.store.bases(self.former_name or self.robot.name)
 
     @property
@@ -213,7 +212,7 @@ def option_values(options: msgspec.Struct) -> dict[str, Any]:
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record that are not configured, and the key of their folder; None if it can't be read."""
     # not by its listed name: a file system that folds case has one record for `arm` and `Arm`
-    known = {robot.name.casefold() for robot in config.robots if is_file(store.path(robot.name))}
+    known = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
     for name in store.names():
         if name.casefold() not in known:
             try:

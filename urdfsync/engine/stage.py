@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -11,7 +10,7 @@ from urdfsync.changes import Changes
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import DELETES, Action, Actions, Kind
+from urdfsync.engine.actions import DELETES, USERS, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -21,7 +20,7 @@ from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.rules import files_after, pending_choices, renewed_files
 from urdfsync.files import shown
 from urdfsync.state.record import RESOURCES, FileRecord, Open, Record, role_of
-from urdfsync.state.store import Witness
+from urdfsync.state.store import BASE, CONFLICTS, Witness
 from urdfsync.state.transaction import FileChange
 
 
@@ -41,12 +40,6 @@ class Plan(msgspec.Struct, frozen=True):
     """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
-    bases: Mapping[str, str] = {}
-    """Texts to keep as bases that are not kept yet, by their hashes."""
-    mentioned: frozenset[str] = frozenset()
-    """Hashes of all bases that the record mentions then."""
-    former_name: str | None = None
-    """The name that the robot had in the last build, if it has another one now."""
     drawing: Path | None = None
     """Path of the main model's diagram."""
 
@@ -64,7 +57,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     changes = _file_changes(generation, decision, record)
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
     aside = {path: encode(text) for version in versions for path, text in version}
-    changes += store.conflicts(robot.name, aside, former)
+    changes += store.fill(CONFLICTS, robot.name, aside, former)
+    changes += store.fill(BASE, robot.name, _bases(generation, decision, record), former)
 
     drawing = None
     if inputs.options.draw:
@@ -75,19 +69,14 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             changes += more
 
     changes += store.changes(robot.name, record, former)
-    hashes = (file.hashes for key, file in record.files.items() if role_of(inputs.old_path(key)) is not Role.IMPORT)
-
-    above, conflicts = files.path(inputs.old_folder).parent, store.folder / "conflicts"
+    above = {files.path(inputs.old_folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
-    emptied = [one for one in folders if above in one.parents or conflicts in (one, *one.parents)]
+    emptied = [one for one in folders if not above.isdisjoint(one.parents)]
     return msgspec.structs.replace(
         plan,
         witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
-        bases=_missing_bases(generation, record),
-        mentioned=frozenset(sha256 for found in hashes for sha256 in found),
-        former_name=former,
         drawing=drawing,
     )
 
@@ -178,16 +167,16 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
     return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
 
 
-def _missing_bases(generation: Generation, record: Record) -> dict[str, str]:
-    """Return the bases that are not kept in this checkout yet, by their hashes, as far as they are not lost."""
-    inputs, found = generation.inputs, dict[str, str]()
-    kept = inputs.store.bases(inputs.robot.name)
-    for key, file in record.files.items():
+def _bases(generation: Generation, decision: Decision, record: Record) -> dict[str, bytes]:
+    """Return the bases of edited files by their hashes, as far as they are not lost: templates may change."""
+    inputs, found = generation.inputs, dict[str, bytes]()
+    edited = [one for one in decision.actions if one.kind in USERS or (one.held and one.choice)]
+    for key in record.files.keys() & {key for one in edited for key in (one.path, one.origin or one.path)}:
         path = key.removeprefix(f"{record.folder}/")
-        for sha256 in file.hashes if role_of(path) is not Role.IMPORT else ():
-            if sha256 not in kept and sha256 not in record.texts:
-                is_generated = path in generation.package.artifacts and generation.hash(path) == sha256
-                text = generation.content(inputs.key(path)).decode() if is_generated else generation.base(key, sha256)
-                if text is not None:
-                    found[sha256] = text
+        for sha256 in record.files[key].hashes if role_of(path) is not Role.IMPORT else ():
+            text = generation.base(key, sha256)
+            if text is None and path in generation.package.artifacts and generation.hash(path) == sha256:
+                text = generation.content(inputs.key(path)).decode()
+            if text is not None and sha256 not in record.texts:
+                found[sha256] = encode(text)
     return found

@@ -13,13 +13,12 @@ import functools
 import os
 import stat
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import msgspec
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
-_APPEND = (_CREATE & ~os.O_EXCL) | os.O_APPEND | getattr(os, "O_NONBLOCK", 0)
 _FEW = 32
 """Up to this many files are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
 
@@ -67,14 +66,6 @@ def write(path: Path, content: bytes, like: Path) -> None:
             os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
     finally:
         os.close(descriptor)
-
-
-def append(path: Path, lines: Iterable[bytes]) -> None:
-    """Write lines at the end of a regular file, which need not exist."""
-    with os.fdopen(os.open(path, _APPEND, 0o666), "ab") as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(errno.EINVAL, "it is no regular file", str(path))
-        file.writelines(lines)
 
 
 class Bound(msgspec.Struct, frozen=True, kw_only=True):

@@ -7,16 +7,17 @@ from pathlib import Path
 from typing import TypeAlias
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
-from urdfsync.dependencies import list_folder, mark_incomplete
+from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import Tree, digest, shown
+from urdfsync.files import Tree, digest, shown, text_digest
 from urdfsync.state import planned, statefile
-from urdfsync.state.bases import BaseStore
 from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
 SUFFIX = ".state"
+BASE, CONFLICTS = "base", "conflicts"
+"""Folders beside the records, with one for each robot: kept texts by their hashes, and versions of what conflicts."""
 _FOR_GIT = {
     ".gitignore": """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -90,21 +91,27 @@ class Store:
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
-    def bases(self, robot: str) -> BaseStore:
-        """The texts that were written last, as far as they are kept."""
-        return BaseStore(self.folder / "base" / robot)
+    def bases(self, robot: str) -> dict[str, str]:
+        """The texts that are kept to merge edited files with, by their hashes (see `text_digest`). Safe to lose."""
+        found = {}
+        for path in self._files(self.folder / BASE / robot):
+            content = self._bytes(path)
+            if content is not None and text_digest(content) == path.name:  # it may be a stranger's, or cut short
+                found[path.name] = content.decode(errors="replace")
+        return found
 
-    def conflicts(self, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
-        """How files get to the robot's folder of conflicts, by their path below it, and how all others go."""
-        folder = self.folder / "conflicts" / robot
+    def fill(self, kind: str, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
+        """How files get to the robot's folder of one kind, by their path below it, and how all others go."""
+        folder = self.folder / kind / robot
         folders = [folder, *([folder.with_name(former)] if former else [])]
-        known = [one for one in folders if self._tree.check_folder(one)]  # a link may lead to all of the disk
-        if known:
-            mark_incomplete()  # what is in there is not recorded as a dependency
-        there = sorted(path for one in known for path in one.rglob("*") if not path.is_dir())
+        there = [path for one in folders for path in self._files(one)]
         wanted = {folder / path: content for path, content in contents.items()}
         gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
         return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]
+
+    def _files(self, folder: Path) -> list[Path]:
+        """All files below a folder. Raises OutputError for a link to it, which may lead to all of the disk."""
+        return sorted(map(Path, walk_files(folder))) if self._tree.check_folder(folder) else []
 
     def changes(self, robot: str, record: Record, former: str | None) -> Iterator[FileChange]:
         """How the new record gets to the disk; `former` is the robot's name in the record that was loaded."""
