@@ -14,7 +14,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from random import Random
-from typing import Any
+from typing import Any, cast
 
 import pytest
 import tomli_w
@@ -367,11 +367,11 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
 @often(100)
 @given(st.data())
 def test_a_hostile_state(projects: Mapping[str, Path], tmp_path: Path, data: st.DataObject) -> None:
-    work = Workplace(tmp_path)
-    work.fill(projects[data.draw(st.sampled_from(sorted(projects)))])
-    if (planned := work.project / ".urdfsync/planned.json").is_file() and not seldom(data.draw):
+    work, draw = Workplace(tmp_path), cast(st.DrawFn, data.draw)
+    work.fill(projects[draw(st.sampled_from(sorted(projects)))])
+    if (planned := work.project / ".urdfsync/planned.json").is_file() and not seldom(draw):
         crashes.bind(planned)
-    for _ in range(data.draw(st.sampled_from((1, 1, 2, 4)))):
-        damage_one(data.draw, work)
-    for command in data.draw(st.lists(COMMANDS, min_size=1, max_size=2)):
+    for _ in range(draw(st.sampled_from((1, 1, 2, 4)))):
+        damage_one(draw, work)
+    for command in draw(st.lists(COMMANDS, min_size=1, max_size=2)):
         run_one(work, command)
