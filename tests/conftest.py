@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import settings
 from support import audit
+from support.cases import CASES
 from support.commands import Execute, Printed
 from support.networks import RC_FOLDER
 
@@ -25,7 +26,8 @@ REPOSITORY = Path(__file__).parents[1]
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 
-settings.register_profile("urdfsync", deadline=None)  # a busy machine is no reason to fail
+# a busy machine is no reason to fail; who asks for cases gets fresh ones
+settings.register_profile("urdfsync", deadline=None, derandomize=not CASES)
 settings.load_profile("urdfsync")
 
 _HOME = Path.home()

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import errno
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.files import unchanged
 from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
-from urdfsync.engine import imports
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.state import file_operations
 
 
 def kinds(result: Result) -> dict[str, Kind]:
@@ -289,36 +285,6 @@ def test_what_stops_a_build_is_told_with_its_place_and_changes_nothing(project: 
         assert end in found
 
 
-def test_a_disk_that_refuses_changes_nothing(
-    project: Path, monkeypatch: pytest.MonkeyPatch, snapshot_of: Snapshot
-) -> None:
-    run()
-    before = snapshot_of(project)
-    source('"R2"', '"R3"')
-    real = file_operations.write
-
-    def refuse(path: Path, content: bytes, like: Path) -> None:
-        if like.name == "R3.mo":
-            raise OSError(errno.ENOSPC, "No space left on device", path)
-        real(path, content, like)
-
-    monkeypatch.setattr(file_operations, "write", refuse)
-    assert failure() == (
-        f"{LADDER}/Elements/R3.mo: error: it can't be written: No space left on device; "
-        "free some space on the disk; then build again [output-not-writable]"
-    )
-    changed = {path for path, entry in snapshot_of(project).items() if before.get(path) != entry}
-    assert {path for path in changed if not path.startswith(".urdfsync/base/")} == {"ladder.json"}
-
-
-def test_a_gitignore_of_the_user_stays(project: Path) -> None:
-    ignore = project / ".urdfsync/.gitignore"
-    ignore.parent.mkdir()
-    ignore.write_bytes(b"svg/\n\xff")
-    run()
-    assert ignore.read_bytes() == b"svg/\n\xff"
-
-
 def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(project: Path) -> None:
     run()
     path = Path(MANIFEST)
@@ -430,25 +396,3 @@ def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project
     source('"step.csv"', f'"{uri}"')
     (found,) = run().diagnostics
     assert (found.message, found.hint) == (f"table `{uri}` not found; left out", hint)
-
-
-def test_a_copy_that_is_deleted_in_the_midst_of_a_build(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run()
-    resistor(120)
-    copy, bring_in = Path(LADDER, "Resources/step.txt"), imports.bring_in
-
-    def and_then_it_is_gone(*arguments: Any) -> imports.Imported:
-        found = bring_in(*arguments)
-        copy.unlink()
-        return found
-
-    with monkeypatch.context() as patch:
-        patch.setattr(imports, "bring_in", and_then_it_is_gone)
-        assert failure().startswith(f"{LADDER}/Resources/step.txt: error: it can't be written")
-    assert kinds(run()) == {"Resources/step.txt": Kind.RESTORE, "Elements/R1Parameters.mo": Kind.UPDATE}
-
-
-def test_a_recorded_model_of_the_wrong_shape_is_read_again(project: Path) -> None:
-    run()
-    edit(MANIFEST, '"between":', '"amid":')
-    assert run().in_step

@@ -6,7 +6,6 @@ import io
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from unittest import mock
@@ -16,7 +15,6 @@ from support.commands import Execute
 from support.networks import LADDER, ROBOT, configure, edit, source
 
 from urdfsync import cli, config
-from urdfsync.__main__ import main as program
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
@@ -172,11 +170,6 @@ def test_the_line_of_library_is_for_eval(
     assert done.stdout == f"{tmp_path / name}{after}"
 
 
-def test_an_interruption(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.uptodate.print_answer", mock.Mock(side_effect=KeyboardInterrupt))
-    assert program() == 130
-
-
 def test_a_working_folder_that_is_gone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError(2, "No such file or directory")))
     assert shown(project) == str(project)
@@ -233,20 +226,6 @@ def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
     assert lines[4:] == ["and 5 more like these [mesh-not-found]; --verbose shows them"]
     Console(verbose=True).end("build", Exit.ERROR, many)
     assert len(capsys.readouterr().err.splitlines()) == 9
-
-
-def test_a_progress_bar_appears_only_if_work_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
-    clock = iter([0.0, 0.4, 0.6, 0.7, 0.8])
-    monkeypatch.setattr(time, "monotonic", lambda: next(clock))
-    screen = Terminal()
-    monkeypatch.setattr(sys, "stderr", screen)
-    shown = Console()
-    shown.progress("arm", 0, 3)
-    assert screen.getvalue() == ""
-    monkeypatch.setattr(time, "monotonic", lambda: 1.0)
-    shown.progress("arm: meshes", 1, 3)
-    assert "arm: meshes" in screen.getvalue()
-    shown.end("build", Exit.IN_STEP)
 
 
 def test_whatever_the_system_refuses_is_one_line(

@@ -128,17 +128,3 @@ def test_what_is_to_be_installed_exists() -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     for name, package in extras.PACKAGES.items():
         assert [re.split(r"[<>=; ]", needed)[0] for needed in project["optional-dependencies"][name]] == [package]
-
-
-def test_so_does_what_fails_while_an_answer_is_saved(
-    execute: Execute, project: Path, traces: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_: object) -> None:
-        raise RuntimeError("no answer")
-
-    cli.main(["build"])
-    monkeypatch.setattr("urdfsync.uptodate.save_answer", fail)
-    capsys.readouterr()
-    streams = execute("build", code=2)
-    assert streams.out == "ladder: in step, 14 files\n"
-    assert streams.err.startswith("error: RuntimeError in test_failures.py, line ")

@@ -204,23 +204,6 @@ def test_a_project_in_step_needs_no_rights(edited: Path, command: list[str]) -> 
     assert contents(edited) == before
 
 
-@denying
-def test_a_conflict_whose_texts_cant_be_put_aside(edited: Path, execute: Execute) -> None:
-    (edited / RECORD).write_text((edited / RECORD).read_text() + MINE)
-    edit("ladder.json", '"ohm": 100', '"ohm": 120')
-    before = contents(edited)
-    with mode(edited / ".urdfsync", 0o500):
-        assert_error(execute, ["build"], ".urdfsync")
-    assert contents(edited) == before
-    assert cli.main(["build"]) == Exit.CONFLICT
-    assert (edited / RECORD).read_bytes() == before[RECORD]
-    with mode(edited / LADDER / "Elements", 0o500):
-        assert_error(execute, ["resolve", RECORD, "--take"], f"{LADDER}/Elements/")
-    assert (edited / RECORD).read_bytes() == before[RECORD]
-    assert cli.main(["resolve", RECORD, "--take"]) == Exit.IN_STEP
-    assert "120" in (edited / RECORD).read_text()
-
-
 def test_nothing_outside_of_its_root_is_read(tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("secret")
     with pytest.raises(OutputError, match="leaves"):

@@ -1,6 +1,6 @@
 """The hook that builds, called by git and by the real pre-commit: real commits, stashes and roll-backs.
 
-What differs in the hook that checks is shown by `test_hook_command.py` without commits.
+What differs in the hook that checks is shown by `commands/test_hook.py` without commits.
 """
 
 from __future__ import annotations
@@ -116,32 +116,6 @@ def test_what_pre_commit_takes_back_leaves_nothing_half_done(make: Callable[[], 
     assert "R3" in git("show", "HEAD:modelica/Ladder/Ladder.mo")
 
 
-def test_every_file_of_the_repository_is_checked_by_hand(make: Callable[[], None]) -> None:
-    make()
-    assert subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True).returncode == 0
-    resistor(120)
-    commit("--all", "--no-verify")
-    done = subprocess.run([PRE_COMMIT, "run", "--all-files"], check=False, capture_output=True, text=True)
-    assert "ladder: out of step: 1 file written" in done.stdout
-
-
-def test_a_merge_of_two_branches_that_built(make: Callable[[], None]) -> None:
-    make()
-    for branch, old, new in (("other", "100", "120"), ("main", "220.5", "330.5")):
-        git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
-        edit("ladder.json", f'"ohm": {old}}}', f'"ohm": {new}}}')
-        cli.main(["build"])
-        git("add", ".")
-        commit()
-    subprocess.run(["git", "merge", "-q", "--no-edit", "other"], check=False, capture_output=True)
-    assert "<<<<<<<" not in Path(".urdfsync/robots/ladder.state").read_text()
-    assert cli.main(["build", "--quiet"]) == 0
-    git("add", ".")
-    commit()
-    for path, number in ((RECORD, "120"), (RECORD.replace("R1", "R2"), "330.5")):
-        assert f"= {number}" in Path(path).read_text()
-
-
 def call_by_script() -> None:
     """Let git call a script of the user's instead of pre-commit."""
     script = Path(".git/hooks/pre-commit")
@@ -161,27 +135,6 @@ def test_partial_and_implicit_commits_have_an_index_of_their_own(
     assert "1 file written" in commit("--", "ladder.json", code=1)
     commit("--all")
     assert "120" in git("show", f"HEAD:{RECORD}")
-
-
-def test_unstaged_changes_without_pre_commit(make: Callable[[], None], monkeypatch: pytest.MonkeyPatch) -> None:
-    make()
-    call_by_script()
-    resistor(120)
-    commit("--amend")
-    Path("README").write_text("one")
-    git("add", "README")
-    commit()
-    git("add", "ladder.json")
-    resistor(130, before=120)
-    assert "ladder: staged in part only: ladder.json" in commit(code=1)
-    Path("folder").mkdir()
-    monkeypatch.chdir("folder")
-    git(*command(commit(code=1))[1:])
-    said = commit(code=1)
-    assert "ladder: out of step: 1 file written" in said
-    git(*command(said)[1:])
-    commit()
-    assert "130" in git("show", f"HEAD:{RECORD}")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")

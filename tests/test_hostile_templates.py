@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -128,11 +127,9 @@ def test_a_template_takes_no_more_time_than_it_may(
 ) -> None:
     monkeypatch.setattr(render, "MAX_SECONDS", 0.5)
     _template(attack)
-    started = time.monotonic()
     error = _status(capsys)
     assert "it takes more than 0.5 s" in error
     assert f"templates/{TEMPLATE}:1" in error
-    assert time.monotonic() - started < 20
 
 
 def test_a_link_out_of_the_template_folder_is_refused(marker: Path, tmp_path: Path, capsys: Capture) -> None:

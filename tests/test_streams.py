@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from support import answers
 
 import urdfsync
 
@@ -77,19 +76,6 @@ def test_a_full_disk_is_told_on_the_error_stream(folder: Path, command: str) -> 
     assert done.returncode == 2
     assert done.stderr.splitlines()[-1] == "error: the output can't be written: No space left on device [output]"
     assert "Traceback" not in done.stderr
-
-
-@posix
-@full
-def test_a_saved_answer_meets_the_same_ends(folder: Path) -> None:
-    lines = ("urdfsync build > /dev/full", "urdfsync build | true; exit ${PIPESTATUS[0]}")
-    shell(folder, "urdfsync build")
-    stamp = folder / ".urdfsync/stamp"
-    carried_out = [shell(folder, f"rm -f {stamp}; {line}") for line in lines]
-    answers.until(stamp.exists, lambda: shell(folder, "urdfsync build"))
-    printed = [shell(folder, line) for line in lines]
-    assert [done.returncode for done in printed] == [2, 0]
-    assert [(done.returncode, done.stderr) for done in printed] == [(d.returncode, d.stderr) for d in carried_out]
 
 
 @posix

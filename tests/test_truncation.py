@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
-from random import Random
 
 import pytest
 from support.commands import Execute
@@ -51,11 +49,6 @@ MARKERS = """\
 >>>>>>> x
 </robot>
 """
-ALL = "URDFSYNC_TRUNCATIONS"
-"""Environment variable that asks for all cuts, if it is set to anything."""
-
-SMALL = "robots/ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_mesh.urdf"
-LARGE = "histories/kscalelabs+sim__sim_resources_stompymini_robot_fixed.urdf/001.urdf"
 
 
 def built(root: Path, content: bytes) -> Project:
@@ -84,11 +77,6 @@ def assert_refused(project: Project, cuts: Iterable[bytes]) -> None:
         assert {**project.stamps(), "bot.urdf": (0, 0)} == before, len(content)
 
 
-def some(cuts: Sequence[int], count: int) -> Sequence[int]:
-    """So many of the cuts, or all if the environment asks for that."""
-    return cuts if os.environ.get(ALL) else Random(3).sample(cuts, count)
-
-
 def end_of(content: bytes) -> int:
     """How much of a URDF has to be there at least."""
     return content.rindex(b"</robot>") + len(b"</robot>")
@@ -101,34 +89,6 @@ def test_every_truncation_is_one_error_and_changes_nothing(tmp_path: Path) -> No
     assert_refused(project, (content[:end] for end in range(end_of(content))))
     project.save(content)
     assert project.build().in_step
-
-
-def test_truncations_of_another_encoding(tmp_path: Path) -> None:
-    content = FULL.rstrip().replace("utf-8", "utf-16").encode("utf-16")
-    project = built(tmp_path / "project", content)
-    assert_refused(project, (content[:end] for end in some(range(len(content)), 100)))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("file", "most", "count"), [(SMALL, None, 400), (LARGE, 500, 30)])
-def test_truncations_of_a_real_robot(corpus: Path, tmp_path: Path, file: str, most: int | None, count: int) -> None:
-    content = (corpus / file).read_bytes()
-    project, cuts = built(tmp_path / "project", content), range(end_of(content))
-    chosen = Random(3).sample(cuts, most) if most else cuts
-    assert_refused(project, (content[:end] for end in some(chosen, count)))
-
-
-def test_what_is_cut_off_is_built_when_it_is_whole(tmp_path: Path) -> None:
-    content = FULL.encode()
-    project = built(tmp_path / "project", content)
-    heavier = content.replace(b'mass value="2"', b'mass value="31"')
-    assert_refused(project, [heavier[:-40]])
-    project.save(heavier)
-    result = project.build()
-    assert not result.failed
-    assert not result.conflicts
-    assert b"// mine" in project.files()["Bot.mo"]
-    assert b"31" in project.files()["Links/BaseParameters.mo"]
 
 
 @pytest.mark.parametrize(

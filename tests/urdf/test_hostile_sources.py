@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import copy
 import functools
-import os
 import re
 import sys
 from collections.abc import Sequence
@@ -16,11 +15,11 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from fuzzing.urdf import small_robot
-from hypothesis import HealthCheck, event, given, settings
+from hypothesis import event, given
 from hypothesis import strategies as st
 from lxml import etree
 from support import corpus
+from support.cases import SMALL_ROBOTS, damaged, often, seldom
 from support.workplace import Workplace
 
 from urdfsync.config import templates_folder
@@ -31,7 +30,6 @@ from urdfsync.modelica.parser import parse
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
-CASES = int(os.environ.get("URDFSYNC_CASES", "0"))
 LARGEST = 12_000
 """Bytes of a robot of the corpus that is changed."""
 TARGET = Target("Plant.Bot", "Bot")
@@ -110,8 +108,7 @@ def small_corpus() -> Sequence[str]:
 
 
 def originals() -> st.SearchStrategy[str]:
-    made = st.builds(small_robot, st.randoms(use_true_random=False))
-    return made | st.sampled_from(small_corpus()) if small_corpus() else made
+    return SMALL_ROBOTS | st.sampled_from(small_corpus()) if small_corpus() else SMALL_ROBOTS
 
 
 @st.composite
@@ -124,13 +121,10 @@ def sources(draw: st.DrawFn, original: st.SearchStrategy[str]) -> bytes:
         text = etree.tostring(root, encoding="unicode")
     for _ in range(draw(st.integers(0, 3))):
         text = changed_text(draw, text)
-    if draw(st.integers(0, 11)) == 0:
+    if seldom(draw):
         return text.encode(draw(st.sampled_from(ENCODINGS)), "replace")
     content = text.encode(errors="surrogatepass")
-    if draw(st.integers(0, 11)) == 0:
-        at, size = draw(st.integers(0, len(content))), draw(st.integers(0, 100))
-        content = content[:at] + draw(st.binary(max_size=8)) + content[at + size :]
-    return content
+    return draw(damaged(content)) if seldom(draw) else content
 
 
 def change_element(draw: st.DrawFn, root: etree._Element) -> None:
@@ -196,13 +190,6 @@ def changed_text(draw: st.DrawFn, text: str) -> str:
         case "cut":
             return text[:at]
     return text
-
-
-def often(cases: int) -> settings:
-    """So many cases, the same each time; or as many new ones as URDFSYNC_CASES says."""
-    return settings(
-        max_examples=max(cases, CASES), derandomize=not CASES, deadline=None, suppress_health_check=list(HealthCheck)
-    )
 
 
 @pytest.mark.slow

@@ -187,9 +187,10 @@ class _Reader:
         for key, message, hint in find_name_problems(keys.package, keys.class_):
             self._report("modelica-name", lines[key], message, hint)
         source, output = Path(keys.source), _absolute(self._root / keys.output)
-        if Path(_folded(output)).is_relative_to(_folded(self._root / STATE_FOLDER)):
-            message = f"`output` can't be in {STATE_FOLDER}: that is where urdfsync keeps its own files"
-            self._report("wrong-value", lines["output"], message, "name another folder")
+        for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
+            if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
+                message = f"`output` can't be in {folder}: that is where {owner} keeps its own files"
+                self._report("wrong-value", lines["output"], message, "name another folder")
         if len(self.problems) > before:
             return None
         return RobotConfig(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping, Set
 from pathlib import Path
 from random import Random
@@ -13,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import mutations
-from support.corpus import ABSENT, FOLDER
 from support.packages import RENDERER, read
 
 from urdfsync.changes import Changes, compare
@@ -31,7 +29,6 @@ OPTIONS = st.builds(
     collisions=st.booleans(),
     meshes=st.sampled_from(["import", "import", "skip"]),
 )
-HISTORIES = sorted(folder.name for folder in FOLDER.glob("histories/*/")) or [ABSENT]
 REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {Role.RECORD}}
 """Roles of the files that a class may reach."""
 
@@ -115,12 +112,3 @@ def versions(history: Path, options: Options, meshes: bool) -> Iterator[Version]
         snapshot = read(file.read_bytes(), file.name).snapshot
         if snapshot is not None:
             yield Version(snapshot, everything_found(snapshot, options) if meshes else {})
-
-
-@pytest.mark.parametrize("name", HISTORIES)
-@pytest.mark.parametrize("meshes", [True, False], ids=["meshes", "no-meshes"])
-def test_the_class_of_real_changes_says_which_files_differ(corpus: Path, name: str, meshes: bool) -> None:
-    options = Options(base="floating" if meshes else "fixed")
-    readable = ((new, render(new, options)) for new in versions(corpus / "histories" / name, options, meshes))
-    for (old, before), (new, after) in itertools.pairwise(readable):
-        check(compare(old, new, DOMAIN, options), before, after)

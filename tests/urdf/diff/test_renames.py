@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from pathlib import Path
 from random import Random
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support import mutations
-from support.packages import read
 
 from urdfsync.changes import compare
 from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
@@ -151,25 +149,3 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     }
     found = find_renames(old.snapshot, with_names(edited, names))
     assert found.items() <= names.items()
-
-
-REAL = {
-    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_burger.urdf", "005"): (7, 6),
-    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_waffle.urdf", "003"): (13, 12),
-    ("ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3_waffle_pi.urdf", "004"): (11, 10),
-    ("TheRobotStudio+SO-ARM100__Simulation_SO101_so101_old_calib.urdf", "002"): (0, 6),
-    ("TheRobotStudio+SO-ARM100__Simulation_SO101_so101_new_calib.urdf", "003"): (1, 4),
-}
-"""Steps of the histories, past versions with errors: history and version, numbers of renamed links and joints."""
-
-
-def test_the_renames_among_the_histories(corpus: Path) -> None:
-    for folder in sorted((corpus / "histories").iterdir()):
-        old = None
-        for file in sorted(folder.glob("*.urdf")):
-            new = read(file.read_bytes()).snapshot
-            if old is not None and new is not None:
-                kinds = [kind for kind, _ in find_renames(old, new)]
-                counts = kinds.count("link"), kinds.count("joint")
-                assert counts == REAL.get((folder.name, file.stem), (0, 0)), file
-            old = new or old

@@ -12,7 +12,7 @@ from support.robots import SCALAR, robots, tree
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles, tables
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit, Mimic, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Robot
 
 TREES = robots(types=(*SCALAR, "fixed")).filter(lambda robot: not obstacles(robot.joints))
 few = settings(max_examples=30)  # trees are small, and take their time to be drawn
@@ -41,32 +41,6 @@ def entries(value: str) -> list[str]:
 
 def moving(of: KinematicTree) -> list[Joint]:
     return [joint for joint in of.joints if joint.type in MOTION_KINDS]
-
-
-def test_the_text_of_a_gripper() -> None:
-    """Fingers and a pinion that follow, and a joint that follows one that never moves."""
-    gripper = tree(
-        Joint("slide", "prismatic", "palm", "left", limit=Limit(0, 0.1)),
-        Joint("other", "prismatic", "palm", "right", mimic=Mimic("slide", -1)),
-        Joint("turn", "continuous", "base", "palm"),
-        Joint("mount", "fixed", "palm", "camera"),
-        Joint("pinion", "continuous", "left", "gear", mimic=Mimic("other", 80)),
-        Joint("lock", "revolute", "camera", "lens", mimic=Mimic("mount", 1, 0.5)),
-    )
-    found = texts_of(gripper)
-    assert found["movingJoints"] == "5"
-    assert found["jointTree"] == "{{1, 1}, {2, 1}, {2, 2}, {2, 2}, {5, 1}}"
-    assert found["turning"] == "{1, 2, 5}"
-    assert found["sliding"] == "{3, 4}"
-    assert found["followers"] == "{{2, 0}, {3, 4}, {5, 3}}"
-    assert entries(found["followerMultipliers"]) == [f"{name}.mimic.multiplier" for name in ("lock", "other", "pinion")]
-    assert entries(found["followerAngles"]) == ["lock.mimic.offset", "0", "pinion.mimic.offset"]
-    assert entries(found["followerLengths"]) == ["0", "other.mimic.offset", "0"]
-    assert entries(found["jointNames.name"])[0] == "turn.name"
-    assert entries(found["turningLimits.lower"])[:2] == ["-Modelica.Constants.inf", "lock.limits.lower"]
-    assert entries(found["turningLimits.velocity"])[0] == "turn.limits.velocity"
-    assert entries(found["slidingLimits.effort"]) == ["other.limits.effort", "slide.limits.effort"]
-    assert entries(found["slidingLosses.steepness"]) == ["other.dynamics.steepness", "slide.dynamics.steepness"]
 
 
 def test_a_robot_that_does_not_move_is_one_body() -> None:

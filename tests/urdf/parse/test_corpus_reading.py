@@ -5,11 +5,6 @@ The corpus stands beside the repository, or where URDFSYNC_CORPUS says; without 
 
 from __future__ import annotations
 
-from typing import Any
-
-import msgspec
-import numpy as np
-import pinocchio as pin
 import pytest
 from lxml import etree
 from support.corpus import FOLDER as CORPUS
@@ -17,7 +12,6 @@ from support.corpus import FOLDER as CORPUS
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Inertia, Origin
 
 FILES = sorted(path.relative_to(CORPUS).as_posix() for path in CORPUS.rglob("*.urdf") if path.is_file())
 ROBOTS = [file for file in FILES if file.startswith("robots/")]
@@ -62,9 +56,6 @@ ODD = {
 """The warnings and notes about the robots, in the order of lines, judged by hand; all others have none."""
 
 
-UNCOMPARED = {"material", "extensions", "actuated"}
-
-
 def read(file: str) -> RobotReading:
     return read_robot((CORPUS / file).read_bytes(), file)
 
@@ -80,45 +71,6 @@ def test_a_file_is_read_or_has_a_real_fault(file: str) -> None:
     if file in ROBOTS:
         others = [d.code for d in found if d.severity is not Severity.ERROR]
         assert others == ODD.get(file.removeprefix("robots/"), [])
-
-
-def assert_agrees(ours: Any, theirs: Any, name: str = "") -> None:
-    """A value, with all that is in it, is what yourdfpy read; where that has None, it is zero or what URDF says."""
-    match ours:
-        case Origin():
-            matrix = np.eye(4) if theirs is None else theirs
-            assert np.allclose(pin.rpy.rpyToMatrix(*ours.rpy), matrix[:3, :3], rtol=0, atol=1e-14)
-            assert ours.xyz == tuple(matrix[:3, 3])
-        case Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz):
-            tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            assert np.array_equal(tensor, np.zeros((3, 3)) if theirs is None else theirs)
-        case msgspec.Struct():
-            shape = getattr(theirs, type(ours).__name__.lower()) if name == "geometry" else theirs
-            for field in set(ours.__struct_fields__) - UNCOMPARED:
-                assert_agrees(getattr(ours, field), getattr(shape, field), field)
-        case () | (msgspec.Struct(), *_):
-            for one, other in zip(ours, theirs, strict=True):
-                assert_agrees(one, other)
-        case tuple():
-            default = {"axis": (1, 0, 0), "scale": (1, 1, 1)}.get(name, theirs)
-            expected = np.array(default if theirs is None or not np.any(theirs) else theirs)
-            size = np.linalg.norm(expected) if name == "axis" else 1
-            assert np.allclose(ours, expected / size, rtol=0, atol=1e-15)
-        case str():
-            assert ours == (theirs or "")
-        case _:
-            assert float(ours or 0) == float(theirs or 0), name
-
-
-@pytest.mark.parametrize(
-    "file", [file for file in ROBOTS if file not in FAULTY and "open_manipulator.urdf" not in file]
-)
-def test_every_number_agrees_with_yourdfpy(file: str) -> None:
-    yourdfpy = pytest.importorskip("yourdfpy")
-    robot = read(file).robot
-    other = yourdfpy.URDF.load(str(CORPUS / file), load_meshes=False, build_scene_graph=False).robot
-    assert robot is not None
-    assert_agrees(robot, other)
 
 
 @pytest.mark.parametrize("file", [file for file in ROBOTS if file not in FAULTY])

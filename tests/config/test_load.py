@@ -183,11 +183,13 @@ def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(n
 
 
 @pytest.mark.parametrize("output", [".urdfsync", "x/../.urdfsync/deep", ".URDFSYNC", (ROOT / ".urdfsync").as_posix()])
-def test_the_state_folder_is_no_output(output: str) -> None:
-    assert failures(robot(f"output = '{output}'")) == [
-        "urdfsync.toml:5: error: `output` can't be in .urdfsync: that is where urdfsync keeps its own files; "
-        "name another folder [wrong-value]"
-    ]
+def test_the_folders_of_programs_are_no_outputs(output: str) -> None:
+    for folder, owner in ((".urdfsync", "urdfsync"), (".git", "git")):
+        found = output.replace(".URDFSYNC", folder.upper()).replace(".urdfsync", folder)
+        assert failures(robot(f"output = '{found}'")) == [
+            f"urdfsync.toml:5: error: `output` can't be in {folder}: that is where {owner} keeps its own files; "
+            "name another folder [wrong-value]"
+        ]
 
 
 @pytest.mark.parametrize("output", [".", "..", ".urdfsync2", "a/.urdfsync"])

@@ -56,13 +56,6 @@ def _volume(corners: Array) -> float:
     return float(trimesh.triangles.mass_properties(corners).volume)
 
 
-def test_box_has_twelve_triangles_that_look_outwards() -> None:
-    corners = _read(_dae())
-    assert corners.shape == (12, 3, 3)
-    assert _volume(corners) == pytest.approx(6)
-    assert bounds(corners.reshape(-1, 3)) == [[0, 0, 0], [1, 2, 3]]
-
-
 @pytest.mark.parametrize(("asset", "metres"), [
     ('<unit name="inch" meter="0.0254"/>', 0.0254),
     ('<unit name="millimeter" meter="1e-3"/>', 0.001),
@@ -90,27 +83,6 @@ def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
     content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>')
     content = content.replace(b"<library_visual_scenes>", library.encode() + b"<library_visual_scenes>")
     assert _bounds(content) == [[1, 7, 0], [2, 9, 3]]
-
-
-def test_mirroring_node_keeps_the_outer_sides() -> None:
-    corners = _read(_dae('<node><scale>1 1 -1</scale><instance_geometry url="#box"/></node>'))
-    assert bounds(corners.reshape(-1, 3)) == [[0, 0, -3], [1, 2, 0]]
-    assert _volume(corners) == pytest.approx(6)
-
-
-def test_materials_that_nobody_understands_do_not_matter() -> None:
-    material = '<bind_material><technique_common><instance_material symbol="steel" target="#no"/></technique_common>'
-    scene = f'<node><instance_geometry url="#box">{material}</bind_material></instance_geometry></node>'
-    effects = '<library_effects><effect id="e"><profile_CG/></effect></library_effects>'
-    images = '<library_images><image id="i"><init_from>no.png</init_from></image></library_images>'
-    assert _bounds(_dae(scene, libraries=effects + images)) == [[0, 0, 0], [1, 2, 3]]
-
-
-def test_lines_and_nodes_without_a_shape_are_left_out() -> None:
-    lines = '<lines count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7</p></lines>'
-    strips = '<linestrips count="1"><input semantic="VERTEX" source="#box-v" offset="0"/><p>0 7 1</p></linestrips>'
-    scene = PLACED + '<node><instance_camera url="#no"/><instance_light url="#no"/><extra><any/></extra></node>'
-    assert len(_read(_dae(scene, _box(extra=lines + strips)))) == 12
 
 
 def test_skin_stands_as_it_is_bound() -> None:

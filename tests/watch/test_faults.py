@@ -89,7 +89,7 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
     monkeypatch.setattr(type(domain), place, broken)
     (found,) = daemon.after(lambda: put(330), events.Failed).result.diagnostics
     assert found.code == "internal"
-    assert "ZeroDivisionError in test_watch_faults.py" in found.message
+    assert "ZeroDivisionError in test_faults.py" in found.message
     assert "by nothing" in found.message
     assert daemon.after(lambda: put(331), events.Built).recovered
 

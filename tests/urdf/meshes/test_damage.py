@@ -1,19 +1,19 @@
 """Damaged meshes of every format: each is read whole or refused in one sentence.
 
-`URDFSYNC_EXAMPLES=20000` tries so many with fresh seeds; else it is the same few hundred.
+`URDFSYNC_CASES=20000` tries so many with fresh seeds; else it is the same few hundred.
 """
 
 from __future__ import annotations
 
-import os
 import struct
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from support.cases import often
 from support.meshes import VERTICES, dae, gltf, ply, tenfold
 
 from urdfsync.diagnostics import SourceError
@@ -23,7 +23,6 @@ from urdfsync.urdf.meshes.convert import convert
 from urdfsync.urdf.meshes.lookup import BOUNDS, HULL, key, target
 from urdfsync.urdf.robot import Mesh, Vector
 
-EXAMPLES = int(os.environ.get("URDFSYNC_EXAMPLES", "0"))
 SECONDS = 0.5
 """CPU time that one mesh may take here; each that takes longer costs a process, too."""
 
@@ -76,11 +75,7 @@ def _little_time() -> Iterator[None]:
 
 
 @pytest.mark.slow
-@settings(
-    max_examples=EXAMPLES or 300,
-    derandomize=not EXAMPLES,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-)
+@often(300)
 @given(damaged(), st.sampled_from([(1.0, 1.0, 1.0), (0.001, 0.001, 0.001), (-1.0, 2.0, 1e30)]), st.booleans())
 def test_a_damaged_mesh_is_read_whole_or_refused(file: tuple[str, bytes], scale: Vector, touches: bool) -> None:
     suffix, content = file

@@ -222,12 +222,3 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
     waiting = built(action(Kind.UPDATE), action(Kind.CONFLICT), action(Kind.UPDATE, "Base", held=True))
     assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
-
-
-def test_files_that_are_kept_are_listed_once() -> None:
-    first = told(ORPHAN)
-    assert first[:2] == [
-        f"{TIME}arm  1 no longer generated but kept because you edited it",
-        f"  orphan     {ELBOW}  no longer generated, but you edited it; kept",
-    ]
-    assert told(ORPHAN, ORPHAN) == first

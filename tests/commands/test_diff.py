@@ -13,9 +13,7 @@ from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
 from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
-from urdfsync.changes import Changes
-from urdfsync.diff.comparison import Comparison, exit_code
-from urdfsync.engine.result import Exit, Result
+from urdfsync.engine.result import Exit
 
 ARM = """<robot name="arm">
   <link name="base"/>
@@ -112,15 +110,6 @@ def test_the_exit_code_says_whether_a_build_has_something_to_do(built: Path, exe
     change, code = OUT_OF_STEP[name]
     change()
     assert said(execute)[0] == code
-
-
-def test_an_error_comes_before_a_lock_and_a_lock_before_being_out_of_step() -> None:
-    results = [Result("arm", "Arm", Path("Arm"), Path(), **more) for more in (
-        {"failed": True}, {"failed": True, "locked": True}, {"changes": Changes(generator=True)}, {}
-    )]  # fmt: skip
-    found = [Comparison(result, "arm.urdf") for result in results]
-    codes = [exit_code(found[first:]) for first in range(4)]
-    assert codes == [Exit.ERROR, Exit.LOCKED, Exit.OUT_OF_STEP, Exit.IN_STEP]
 
 
 def test_every_robot_of_a_source(built: Path, execute: Execute) -> None:

@@ -30,26 +30,6 @@ def write(found: StatusArea, lines: list[str], status: list[str]) -> None:
     found.write([Text(line) for line in lines], [Text(line) for line in status])
 
 
-def test_the_cursor_stays_visible_and_what_the_terminal_echoes_goes() -> None:
-    screen = Screen()
-    found = area(screen)
-    write(found, [], ["status"])
-    assert screen.has_cursor
-    screen.write("^C")
-    write(found, ["stopped"], [])
-    assert screen.shown() == ["stopped"]
-
-
-def test_long_lines_are_the_terminals_matter_and_a_long_status_is_cut() -> None:
-    screen = Screen(width=20)
-    found = area(screen)
-    write(found, ["x" * 30], ["y" * 30])
-    assert screen.shown() == ["x" * 20, "x" * 10, "y" * 19 + "…"]
-    wide = Screen(width=200)
-    write(area(wide), ["x" * 150], ["y" * 150])
-    assert [len(row) for row in wide.shown()] == [150, 79]
-
-
 @pytest.mark.parametrize("width", [30, 60])
 def test_after_a_resize_nothing_is_erased_but_status(width: int) -> None:
     screen = Screen(width=40)

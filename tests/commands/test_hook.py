@@ -110,16 +110,6 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
     assert said(capsys, "build", code=0) == said(capsys, "check", code=0) == []
 
 
-@pytest.mark.parametrize(("pattern", "code"), [("*Parameters.mo", 1), ("ladder.json", 0)])
-def test_files_that_git_is_told_to_ignore(repo: Repository, capsys: Capture, pattern: str, code: int) -> None:
-    """An output has to be added all the same; a source is read as it is on disk."""
-    run(f"{DROP} {RECORD if code else 'ladder.json'}")
-    Path(".gitignore").write_text(f"{pattern}\n")
-    repo.git("add", ".gitignore")
-    lines = said(capsys, "check", code=code)
-    assert lines[-1:] == ([f"  git add -f {RECORD}"] if code else [])
-
-
 def test_a_template_that_is_not_tracked_is_told(repo: Repository, capsys: Capture) -> None:
     own_model("  Real mine;")
     repo.git("add", "urdfsync.toml")
@@ -209,20 +199,6 @@ def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Captu
     assert lines[0] == "ladder: out of step: 1 file written"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
-
-
-def test_a_robot_that_is_removed_takes_its_state_with_it(repo: Repository, capsys: Capture) -> None:
-    text = Path("urdfsync.toml").read_text()
-    add_robot(repo)
-    Path("urdfsync.toml").write_text(text)
-    repo.git("rm", "-q", "-r", "other.json", "modelica/Other")
-    repo.git("add", "urdfsync.toml")
-    for path in Path(".urdfsync/robots").glob("other.*"):
-        path.unlink()
-    line = said(capsys, "check")[-1]
-    assert line == "  git add .urdfsync/robots/other.state"
-    run(line)
-    assert said(capsys, "check", code=0) == said(capsys, "build", code=0) == []
 
 
 @pytest.mark.parametrize(
@@ -361,14 +337,6 @@ def test_a_source_in_a_submodule_is_staged_with_its_commit(repo: Repository, cap
     assert line == f"  {ADD} sub"
     run(line)
     assert said(capsys, "check", code=0) == []
-
-
-def test_a_source_behind_a_link(repo: Repository, capsys: Capture) -> None:
-    Path("real.json").write_bytes(Path("ladder.json").read_bytes())
-    Path("ladder.json").unlink()
-    Path("ladder.json").symlink_to("real.json")
-    repo.git("add", "ladder.json")
-    assert said(capsys, "check")[-1] == "  git add real.json"
 
 
 def test_no_program_of_the_settings_runs(repo: Repository, capsys: Capture) -> None:

@@ -1,0 +1,52 @@
+"""All that a decision reads is recorded: the calls of the system are compared with the record."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from urdfsync import cli, dependencies, registry
+from urdfsync.dependencies import STAT
+
+
+@pytest.fixture
+def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    shutil.copytree(in_step, tmp_path / "project")
+    monkeypatch.chdir(tmp_path / "project")
+    assert cli._main(["build"]) == 0  # the first one in a copy notes that it wrote this folder
+    return tmp_path / "project"
+
+
+@pytest.mark.parametrize("options", [["--full"], ["--jobs", "1"], ["--jobs", "2"]], ids=" ".join)
+def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: list[str]) -> None:
+    if options != ["--full"]:
+        (folder / "modelica/Leg/Leg.mo").unlink()
+    with dependencies.Dependencies() as found:
+        assert cli._main(["build", "--quiet", *options]) == 0
+    assert not found.complete
+
+
+def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
+    with dependencies.Dependencies() as found:
+        registry.domain("rcnetwork")
+    assert (STAT, str(rc_site)) in found.entries
+
+
+def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    with dependencies.Dependencies() as found:
+        assert not dependencies.is_file(file)
+        file.write_text("a")
+        assert dependencies.is_file(file)
+    assert not found.complete, "it came meanwhile"
+    with dependencies.Dependencies() as found:
+        assert dependencies.read_file(file) == b"a"
+        assert found.complete
+        file.write_text("ab")
+        assert dependencies.read_file(file) == b"ab"
+    assert not found.complete, "it changed meanwhile"
+    with dependencies.Dependencies() as found, pytest.raises(OSError, match="too long"):
+        dependencies.is_file(tmp_path / ("a" * 5000))
+    assert not found.complete, "the system did not tell"
