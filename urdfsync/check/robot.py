@@ -72,9 +72,7 @@ def _check(
     if reason := _check_texts(package, needed, result):
         result.gaps = (f"nothing was compiled, since {reason}",)
     elif problem := missing or needed.problem:
-        is_wanted = options.physics or (
-            options.compiler != CheckOptions().compiler if missing else config.check.library
-        )
+        is_wanted = options.physics or (options.compiler != CheckOptions().compiler if missing else config.library)
         if is_wanted:
             result.add([problem])
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
