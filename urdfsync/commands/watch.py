@@ -93,11 +93,9 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
         received.append(signal.Signals(number).name)
-        daemon.stop(received[0])
-        if len(received) > 1:
-            raise KeyboardInterrupt
         if hasattr(signal, "setitimer"):  # else only a second signal helps
             signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
+        daemon.stop(received[0])
 
     numbers = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     handled = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]  # `nohup` ignores SIGHUP

@@ -71,13 +71,18 @@ class Daemon:
         self._config_hash = self._hash_config()
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
-        self._stop_signal = ""
+        self._stop_signal, self._is_working = "", True
         self._is_paused = False
         self._next_poll = self._next_rescan = 0.0
 
     def stop(self, signal: str) -> None:
-        """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers."""
-        self._stop_signal = signal
+        """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers.
+
+        Called again, it raises KeyboardInterrupt while there is work, but not while a check is cleared away.
+        """
+        if self._stop_signal and self._is_working:
+            raise KeyboardInterrupt
+        self._stop_signal = self._stop_signal or signal
         self._queue.put(None)
 
     def run(self) -> None:
@@ -90,21 +95,27 @@ class Daemon:
             lock_file = loaded.root / STATE_FOLDER / "watch.lock"
             with Lock(lock_file, 0) as lock, contextlib.closing(self._observer), self._checks:
                 self._acquire(lock)
-                self._use(loaded)
-                self._next_rescan = time.monotonic() + self._options.rescan
-                while not self._stop_signal:
-                    self._receive()
-                    if time.monotonic() >= self._next_rescan:
-                        with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
-                            self._acquire(lock)
-                        self._rescan()
-                    elif self._is_polling and time.monotonic() >= self._next_poll:
-                        self._poll()
-                    self._build_settled()
+                try:
+                    self._work(loaded, lock)
+                finally:
+                    self._is_working = False
         except KeyboardInterrupt:
             if not self._stop_signal:
                 raise
         self._listener.show(events.Stopping(self._stop_signal))
+
+    def _work(self, loaded: Config, lock: Lock) -> None:
+        self._use(loaded)
+        self._next_rescan = time.monotonic() + self._options.rescan
+        while not self._stop_signal:
+            self._receive()
+            if time.monotonic() >= self._next_rescan:
+                with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
+                    self._acquire(lock)
+                self._rescan()
+            elif self._is_polling and time.monotonic() >= self._next_poll:
+                self._poll()
+            self._build_settled()
 
     def _acquire(self, lock: Lock) -> None:
         """Take the daemon's lock; again if its file was deleted, since another daemon could not see it."""
