@@ -18,19 +18,19 @@ from queue import Empty, SimpleQueue
 
 import msgspec
 
-from urdfsync import config, precommit
+from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError
-from urdfsync.watch import build, events
+from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import Invalid, Resting, Settling, Times, WatchedRobot, read_state
+from urdfsync.watch.robot import Invalid, Resting, Times, Unsettled, WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
@@ -146,7 +146,7 @@ class Daemon:
         before, self._robots = self._robots, {}
         for robot in robots:  # of those that were watched before, the last results are still known
             paths = find_robot_paths(loaded, robot, self._options.build.package_paths)
-            state = Settling(time.monotonic() + self._options.times.settle)
+            state = Unsettled(time.monotonic() + self._options.times.settle)
             watched = before.get(robot.name) or WatchedRobot(robot, paths, state)
             watched.robot, watched.paths, watched.state, watched.built = robot, paths, state, None
             self._robots[robot.name] = watched
@@ -212,7 +212,7 @@ class Daemon:
         for watched in robots:
             if not watched.is_told:
                 self._listener.show(events.Settling(watched.name))
-            watched.state = Settling(due)
+            watched.state = Unsettled(due)
 
     # Looks without an event
 
@@ -241,7 +241,7 @@ class Daemon:
         self._touch([watched for watched in resting if watched.has_changed()])
         for watched in resting:
             if watched.failure is not None and watched.is_resting:
-                watched.state = Settling(now, is_told=False)
+                watched.state = Unsettled(now, is_told=False)
 
     def _poll(self) -> None:
         """Look at the inputs of all robots."""
@@ -274,7 +274,7 @@ class Daemon:
         ready = [watched for watched in settled if self._is_ready(watched, now)]
         if ready and self._update_pause():
             for watched in ready:
-                watched.state = Settling(now + _PAUSE, is_told=watched.is_told)
+                watched.state = Unsettled(now + _PAUSE, is_told=watched.is_told)
         elif ready:
             self._build(ready)
 
@@ -290,9 +290,9 @@ class Daemon:
                     return False
                 if sample == before:
                     return True
-                watched.state = Settling(now + times.sample, sample)
+                watched.state = Unsettled(now + times.sample, sample)
                 return not times.sample
-            case Settling() as state:
+            case Unsettled() as state:
                 watched.state = msgspec.structs.replace(state, due=now + times.sample, sample=sample)
                 return sample == state.sample or not times.sample
         return False
@@ -310,10 +310,10 @@ class Daemon:
             self._wait_for_valid(watched, errors, now)
             return False
         source = watched.files[str(watched.robot.source)].sha256
-        if lost and isinstance(watched.state, Settling) and watched.state.shrunk != source:
+        if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
             reason = f"{lost} of {len(watched.paths.built_names)} elements are gone, so it is watched a little longer"
             self._listener.show(events.Waiting(watched.name, reason))
-            watched.state = Settling(now + self._options.times.recheck_shrunk, watched.hashes, shrunk=source)
+            watched.state = Unsettled(now + self._options.times.recheck_shrunk, watched.hashes, shrunk=source)
             return False
         return True
 
@@ -347,7 +347,7 @@ class Daemon:
                 watched.state = Resting()
                 self._touch([watched])  # somebody saved meanwhile: the user is told
             else:  # most likely its own writes: confirmed without a word
-                watched.state = Settling(time.monotonic() + self._options.times.settle, is_told=False)
+                watched.state = Unsettled(time.monotonic() + self._options.times.settle, is_told=False)
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""
