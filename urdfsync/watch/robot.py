@@ -49,19 +49,6 @@ def read_state(path: str, known: SeenFile | None = None, *, follow: bool = True)
     return SeenFile(digest(content), None if is_young(facts, time.time_ns()) else facts)
 
 
-class Times(msgspec.Struct, frozen=True):
-    """How long the daemon waits; all in seconds."""
-
-    settle: float = 0.3
-    """Without an event."""
-    sample: float = 0.2
-    """Between the two looks that have to show the same; with 0 there is one look."""
-    give_up_after: float = 30.0
-    """Until an invalid source is an error."""
-    recheck_shrunk: float = 2.0
-    """Until a source that has lost many elements is believed."""
-
-
 class Resting(msgspec.Struct, frozen=True):
     """The last build left all files as they were, or failed."""
 
