@@ -133,7 +133,7 @@ def main() -> None:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
         # If nobody is left to end this one: native code may keep all threads of Python from running.
         faulthandler.dump_traceback_later(max(seconds, 0.01) + 1, exit=True)
-        processes.end_with_parent()
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
         last = None
         try:
             for result in function(*arguments):
