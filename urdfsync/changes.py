@@ -15,7 +15,6 @@ from urdfsync.domain import (
     Domain,
     ElementKey,
     Import,
-    Snapshot,
     Version,
 )
 
@@ -93,7 +92,8 @@ def compare(
     if old.snapshot != new.snapshot:
         old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
         new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
-        differences += _of_snapshots(old.snapshot, new.snapshot)
+        for part in dict.fromkeys([*new.snapshot, *old.snapshot]):
+            differences += _of_values((part,), old.snapshot.get(part), new.snapshot.get(part))
     if old.imports is not None and new.imports is not None:
         differences += _of_imports(old.imports, new.imports)
     meanings = domain.describe(differences, old, new, options) if differences else ()
@@ -139,12 +139,6 @@ def moved_files(
 def is_number(value: object) -> bool:
     """Whether a value is a number, and no truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _of_snapshots(old: Snapshot, new: Snapshot) -> Iterator[Difference]:
-    """Yield the differences of two snapshots, part by part."""
-    for part in dict.fromkeys([*new, *old]):
-        yield from _of_values((part,), old.get(part), new.get(part))
 
 
 def _of_values(path: tuple[str | int, ...], old: Any, new: Any) -> Iterator[Difference]:

@@ -111,7 +111,9 @@ class Compilation:
             result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
-        models, move = self._model_jobs(1), [_moving_task(experiment)]
+        probe, models = experiment.probe, self._model_jobs(1)
+        run = Simulation(probe.stop, probe.step)
+        move = [CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")]
         jobs = {**models, "completed": (completed, move)}
         if package.edits:  # the edited package, the generated one, and this one with each of the edits
             files = package.edits
@@ -243,13 +245,6 @@ def _readable(path: Path, folder: Path) -> str:
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     yield registry.domain(domain).experiment(*arguments)
-
-
-def _moving_task(experiment: Experiment) -> CompileTask:
-    """The task that moves a package as the experiment wants."""
-    probe = experiment.probe
-    run = Simulation(probe.stop, probe.step)
-    return CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")
 
 
 def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> tuple[Deviation, ...]:

@@ -109,10 +109,8 @@ def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.
                 used += one.memory_info().rss
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
-            message, hint = (
-                f"{limits.owner}: it was not done after {limits.seconds:g} s",
-                "allow more with `urdfsync check --timeout`",
-            )
+            message = f"{limits.owner}: it was not done after {limits.seconds:g} s"
+            hint = "allow more with `urdfsync check --timeout`"
             raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-time", message, hint=hint))
         if used > limits.memory:
             message = f"{limits.owner}: it takes more than the {limits.memory / 1e9:.2g} GB that it may"
