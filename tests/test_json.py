@@ -25,7 +25,7 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.watch import events
-from urdfsync.watch.report import JsonReport, event_values
+from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
@@ -125,17 +125,16 @@ def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> 
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     part = URDF.replace('"tip">', '"top">')
     saves = {"Built": part, "Waiting": URDF.replace('<child link="tip"/>', moved)}
-    show = JsonReport.show
 
-    def listen(self: JsonReport, event: events.Event) -> None:
-        show(self, event)
+    def listen(event: events.Event) -> None:
+        show_json(event)
         if text := saves.pop(type(event).__name__, ""):
             (folder / "new").write_text(text)
             (folder / "new").replace(folder / "arm.urdf")
         elif isinstance(event, events.Built) and not saves:
             os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(JsonReport, "show", listen)
+    monkeypatch.setattr("urdfsync.watch.report.show_json", listen)
     streams = execute("watch", "--settle", "0", "--sample", "0", "--json")
     assert streams.err == ""
     assert streams.out.isascii()

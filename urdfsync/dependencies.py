@@ -117,8 +117,7 @@ def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
     except OSError:
         mark_incomplete()
         raise
-    if (dependencies := _current.get()) is not None:
-        dependencies.add(check, path, found)
+    _record(check, path, found)
     return found[0]
 
 
@@ -134,8 +133,7 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
     """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, for anything else as well."""
-    if (dependencies := _current.get()) is not None:
-        _add(dependencies, path)
+    _record_stat(path)
     return read_unrecorded(path)
 
 
@@ -156,35 +154,30 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
 
 def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:
     """Ask for a path itself, links not followed, before its content is read; None for nothing. Raises OSError."""
-    dependencies = _current.get()
     try:
         found = os.lstat(path)
     except (FileNotFoundError, NotADirectoryError):
-        if dependencies is not None:
-            dependencies.add(LSTAT_TYPE, path, (0,))
+        _record(LSTAT_TYPE, path, (0,))
         return None
     except OSError:
         mark_incomplete()
         raise
-    if dependencies is not None:
-        dependencies.add(LSTAT, path, stat_of(found))
+    _record(LSTAT, path, stat_of(found))
     return found
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """The names in a folder, in no order. Raises OSError."""
-    if (dependencies := _current.get()) is not None:
-        _add(dependencies, folder)
+    _record_stat(folder)
     return os.listdir(folder)
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
-    if (dependencies := _current.get()) is not None:
-        try:
-            _add(dependencies, path)
-        except OSError:
-            return  # the reader meets the same error, and reports it
+    try:
+        _record_stat(path)
+    except OSError:
+        return  # the reader meets the same error, and reports it
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
@@ -206,12 +199,20 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
                 waiting.append(path)
 
 
-def _add(dependencies: Dependencies, path: str | os.PathLike[str]) -> None:
+def _record(check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
+    if (dependencies := _current.get()) is not None:
+        dependencies.add(check, path, found)
+
+
+def _record_stat(path: str | os.PathLike[str]) -> None:
+    """Record a path that is about to be read, if anybody asks for dependencies. Raises OSError."""
+    if _current.get() is None:
+        return
     try:
-        dependencies.add(STAT, path, stat_of(os.stat(path)))
+        _record(STAT, path, stat_of(os.stat(path)))
     except (FileNotFoundError, NotADirectoryError):
-        dependencies.add(STAT_TYPE, path, (0,))
+        _record(STAT_TYPE, path, (0,))
         raise
     except OSError:
-        dependencies.complete = False
+        mark_incomplete()
         raise

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
@@ -31,12 +33,13 @@ def reserve_stdout() -> IO[bytes]:
     return answers
 
 
-def end_with_parent() -> None:
-    """End this process and its children when its stdin is closed; call it after the last line was read from there."""
+def end_with_parent(read: Callable[[], object]) -> None:
+    """End this process and its children when the parent closes a pipe: `read` then returns nothing, or raises."""
 
     def wait() -> None:
-        while os.read(0, 4096):  # not through sys.stdin, whose lock would disturb the interpreter at its end
-            pass
+        with contextlib.suppress(EOFError, OSError):
+            while read():
+                pass
         import psutil  # 15 ms, and only a check needs it
 
         for child in psutil.Process().children(recursive=True):

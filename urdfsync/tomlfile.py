@@ -21,19 +21,12 @@ _QUOTED = r"'([^']*)'"
 _MARKER = r"^(<{7}|={7}|>{7})(\s|$)"
 
 
-def marker_line(text: str) -> int:
-    """The first line that is a merge marker of a version control system, counted from 1; 0 if there is none."""
-    lines = enumerate(text.split("\n"), start=1)
-    return next((number for number, line in lines if re.match(_MARKER, line)), 0)
-
-
-def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> dict[str, Any]:
+def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
     """The document as nested dictionaries, no deeper than `DEEPEST`.
 
-    Raises `error` with file, line and column if it is not TOML; `hint` is what to do about that, if nothing more
-    exact is known.
+    Raises `error` with file, line and column if it is not TOML.
     """
-    line = column = 0
+    line, column, hint = 0, 0, ""
     try:
         document = tomli.loads(text)
         if not _is_too_deep(document):
@@ -43,18 +36,19 @@ def parse(text: str, file: str, error: type[UrdfsyncError], hint: str = "") -> d
         message = _TOO_DEEP
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
-        if line := marker_line(text):
-            message, hint = "unresolved merge markers", hint or "settle the merge"
+        if marker := re.search(_MARKER, text, re.MULTILINE):
+            line = text.count("\n", 0, marker.start()) + 1
+            message, hint = "unresolved merge markers", "settle the merge"
         elif place := re.search(_PLACE, message):
             line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
             message = message[0].lower() + message[1 : place.start()].replace("\n", " ")
             if twice := re.match(r"cannot declare \((.*)\) twice", message):
                 message = f"the table `{'.'.join(re.findall(_QUOTED, twice[1]))}` is there twice"
-                hint = hint or "put the keys of both into one table"
+                hint = "put the keys of both into one table"
             elif message == "cannot overwrite a value":
-                message, hint = "a key is set twice", hint or "remove one of them"
+                message, hint = "a key is set twice", "remove one of them"
             elif message == "invalid value":
-                hint = hint or "strings stand in quotes"
+                hint = "strings stand in quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits
         message = "a number has too many digits"
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))

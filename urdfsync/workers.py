@@ -14,11 +14,11 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.queues import SimpleQueue
 from signal import SIG_IGN, SIGINT, signal
-from threading import Thread
 from typing import Any, TypeVar
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.extras import install_command
+from urdfsync.processes import end_with_parent
 
 T = TypeVar("T")
 
@@ -128,17 +128,7 @@ def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
     global _steps
     _steps = steps
     signal(SIGINT, SIG_IGN)  # the command gets it, too, and ends the workers
-
-    def follow() -> None:
-        with contextlib.suppress(EOFError, OSError):
-            end.recv_bytes()
-        import psutil  # 15 ms
-
-        for child in psutil.Process().children(recursive=True):
-            child.kill()  # a compiler at work sees no end of its stdin
-        os._exit(1)
-
-    Thread(target=follow, daemon=True).start()
+    end_with_parent(end.recv_bytes)
 
 
 def _run(folder: str, job: Callable[..., T], *arguments: Any) -> T:

@@ -18,13 +18,12 @@ from typing import IO, Any, Self
 from urdfsync.engine.options import BuildOptions
 from urdfsync.watch import events
 from urdfsync.watch.daemon import Daemon, WatchOptions
-from urdfsync.watch.robot import Times
 
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
 """Seconds after which something does not happen any more, however busy the machine is."""
 
-QUICK = Times(settle=0.02, sample=0.01, give_up_after=0.1, recheck_shrunk=0.05)
+QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1, "recheck_shrunk": 0.05}
 
 RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 MODEL = Path("modelica/Ladder/Elements/R2.mo")
@@ -177,7 +176,7 @@ class Daemons(Listener):
         super().__init__()
         self._then = then
         build = BuildOptions(wait=1)
-        self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), times=QUICK, build=build, **options), self)
+        self._daemon = Daemon(WatchOptions(Path("urdfsync.toml"), build=build, **(QUICK | options)), self.show)
         self._thread = threading.Thread(target=self._daemon.run)
         self._thread.start()
         self.until(lambda: any(isinstance(one, ENDED) for one in self.events))

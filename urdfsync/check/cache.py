@@ -113,16 +113,14 @@ class UserCache:
         pids = {path: path.name.partition("-")[0] for path in self.workspaces.glob("*")}
         return [path for path, pid in pids.items() if pid.isdecimal() and psutil.pid_exists(int(pid))]
 
-    def _folders(self) -> list[Path]:
-        folders = (self.libraries, self.workspaces, self.results, self.compiler)
-        return [folder for folder in folders if folder.is_dir() and not folder.is_symlink()]
-
     def _entries(self) -> Iterator[tuple[float, Path, int]]:
         """What is deleted as a whole, with the time of its last use, and bytes on disk.
 
         That is what is in folders of ours, and each file of the compiler but for its locks.
         """
-        for folder in self._folders():
+        for folder in (self.libraries, self.workspaces, self.results, self.compiler):
+            if folder.is_symlink():
+                continue
             for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too
                 if folder == self.compiler:
                     names = [name for name in files if not name.startswith(".")]

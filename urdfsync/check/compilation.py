@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 import msgspec
 
 from urdfsync import registry
-from urdfsync.check import compilers, process
+from urdfsync.check import compilers, libraries, process
 from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
     CompileJob,
@@ -36,9 +36,11 @@ from urdfsync.check.results import (
     agrees,
     listed,
 )
+from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
+from urdfsync.modelica.names import LIBRARY
 from urdfsync.output.phrases import counted
 from urdfsync.workers import tell
 
@@ -62,31 +64,46 @@ class Compilation:
         result: CheckResult,
         limits: Limits,
         folder: Path,
-        standard: tuple[Path, Mapping[str, Path]],
-        libraries: Mapping[str, Path],
+        needed: libraries.Libraries,
     ) -> None:
-        """`folder` is for copies of the package.
-
-        `standard` is the folder with a copy of the Modelica Standard Library, and what it is a copy of; `libraries` are
-        needed besides.
-        """
+        """`folder` is for copies of the package."""
         self._package, self._options, self._result, self._limits = package, options, result, limits
-        self._folder, (self._standard, parts), self._libraries = folder, standard, libraries
-        self._originals = {str(self._standard / name): path for name, path in parts.items() if path.suffix != ".mo"}
+        self._folder, self._needed = folder, needed
         self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated)
 
-    def compile_all(self) -> None:
+    def run(self, texts: Iterable[bytes]) -> None:
+        """Compile the package, and compare it if that is wanted: 20 s for a six-axis arm, minutes for a humanoid.
+
+        `texts` are all those of the package; the compiler gets what they and other libraries need of the standard one.
+        """
+        result, physics, standard = self._result, self._options.physics, self._needed.standard
+        others = (text for path in self._needed.others.values() for text in libraries.library_texts(path).values())
+        self._standard = libraries.standard_library_copy(standard, [*texts, *others], UserCache.default())
+        self._originals = {str(self._standard / name): path for name, path in standard.items() if path.suffix != ".mo"}
+        own = find_own_library(LIBRARY, self._package.robot.target.package)
+        self._libraries = {**({LIBRARY: own} if own else {}), **self._needed.others}
+        if physics and self._compiler.SIMULATES:
+            self._compare()
+        else:
+            if physics:
+                result.gaps = (f"poses and efforts were not compared: `--tool {self._options.compiler}` only compiles",)
+            else:
+                result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
+            self._compile_all()
+        result.compiled = tuple(sorted(result.compiled, key=lambda one: self._package.models.index(one.model)))
+
+    def _compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
         jobs = self._model_jobs(max(1, min(self._options.compilers, len(self._package.models))))
         self._note_models(jobs, self._run_all(jobs))
 
-    def compare(self) -> None:
+    def _compare(self) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
         package, result = self._package, self._result
         experiment = self._experiment()
         if experiment is None:
-            self.compile_all()
+            self._compile_all()
             return
         result.notes, result.reference = experiment.notes, experiment.reference
         result.unchecked += experiment.unchecked
@@ -94,7 +111,9 @@ class Compilation:
             result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
-        models, move = self._model_jobs(1), [_moving_task(experiment)]
+        probe, models = experiment.probe, self._model_jobs(1)
+        run = Simulation(probe.stop, probe.step)
+        move = [CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")]
         jobs = {**models, "completed": (completed, move)}
         if package.edits:  # the edited package, the generated one, and this one with each of the edits
             files = package.edits
@@ -226,13 +245,6 @@ def _readable(path: Path, folder: Path) -> str:
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     yield registry.domain(domain).experiment(*arguments)
-
-
-def _moving_task(experiment: Experiment) -> CompileTask:
-    """The task that moves a package as the experiment wants."""
-    probe = experiment.probe
-    run = Simulation(probe.stop, probe.step)
-    return CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")
 
 
 def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> tuple[Deviation, ...]:

@@ -128,7 +128,7 @@ def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], w
     top, places = robot.target.package.partition(".")[0], search_path(robot)
     others = needed_libraries(texts, top, places, wanted)
     try:
-        return Libraries(find_standard_library(os.environ, config.check.library).parts, others)
+        return Libraries(find_standard_library(os.environ, config.library).parts, others)
     except LibraryError as error:
         return Libraries({}, others, error.diagnostics[0])
 

@@ -109,10 +109,8 @@ def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.
                 used += one.memory_info().rss
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
-            message, hint = (
-                f"{limits.owner}: it was not done after {limits.seconds:g} s",
-                "allow more with `urdfsync check --timeout`",
-            )
+            message = f"{limits.owner}: it was not done after {limits.seconds:g} s"
+            hint = "allow more with `urdfsync check --timeout`"
             raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-time", message, hint=hint))
         if used > limits.memory:
             message = f"{limits.owner}: it takes more than the {limits.memory / 1e9:.2g} GB that it may"
@@ -133,7 +131,7 @@ def main() -> None:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
         # If nobody is left to end this one: native code may keep all threads of Python from running.
         faulthandler.dump_traceback_later(max(seconds, 0.01) + 1, exit=True)
-        processes.end_with_parent()
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
         last = None
         try:
             for result in function(*arguments):

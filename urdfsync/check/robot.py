@@ -15,11 +15,10 @@ from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckOptions, CheckResult, listed
-from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
-from urdfsync.modelica.names import LIBRARY
 from urdfsync.workers import tell
 
 
@@ -72,44 +71,13 @@ def _check(
     if reason := _check_texts(package, needed, result):
         result.gaps = (f"nothing was compiled, since {reason}",)
     elif problem := missing or needed.problem:
-        is_wanted = options.physics or (
-            options.compiler != CheckOptions().compiler if missing else config.check.library
-        )
+        is_wanted = options.physics or (options.compiler != CheckOptions().compiler if missing else config.library)
         if is_wanted:
             result.add([problem])
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
     else:
         with contextlib.nullcontext(folder) if folder else UserCache.default().workspace() as place:
-            _check_models(package, options, needed, contents, result, limits, place / robot.name)
-
-
-def _check_models(
-    package: CheckedPackage,
-    options: CheckOptions,
-    needed: libraries.Libraries,
-    contents: list[bytes],
-    result: CheckResult,
-    limits: Limits,
-    folder: Path,
-) -> None:
-    """Compile the package, and compare it if that is wanted: 20 s for a six-axis arm, minutes for a humanoid.
-
-    `contents` are all texts of the package.
-    """
-    contents += [text for path in needed.others.values() for text in libraries.library_texts(path).values()]
-    own = find_own_library(LIBRARY, package.robot.target.package)
-    copy = libraries.standard_library_copy(needed.standard, contents, UserCache.default())
-    used = {**({LIBRARY: own} if own else {}), **needed.others}
-    compilation = Compilation(package, options, result, limits, folder, (copy, needed.standard), used)
-    if options.physics and compilers.COMPILERS[options.compiler].SIMULATES:
-        compilation.compare()
-    else:
-        if options.physics:
-            result.gaps = (f"poses and efforts were not compared: `--tool {options.compiler}` only compiles",)
-        else:
-            result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
-        compilation.compile_all()
-    result.compiled = tuple(sorted(result.compiled, key=lambda one: package.models.index(one.model)))
+            Compilation(package, options, result, limits, place / robot.name, needed).run(contents)
 
 
 def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:

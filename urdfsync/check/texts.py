@@ -61,28 +61,42 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
             declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
     for folder in sorted(stored):
-        package_file, lines = str(folder / PACKAGE_FILE), declarations.get(folder, {})
-        if package_file not in package.texts:
-            message, hint = f"the folder holds classes, but no {PACKAGE_FILE}", "add one, or move the files elsewhere"
-            where = str(folder) if folder.parts else ""
-            found.append(package.diagnostic(_ERROR, "no-package-file", message, where, hint=hint))
-        spellings: dict[str, str] = {}
-        for name in sorted(stored[folder]):
-            file, is_folder, hint = f"{folder / name}.mo", folder / name in stored, "keep one of them"
-            if is_folder and file in package.texts:
-                message = f"`{name}` is both a file and a folder"
-                found.append(package.diagnostic(_ERROR, "class-twice", message, file, hint=hint))
-            if name in lines:
-                message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
-                found.append(package.diagnostic(_ERROR, "class-twice", message, package_file, lines[name], hint=hint))
-            if (first := spellings.setdefault(name.casefold(), name)) != name:
-                message = f"`{name}` and `{first}` differ only by case"
-                hint = "rename one: file systems that ignore case do not hold both"
-                found.append(package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=hint))
+        found += _check_folder(package, folder, stored, declarations.get(folder, {}))
         if str(folder / _ORDER) in package.texts:
+            present = stored[folder] | declarations.get(folder, {}).keys()
             others = misnamed.get(folder, set()) if folder in declarations else None
-            found += _check_order(package, folder, stored[folder] | lines.keys(), others)
+            found += _check_order(package, folder, present, others)
     return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
+
+
+def _check_folder(
+    package: PackageTexts,
+    folder: PurePosixPath,
+    stored: Mapping[PurePosixPath, set[str]],
+    declared_lines: Mapping[str, int],
+) -> Iterator[Diagnostic]:
+    """Check that a folder is a package whose classes have one place and one spelling each.
+
+    `stored` are the classes in each folder; `declared_lines` tells where this folder's `package.mo` declares what.
+    """
+    package_file, hint = str(folder / PACKAGE_FILE), "keep one of them"
+    if package_file not in package.texts:
+        message, where = f"the folder holds classes, but no {PACKAGE_FILE}", str(folder) if folder.parts else ""
+        advice = "add one, or move the files elsewhere"
+        yield package.diagnostic(_ERROR, "no-package-file", message, where, hint=advice)
+    spellings: dict[str, str] = {}
+    for name in sorted(stored[folder]):
+        file, is_folder = f"{folder / name}.mo", folder / name in stored
+        if is_folder and file in package.texts:
+            message = f"`{name}` is both a file and a folder"
+            yield package.diagnostic(_ERROR, "class-twice", message, file, hint=hint)
+        if line := declared_lines.get(name):
+            message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
+            yield package.diagnostic(_ERROR, "class-twice", message, package_file, line, hint=hint)
+        if (first := spellings.setdefault(name.casefold(), name)) != name:
+            message = f"`{name}` and `{first}` differ only by case"
+            advice = "rename one: file systems that ignore case do not hold both"
+            yield package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=advice)
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:

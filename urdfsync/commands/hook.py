@@ -41,7 +41,7 @@ _ADD, _BUILD = "add to the commit:", "build, and see what to add:"
 _ADD_REST = "add the rest, or put it aside with `git stash push --keep-index`:"
 
 
-class Fault(msgspec.Struct, frozen=True):
+class CommitFault(msgspec.Struct, frozen=True):
     """What keeps a commit from passing in one robot."""
 
     files: RobotFiles
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         commit = Commit()
         named = [*args.configs, *filter(None, [args.config])]
         found = commit.paths(named) if named else hook.find_configurations(commit.index)
-        faults, diagnostics = list[Fault](), list[Diagnostic]()
+        faults, diagnostics = list[CommitFault](), list[Diagnostic]()
         for path in sorted(found) if commit.touched else ():
             try:
                 if not hook.passes(commit.index, path):
@@ -183,7 +183,7 @@ class RobotFiles:
         return not self.planned.in_step or self.planned.renews_state
 
 
-def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[Fault]:
+def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[CommitFault]:
     """Return the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
     index = commit.index
     file, key = hook.answer_place(index, path)
@@ -204,17 +204,17 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
         if hidden := one.select(index.hidden):
             names = ", ".join(sorted(hidden))
             message = f"git is told not to look at {names} (`git help update-index` says how to undo it)"
-            faults.append(Fault(one, "hidden", message))
+            faults.append(CommitFault(one, "hidden", message))
         elif partly := one.select(commit.files & index.unstaged):
             message = f"staged in part only: {', '.join(sorted(partly))}"
-            faults.append(Fault(one, "partly-staged", message, _ADD_REST, partly))
+            faults.append(CommitFault(one, "partly-staged", message, _ADD_REST, partly))
         elif one.needs_build and writing:
             to_build.append(one)
         elif one.needs_build:
             faults.append(_fault_of_build(one, one.planned, _BUILD))
         elif unstaged := one.find_unstaged():
             message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
-            faults.append(Fault(one, "not-staged", message, _ADD, unstaged))
+            faults.append(CommitFault(one, "not-staged", message, _ADD, unstaged))
     results = list(build(config, [one.robot for one in to_build], options)) if to_build else []
     commit.index = git.Index()  # of which builds have changed files
     for one, result in zip(to_build, results, strict=True):
@@ -250,15 +250,19 @@ def _plan(
     return RobotFiles(commit, config, robot, result, dependencies)
 
 
-def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> Fault:
+def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
     if result.failed or result.conflicts:
-        return Fault(files, "out-of-step", summary(result), result=result)
+        return CommitFault(files, "out-of-step", summary(result), result=result)
     what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
-    return Fault(files, "out-of-step", f"out of step: {what}", step, paths, result)
+    return CommitFault(files, "out-of-step", f"out of step: {what}", step, paths, result)
 
 
 def _show(
-    commit: Commit, faults: Sequence[Fault], diagnostics: list[Diagnostic], named: Sequence[Path], console: Console
+    commit: Commit,
+    faults: Sequence[CommitFault],
+    diagnostics: list[Diagnostic],
+    named: Sequence[Path],
+    console: Console,
 ) -> Exit:
     """Show what is wrong with each robot, then commands to copy. Returns the exit code."""
     code = exit_code([fault.result for fault in faults if fault.result])
@@ -281,7 +285,7 @@ def _show(
     return code
 
 
-def _steps(commit: Commit, faults: Sequence[Fault], named: Sequence[Path]) -> Iterator[tuple[str, str]]:
+def _steps(commit: Commit, faults: Sequence[CommitFault], named: Sequence[Path]) -> Iterator[tuple[str, str]]:
     """Return what to do about faults, and the commands for it."""
     index = commit.index
     for step in dict.fromkeys(fault.step for fault in faults if fault.step):

@@ -16,7 +16,6 @@ from urdfsync.output.console import Console
 
 if TYPE_CHECKING:
     from urdfsync.watch.daemon import Daemon
-    from urdfsync.watch.events import Listener
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
@@ -62,16 +61,16 @@ def _duration(text: str) -> float:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Run the daemon until a signal ends it."""
     from urdfsync.watch.daemon import Daemon, WatchOptions  # not at the top: watchdog takes 45 ms
-    from urdfsync.watch.report import JsonReport, TextReport
-    from urdfsync.watch.robot import Times
+    from urdfsync.watch.report import TextReport, show_json
 
-    report: contextlib.AbstractContextManager[Listener]
-    report = contextlib.nullcontext(JsonReport()) if console.json else TextReport(console)
-    with report as listener:
+    with contextlib.ExitStack() as stack:
+        listener = show_json if console.json else stack.enter_context(TextReport(console)).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=(*args.robots, *(args.robot or ())),
-            times=Times(args.settle / 1000, args.sample / 1000, args.patience),
+            settle=args.settle / 1000,
+            sample=args.sample / 1000,
+            give_up_after=args.patience,
             rescan=max(args.rescan, 0.1),
             poll=args.poll,
             command=args.exec,
@@ -93,11 +92,9 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
         received.append(signal.Signals(number).name)
-        daemon.stop(received[0])
-        if len(received) > 1:
-            raise KeyboardInterrupt
         if hasattr(signal, "setitimer"):  # else only a second signal helps
             signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
+        daemon.stop(received[0])
 
     numbers = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     handled = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]  # `nohup` ignores SIGHUP

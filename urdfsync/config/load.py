@@ -21,7 +21,6 @@ from urdfsync.config.settings import (
     FILE_NAME,
     OWN_KEYS,
     STATE_FOLDER,
-    CheckConfig,
     CheckKeys,
     Config,
     Keys,
@@ -47,11 +46,11 @@ def find(start: Path) -> Path:
     raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
 
 
-def load(file: Path, copy: Path | None = None) -> Config:
-    """Read a configuration file, or a copy of it. Raises ConfigError with everything that is wrong in it."""
+def load(file: Path) -> Config:
+    """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
     code, line = "unreadable-config", 0
     try:
-        text = dependencies.read_file(copy or file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         place = file.absolute()
         return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
     except FileNotFoundError:
@@ -72,11 +71,11 @@ def parse(text: str, file: Path, name: str) -> Config:
     reader = _Reader(text, name, file.parent)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
-    check = reader.check()
+    library = reader.library()
     reader.find_clashes(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
-    return Config(file, robots, check)
+    return Config(file, robots, library)
 
 
 def in_words(kind: Any) -> str:
@@ -148,14 +147,12 @@ class _Reader:
                 self._report("unknown-key", table.lines[key], message)
         self._refuse_unknown(table, known)
 
-    def check(self) -> CheckConfig:
-        """The table `[check]`."""
+    def library(self) -> Path | None:
+        """The folder that the table `[check]` names; None if it names none."""
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckKeys))
         keys = self._read(table, CheckKeys)
-        if keys is None or keys.library is None:
-            return CheckConfig()
-        return CheckConfig(_absolute(self._root / keys.library), table.lines["library"])
+        return None if keys is None or keys.library is None else _absolute(self._root / keys.library)
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a record or a package's folder, nor may one stand in the other's."""

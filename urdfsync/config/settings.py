@@ -68,21 +68,13 @@ class RobotConfig(msgspec.Struct, frozen=True):
         return self.output.joinpath(*self.target.package.split("."))
 
 
-class CheckConfig(msgspec.Struct, frozen=True):
-    """What checks need to know of the machine."""
-
-    library: Path | None = None
-    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
-    line: int = 0
-    """Where the configuration names it; 0 if it does not."""
-
-
 class Config(msgspec.Struct, frozen=True):
     """A configuration file and its robots, in the order of the file."""
 
     file: Path
     robots: tuple[RobotConfig, ...]
-    check: CheckConfig = CheckConfig()
+    library: Path | None = None
+    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
 
     @property
     def root(self) -> Path:

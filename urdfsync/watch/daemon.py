@@ -18,19 +18,19 @@ from queue import Empty, SimpleQueue
 
 import msgspec
 
-from urdfsync import config, precommit
+from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError
-from urdfsync.watch import build, events
+from urdfsync.watch import build, events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import Invalid, Resting, Settling, Times, WatchedRobot, read_state
+from urdfsync.watch.robot import Invalid, Resting, Unsettled, WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
@@ -45,7 +45,14 @@ class WatchOptions(msgspec.Struct, frozen=True):
     """The configuration."""
     robots: tuple[str, ...] = ()
     """Names of the robots; empty for all."""
-    times: Times = msgspec.field(default_factory=Times)
+    settle: float = 0.3
+    """Without an event before a build."""
+    sample: float = 0.2
+    """Between the two looks that have to show the same; with 0 there is one look."""
+    give_up_after: float = 30.0
+    """Until an invalid source is an error."""
+    recheck_shrunk: float = 2.0
+    """Until a source that has lost many elements is believed."""
     rescan: float = 30.0
     """Between two reads of everything."""
     poll: bool = False
@@ -71,13 +78,18 @@ class Daemon:
         self._config_hash = self._hash_config()
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
-        self._stop_signal = ""
+        self._stop_signal, self._is_working = "", True
         self._is_paused = False
         self._next_poll = self._next_rescan = 0.0
 
     def stop(self, signal: str) -> None:
-        """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers."""
-        self._stop_signal = signal
+        """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers.
+
+        Called again, it raises KeyboardInterrupt while there is work, but not while a check is cleared away.
+        """
+        if self._stop_signal and self._is_working:
+            raise KeyboardInterrupt
+        self._stop_signal = self._stop_signal or signal
         self._queue.put(None)
 
     def run(self) -> None:
@@ -90,21 +102,27 @@ class Daemon:
             lock_file = loaded.root / STATE_FOLDER / "watch.lock"
             with Lock(lock_file, 0) as lock, contextlib.closing(self._observer), self._checks:
                 self._acquire(lock)
-                self._use(loaded)
-                self._next_rescan = time.monotonic() + self._options.rescan
-                while not self._stop_signal:
-                    self._receive()
-                    if time.monotonic() >= self._next_rescan:
-                        with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
-                            self._acquire(lock)
-                        self._rescan()
-                    elif self._is_polling and time.monotonic() >= self._next_poll:
-                        self._poll()
-                    self._build_settled()
+                try:
+                    self._work(loaded, lock)
+                finally:
+                    self._is_working = False
         except KeyboardInterrupt:
             if not self._stop_signal:
                 raise
-        self._listener.show(events.Stopping(self._stop_signal))
+        self._listener(events.Stopping(self._stop_signal))
+
+    def _work(self, loaded: Config, lock: Lock) -> None:
+        self._use(loaded)
+        self._next_rescan = time.monotonic() + self._options.rescan
+        while not self._stop_signal:
+            self._receive()
+            if time.monotonic() >= self._next_rescan:
+                with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
+                    self._acquire(lock)
+                self._rescan()
+            elif self._is_polling and time.monotonic() >= self._next_poll:
+                self._poll()
+            self._build_settled()
 
     def _acquire(self, lock: Lock) -> None:
         """Take the daemon's lock; again if its file was deleted, since another daemon could not see it."""
@@ -118,7 +136,7 @@ class Daemon:
 
     def _note(self, diagnostics: tuple[Diagnostic, ...]) -> None:
         if diagnostics:
-            self._listener.show(events.Noted(diagnostics))
+            self._listener(events.Noted(diagnostics))
 
     def _progress(self, _what: str, _done: int, _total: int) -> None:
         """Give up the build under way, which has come to a place for that."""
@@ -135,11 +153,11 @@ class Daemon:
         before, self._robots = self._robots, {}
         for robot in robots:  # of those that were watched before, the last results are still known
             paths = find_robot_paths(loaded, robot, self._options.build.package_paths)
-            state = Settling(time.monotonic() + self._options.times.settle)
+            state = Unsettled(time.monotonic() + self._options.settle)
             watched = before.get(robot.name) or WatchedRobot(robot, paths, state)
             watched.robot, watched.paths, watched.state, watched.built = robot, paths, state, None
             self._robots[robot.name] = watched
-        self._listener.show(events.Started(loaded.file, tuple(self._robots), again))
+        self._listener(events.Started(loaded.file, tuple(self._robots), again))
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
 
@@ -186,7 +204,7 @@ class Daemon:
 
     def _show_all(self, found: Iterable[events.Event]) -> None:
         for event in found:
-            self._listener.show(event)
+            self._listener(event)
 
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
@@ -197,11 +215,11 @@ class Daemon:
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let robots settle, since something changed; all from the same moment, so that they are built together."""
-        due = time.monotonic() + self._options.times.settle
+        due = time.monotonic() + self._options.settle
         for watched in robots:
             if not watched.is_told:
-                self._listener.show(events.Settling(watched.name))
-            watched.state = Settling(due)
+                self._listener(events.Settling(watched.name))
+            watched.state = Unsettled(due)
 
     # Looks without an event
 
@@ -218,7 +236,7 @@ class Daemon:
         known = {diagnostic.hint for diagnostic in self._unwatched}
         self._note(tuple(diagnostic for diagnostic in found if diagnostic.hint not in known))
         if self._unwatched and not found:
-            self._listener.show(events.Recovered("all folders are watched again"))
+            self._listener(events.Recovered("all folders are watched again"))
         self._unwatched = found
 
     def _rescan(self) -> None:
@@ -230,7 +248,7 @@ class Daemon:
         self._touch([watched for watched in resting if watched.has_changed()])
         for watched in resting:
             if watched.failure is not None and watched.is_resting:
-                watched.state = Settling(now, is_told=False)
+                watched.state = Unsettled(now, is_told=False)
 
     def _poll(self) -> None:
         """Look at the inputs of all robots."""
@@ -243,9 +261,9 @@ class Daemon:
         stash = precommit.find_stash(self._config.root)
         if stash and not self._is_paused:
             reason = f"pre-commit (process {stash[1]}) has stashed unstaged changes away"
-            self._listener.show(events.Paused(reason))
+            self._listener(events.Paused(reason))
         elif self._is_paused and not stash:
-            self._listener.show(events.Resumed())
+            self._listener(events.Resumed())
         self._is_paused = stash is not None
         return self._is_paused
 
@@ -263,27 +281,27 @@ class Daemon:
         ready = [watched for watched in settled if self._is_ready(watched, now)]
         if ready and self._update_pause():
             for watched in ready:
-                watched.state = Settling(now + _PAUSE, is_told=watched.is_told)
+                watched.state = Unsettled(now + _PAUSE, is_told=watched.is_told)
         elif ready:
             self._build(ready)
 
     def _has_settled(self, watched: WatchedRobot, now: float) -> bool:
         """Look at a robot's files; return whether they are as at the last look, or time is up for an invalid source."""
-        times, before = self._options.times, watched.hashes
+        options, before = self._options, watched.hashes
         sample = watched.read_files()
         match watched.state:
             case Invalid(_, since) as state:
-                end = since + times.give_up_after
+                end = since + options.give_up_after
                 if sample == before and now < end:
                     watched.state = Invalid(min(now + _POLL, end), since)
                     return False
                 if sample == before:
                     return True
-                watched.state = Settling(now + times.sample, sample)
-                return not times.sample
-            case Settling() as state:
-                watched.state = msgspec.structs.replace(state, due=now + times.sample, sample=sample)
-                return sample == state.sample or not times.sample
+                watched.state = Unsettled(now + options.sample, sample)
+                return not options.sample
+            case Unsettled() as state:
+                watched.state = msgspec.structs.replace(state, due=now + options.sample, sample=sample)
+                return sample == state.sample or not options.sample
         return False
 
     def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
@@ -291,7 +309,7 @@ class Daemon:
         # not after a failure, which may have had another cause
         if watched.failure is None and watched.hashes == watched.built:
             if watched.is_told:
-                self._listener.show(events.Unchanged(watched.name))
+                self._listener(events.Unchanged(watched.name))
             self._rest(watched)
             return False
         errors, lost = build.judge_source(self._config, watched.robot, watched.paths)
@@ -299,10 +317,10 @@ class Daemon:
             self._wait_for_valid(watched, errors, now)
             return False
         source = watched.files[str(watched.robot.source)].sha256
-        if lost and isinstance(watched.state, Settling) and watched.state.shrunk != source:
+        if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
             reason = f"{lost} of {len(watched.paths.built_names)} elements are gone, so it is watched a little longer"
-            self._listener.show(events.Waiting(watched.name, reason))
-            watched.state = Settling(now + self._options.times.recheck_shrunk, watched.hashes, shrunk=source)
+            self._listener(events.Waiting(watched.name, reason))
+            watched.state = Unsettled(now + self._options.recheck_shrunk, watched.hashes, shrunk=source)
             return False
         return True
 
@@ -312,8 +330,8 @@ class Daemon:
             self._take_failure(watched, build.failed_result(self._config, watched.robot, errors))
             self._rest(watched)
         else:
-            self._listener.show(events.Waiting(watched.name, "waiting for the exporter", errors))
-            watched.state = Invalid(now + min(_POLL, self._options.times.give_up_after), now)
+            self._listener(events.Waiting(watched.name, "waiting for the exporter", errors))
+            watched.state = Invalid(now + min(_POLL, self._options.give_up_after), now)
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
         """Build robots. One that has written, or of which a file is other than before, has to settle again."""
@@ -336,7 +354,7 @@ class Daemon:
                 watched.state = Resting()
                 self._touch([watched])  # somebody saved meanwhile: the user is told
             else:  # most likely its own writes: confirmed without a word
-                watched.state = Settling(time.monotonic() + self._options.times.settle, is_told=False)
+                watched.state = Unsettled(time.monotonic() + self._options.settle, is_told=False)
 
     def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
         """Find the paths of some robots again, after a build."""
@@ -355,7 +373,7 @@ class Daemon:
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
         again = watched.failure == result.diagnostics
         if watched.is_told or not again:
-            self._listener.show(events.Failed(result, again))
+            self._listener(events.Failed(result, again))
         watched.failure = result.diagnostics
 
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
@@ -363,7 +381,7 @@ class Daemon:
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
         left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
-            self._listener.show(events.Built(result, files, recovered))
+            self._listener(events.Built(result, files, recovered))
         watched.failure, watched.left_alone = None, left_alone
         if files:
             self._show_all(self._commands.run(watched.robot, files))

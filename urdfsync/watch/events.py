@@ -7,8 +7,9 @@ on beside that: `Checking`, and `CheckDone` for the last one of several that beg
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
+from typing import TypeAlias
 
 import msgspec
 
@@ -132,9 +133,5 @@ class Stopping(Event, frozen=True):
     """Name of the signal, for example `SIGINT`."""
 
 
-class Listener(Protocol):
-    """Shows events to people or programs. Called from one thread only."""
-
-    def show(self, event: Event) -> None:
-        """Show an event; the daemon waits meanwhile."""
-        ...
+Listener: TypeAlias = Callable[[Event], None]
+"""Shows an event to people or programs; the daemon waits meanwhile. Called from one thread only."""

@@ -41,13 +41,10 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
     return values
 
 
-class JsonReport:
-    """One JSON object per line, passed on at once."""
-
-    def show(self, event: events.Event) -> None:
-        """Print an event."""
-        sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
-        sys.stdout.flush()
+def show_json(event: events.Event) -> None:
+    """Print an event as one line of JSON, which is passed on at once."""
+    sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
+    sys.stdout.flush()
 
 
 class TextReport:

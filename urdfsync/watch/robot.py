@@ -22,7 +22,7 @@ Hashes: TypeAlias = Mapping[str, str]
 """Hashes of files by absolute path; of what is no file, a word."""
 
 
-class FileState(NamedTuple):
+class SeenFile(NamedTuple):
     """A path when it was read."""
 
     sha256: str
@@ -31,7 +31,7 @@ class FileState(NamedTuple):
     """None if it has to be read again whatever the system says of it, since it has just changed."""
 
 
-def read_state(path: str, known: FileState | None = None, *, follow: bool = True) -> FileState:
+def read_state(path: str, known: SeenFile | None = None, *, follow: bool = True) -> SeenFile:
     """Read a path; what can't be read has a state, too, and so has a link that is not followed.
 
     A file is not read again if `known` has its stat values.
@@ -42,24 +42,11 @@ def read_state(path: str, known: FileState | None = None, *, follow: bool = True
         if known is not None and known.stat == facts:
             return known
         if not stat.S_ISREG(status.st_mode):
-            return FileState("folder" if stat.S_ISDIR(status.st_mode) else "other")
+            return SeenFile("folder" if stat.S_ISDIR(status.st_mode) else "other")
         content = read_unrecorded(path)
     except OSError as error:
-        return FileState("missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}")
-    return FileState(digest(content), None if is_young(facts, time.time_ns()) else facts)
-
-
-class Times(msgspec.Struct, frozen=True):
-    """How long the daemon waits; all in seconds."""
-
-    settle: float = 0.3
-    """Without an event."""
-    sample: float = 0.2
-    """Between the two looks that have to show the same; with 0 there is one look."""
-    give_up_after: float = 30.0
-    """Until an invalid source is an error."""
-    recheck_shrunk: float = 2.0
-    """Until a source that has lost many elements is believed."""
+        return SeenFile("missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}")
+    return SeenFile(digest(content), None if is_young(facts, time.time_ns()) else facts)
 
 
 class Resting(msgspec.Struct, frozen=True):
@@ -68,7 +55,7 @@ class Resting(msgspec.Struct, frozen=True):
     due = math.inf
 
 
-class Settling(msgspec.Struct, frozen=True):
+class Unsettled(msgspec.Struct, frozen=True):
     """Files may have changed; the robot is built once two looks in a row show the same."""
 
     due: float
@@ -93,8 +80,8 @@ class WatchedRobot(msgspec.Struct):
 
     robot: RobotConfig
     paths: RobotPaths
-    state: Resting | Settling | Invalid
-    files: dict[str, FileState] = msgspec.field(default_factory=dict)
+    state: Resting | Unsettled | Invalid
+    files: dict[str, SeenFile] = msgspec.field(default_factory=dict)
     """Inputs and outputs by absolute path, when they were last read."""
     built: Hashes | None = None
     """All files before and after the last build, which changed none; None if the robot has to be built."""
@@ -116,7 +103,7 @@ class WatchedRobot(msgspec.Struct):
     @property
     def is_told(self) -> bool:
         """Whether the user was told that the robot is under way."""
-        return isinstance(self.state, Invalid) or (isinstance(self.state, Settling) and self.state.is_told)
+        return isinstance(self.state, Invalid) or (isinstance(self.state, Unsettled) and self.state.is_told)
 
     @property
     def hashes(self) -> Hashes:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.precommit import find_stash
+from urdfsync.watch.precommit import find_stash
 
 linux = pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="no /proc on this system")
 
