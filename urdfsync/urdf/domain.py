@@ -71,11 +71,9 @@ class UrdfDomain(Domain):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
-        keys = [(kind, name) for kind in ("link", "joint") for name in snapshot[f"{kind}s"]]
-        found: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
-        for (kind, name), identifier in identify(keys, (target.name,)).items():
-            found[f"{kind}s"][name] = identifier.component
-        return found
+        kinds = ("link", "joint")
+        found = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
+        return {f"{kind}s": {name: found[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options

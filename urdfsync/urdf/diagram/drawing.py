@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import bisect
 import itertools
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path as FilePath
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -19,7 +18,8 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling"]
-_Segment: TypeAlias = tuple[int, int, int]  # the line that it is on, start and end
+_Entry: TypeAlias = tuple[Kind, str, float, int, float]
+"""Of the legend: what it is of, its text, its place, and its width."""
 
 # Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
 # a viewer scrolls over a wide robot.
@@ -133,38 +133,26 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
     nets = defaultdict[tuple[LineKind, str], list[Path]](list)
     for ends, (kind, points) in diagram.lines.items():
         nets[kind, max(ends, key=uses.__getitem__)].append(points)
-    found = set[tuple[LineKind, Point]]()
+    found: list[tuple[LineKind, Point]] = []
     for (kind, _), paths in nets.items():
-        segments = [sorted(pair) for path in paths for pair in itertools.pairwise(path)]
-        across = _united((y1, x1, x2) for (x1, y1), (x2, y2) in segments if y1 == y2)
-        upright = _united((x1, y1, y2) for (x1, y1), (x2, y2) in segments if x1 == x2)
+        across, upright = (defaultdict[int, set[tuple[int, int]]](set) for _ in range(2))
+        for (x1, y1), (x2, y2) in (sorted(pair) for path in paths for pair in itertools.pairwise(path)):
+            if y1 == y2:
+                across[y1].add((x1, x2))
+            else:
+                upright[x1].add((y1, y2))
         for x, y in {point for path in paths for point in path}:
             # Coordinates are even: one step beside a point lies inside a segment or outside of all.
-            ways = [_has_inside(across, y, x + step) + _has_inside(upright, x, y + step) for step in (-1, 1)]
+            sides = [(across[y], x - 1), (across[y], x + 1), (upright[x], y - 1), (upright[x], y + 1)]
+            ways = [any(start < step < end for start, end in segments) for segments, step in sides]
             if sum(ways) > 2:
-                found.add((kind, (x, y)))
+                found.append((kind, (x, y)))
     return sorted(found)
 
 
-def _united(segments: Iterable[_Segment]) -> list[_Segment]:
-    """Join segments of one line that touch or overlap; the result is sorted."""
-    united: list[_Segment] = []
-    for line, start, end in sorted(segments):
-        if united and united[-1][0] == line and start <= united[-1][2]:
-            united[-1] = line, united[-1][1], max(end, united[-1][2])
-        else:
-            united.append((line, start, end))
-    return united
-
-
-def _has_inside(segments: list[_Segment], line: int, value: int) -> bool:
-    index = bisect.bisect_left(segments, (line, value)) - 1
-    return index >= 0 and segments[index][0] == line and value < segments[index][2]
-
-
-def _legend(kinds: Iterable[Kind], start: Point, right: float) -> tuple[list[tuple[Kind, str, float, int, float]], int]:
-    """Return kind, text, place and width of each entry, in as many rows as it takes, and where they end below."""
-    found: list[tuple[Kind, str, float, int, float]] = []
+def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_Entry], int]:
+    """Return the entries of the legend, in as many rows as it takes, and where it ends below."""
+    found: list[_Entry] = []
     x, y = float(start[0]), start[1]
     for kind, text in _LEGENDS.items():
         room = 15 + _width(text, _FONT)

@@ -92,10 +92,8 @@ class MeshProcess:
         if process is not None:
             atexit.unregister(self.end)
             process.kill()
-            process.wait()
-            for pipe in (process.stdin, process.stdout):
-                with contextlib.suppress(OSError):  # what was not written is lost
-                    cast(IO[bytes], pipe).close()
+            with contextlib.suppress(OSError), process:  # closes its pipes and waits; what was not written is lost
+                pass
 
     def _start(self) -> subprocess.Popen[bytes]:
         atexit.register(self.end)
