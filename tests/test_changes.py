@@ -1,10 +1,7 @@
-"""Comparing two versions: differences, their meanings from the domain, files that follow."""
+"""Comparing two versions: equality first, deepdiff on what differs, meanings from the domain, files that follow."""
 
 from __future__ import annotations
 
-import copy
-import functools
-import operator
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
@@ -12,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, compare, moved_files
+from urdfsync.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -78,34 +75,19 @@ def test_equal_versions_have_no_changes() -> None:
     assert (found.changes, found.change_class, found.noise) == ((), ChangeClass.NONE, False)
 
 
-class Catalogue(Shelf):
-    """Keeps the differences that it is asked about."""
-
-    differences: Sequence[Difference] = ()
-
-    def describe(
-        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
-    ) -> Sequence[Meaning | None]:
-        self.differences = differences
-        return [None] * len(differences)
+@given(PLAIN, PLAIN, st.data())
+def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
+    new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
+    found = of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
 
 
-@given(PLAIN, PLAIN)
-def test_differences_lead_from_one_version_to_the_other(old: Any, new: Any) -> None:
-    shelves, catalogue = (shelf(part={"name": old}), shelf(part={"name": new})), Catalogue()
-    compare(*shelves, cast(Domain, catalogue), None, renames={})
-    found = copy.deepcopy(shelves[0].snapshot)
-    added = [one for one in catalogue.differences if one.kind is ChangeKind.ADDED]
-    others = [one for one in catalogue.differences if one.kind is not ChangeKind.ADDED]
-    for one in (*reversed(others), *added):  # a list gets shorter or longer at its end
-        place: Any = functools.reduce(operator.getitem, one.path[:-1], cast(Any, found))
-        if one.kind is ChangeKind.REMOVED:
-            assert place.pop(one.path[-1]) == one.old
-        elif isinstance(place, list) and one.kind is ChangeKind.ADDED:
-            place.insert(cast(int, one.path[-1]), one.new)
-        else:
-            place[one.path[-1]] = one.new
-    assert found == shelves[1].snapshot
+def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
+    if isinstance(value, dict):
+        return {key: _with_other_leaves(item, data) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_with_other_leaves(item, data) for item in value]
+    return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
 
 
 @pytest.mark.parametrize(

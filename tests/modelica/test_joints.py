@@ -19,8 +19,7 @@ from urdfsync.check.results import TOLERANCE
 from urdfsync.domain import Quantity, Target
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Reference
+from urdfsync.urdf.physics.reference import Reference, read
 from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow

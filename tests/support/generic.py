@@ -18,8 +18,7 @@ from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Configuration, Reference
+from urdfsync.urdf.physics.reference import Configuration, Reference, read
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""

@@ -9,16 +9,17 @@ from urdfsync.modelica.names import KEYWORDS
 
 _TOKEN = re.compile(
     r"""
-    (?P<blank>\s+)
-    | (?P<comment>//[^\n]*|/\*.*?(?:\*/|\Z))
-    | (?P<string>"(?:[^"\\]|\\.)*(?:"|\Z))
-    | (?P<quoted>'(?:[^'\\\n]|\\.)*'|')
-    | (?P<other>:=|==|<=|>=|<>|[^\W\d]\w*|\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|.)
+    (?P<blank>\s+|//[^\n]*|/\*.*?\*/)
+    | (?P<endless_comment>/\*.*)
+    | "(?:[^"\\]|\\.)*"
+    | (?P<endless_string>"(?:[^"\\]|\\.)*)
+    | '(?:[^'\\\n]|\\.)*'
+    | (?P<endless_name>')
+    | :=|==|<=|>=|<>|[^\W\d]\w*|\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|.
     """,
     re.VERBOSE | re.DOTALL,
 )
-_COMMENT = re.compile(r"/\*.*?\*/|//.*", re.DOTALL)
-_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
+_ENDLESS = {"endless_comment": "comment", "endless_string": "string", "endless_name": "quoted name"}
 
 _MARKER = re.compile(r"(<{7}|\|{7}|={7}|>{7})(\s|$)")
 
@@ -41,17 +42,12 @@ class Token(NamedTuple):
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
     """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
-    found, faults = [], []
-    line = 1
+    found, faults, line = [], [], 1
     for match in _TOKEN.finditer(text.removeprefix("\ufeff")):
         word, kind = match[0], match.lastgroup
-        if kind == "comment" and not _COMMENT.fullmatch(word):
-            faults.append(Fault("has a comment without an end", line))
-        elif kind == "string" and not _STRING.fullmatch(word):
-            faults.append(Fault("has a string without an end", line))
-        elif word == "'":
-            faults.append(Fault("has a quoted name without an end", line))
-        if kind not in ("blank", "comment"):
+        if kind in _ENDLESS:
+            faults.append(Fault(f"has a {_ENDLESS[kind]} without an end", line))
+        if kind not in ("blank", "endless_comment"):
             found.append(Token(word, line))
         line += word.count("\n")
     found.append(Token("", line))

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+import msgspec
+
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.record import NO_LIMITS, generic_data, record_data
+from urdfsync.urdf.model.record import NO_LIMITS, record_data
 from urdfsync.urdf.model.robot import bench_data, joint_title, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
@@ -26,28 +28,27 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
 
     Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
     """
-    tree = _tree(robot, target)
+    tree, package = _tree(robot, target), target.package
     names, structure = connector_names(tree, options), tree.structure()
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        name, benches = target.name, bench_data(tree, names, target, options)
-        files.append(_of_robot(f"{name}.mo", Role.MODEL, "robot", robot_data(structure, names, target, options)))
-        files.append(_of_robot(f"{name}Run.mo", Role.MODEL, "run", benches))
-        files.append(_of_robot(f"{name}Test.mo", Role.MODEL, "test", benches))
+        benches = bench_data(tree, names, options)
+        files.append(_of_robot("", "robot", target, options, robot_data(structure, names)))
+        files.append(_of_robot("Run", "run", target, options, benches))
+        files.append(_of_robot("Test", "test", target, options, benches))
         for link in tree.links:
-            files += _link(link, tree.link(link.name), imports, target.package, options)
+            files += _link(link, tree.link(link.name), imports, package, options)
         for joint, model in zip(tree.joints, structure.joints, strict=True):
-            files += _joint(joint, model, tree.joint(joint.name), target.package)
+            files += _joint(joint, model, tree.joint(joint.name), package)
         if options.base == "floating":
-            title, height = f"robot {target.name}", standing_height(tree, imports)
-            stance = {"within": target.package, "record": f"{target.name}Stance", "title": title, "height": height}
-            files.append(_of_robot(f"{stance['record']}.mo", Role.RECORD, "stance", stance))
+            stance = {"record": f"{target.name}Stance", "height": standing_height(tree, imports)}
+            files.append(_of_robot("Stance", "stance", target, options, stance, Role.RECORD))
     if has_bench(tree.joints, options):
-        data = generic_data(tree, target, options)
-        files.append(_of_robot(f"{target.name}Generic.mo", Role.MODEL, "generic", data))
+        axes = {f"{motion}_axes": len(tree.axes(motion)) for motion in ("rotational", "translational")}
+        files.append(_of_robot("Generic", "generic", target, options, axes))
     if "record" in options.approach:
-        data = record_data(robot.name, tree, names, imports, target, options)
-        files.append(_of_robot(f"{data['record']}.mo", Role.RECORD, "record", data))
+        data = record_data(robot.name, tree, names, imports, package, options)
+        files.append(_of_robot(_PARAMETERS, "record", target, options, data, Role.RECORD))
     return files
 
 
@@ -58,9 +59,9 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     """
     around = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
     tree = _tree(robot, around)
-    data = record_data(robot.name, tree, connector_names(tree, options), {}, around, options)
-    data["record"] = target.name
-    return _of_robot(f"{target.name}.mo", Role.RECORD, "record", data)
+    data = record_data(robot.name, tree, connector_names(tree, options), {}, around.package, options)
+    found = _of_robot(_PARAMETERS, "record", around, options, data | {"record": target.name}, Role.RECORD)
+    return msgspec.structs.replace(found, path=f"{target.name}.mo")
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -83,8 +84,14 @@ def _tree(robot: Robot, target: Target) -> KinematicTree:
     return tree
 
 
-def _of_robot(path: str, role: Role, template: str, data: Mapping[str, Any]) -> Artifact:
-    return Artifact(path, role, f"robot/{template}.mo.jinja", data, "robot")
+def _of_robot(
+    suffix: str, template: str, target: Target, options: Options, data: Mapping[str, Any], role: Role = Role.MODEL
+) -> Artifact:
+    """Return a file of the robot itself; `suffix` is what its name has behind that of the robot."""
+    name = target.name
+    common = {"within": target.package, "type": name, "title": f"robot {name}", "record": f"{name}{_PARAMETERS}"}
+    data = {**common, "base": options.base, **data}
+    return Artifact(f"{name}{suffix}.mo", role, f"robot/{template}.mo.jinja", data, "robot")
 
 
 def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[Artifact | Order]:
@@ -130,9 +137,8 @@ def _link(
         "title": f'link "{link.name}"',
     }
     record = {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
-    model = link_model(visuals, collisions, options)
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
-    model["note"] = note
+    model = link_model(visuals, collisions, options) | {"note": note}
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, "link/record.mo.jinja", named | record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, "link/model.mo.jinja", named | model, owner),

@@ -71,11 +71,9 @@ class UrdfDomain(Domain):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
-        keys = [(kind, name) for kind in ("link", "joint") for name in snapshot[f"{kind}s"]]
-        found: dict[str, dict[str, str]] = {"links": {}, "joints": {}}
-        for (kind, name), identifier in identify(keys, (target.name,)).items():
-            found[f"{kind}s"][name] = identifier.component
-        return found
+        kinds = ("link", "joint")
+        found = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
+        return {f"{kind}s": {name: found[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
@@ -89,16 +87,9 @@ class UrdfDomain(Domain):
         """Return the meshes of the shapes that something in the package is made of."""
         if options.meshes != "import":
             return ()
-        # Without links that say nothing of meshes: converting all of 1,000 links takes as long as the rest here.
-        links = {
-            name: link
-            for name, link in snapshot["links"].items()
-            if any(shape["geometry"]["kind"] == "mesh" for shape in (*link["visuals"], *link["collisions"]))
-        }
-        if not options.collisions or ("package" not in options.approach and options.base == "fixed"):
-            links = {name: {**link, "collisions": []} for name, link in links.items()}
-        robot = from_snapshot({**snapshot, "links": links, "joints": {}, "extensions": {}})
-        return dependencies(robot, lookup, lines, touches=options.base == "floating")
+        has_collisions = options.collisions and ("package" in options.approach or options.base == "floating")
+        kinds = ("visual", "collision") if has_collisions else ("visual",)
+        return dependencies(snapshot["links"], kinds, lookup, lines, touches=options.base == "floating")
 
     def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
         """Return a mesh as STL or OBJ, with its bounds and its outermost points."""

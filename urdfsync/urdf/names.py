@@ -76,16 +76,14 @@ def spell(name: str, kind: str) -> str:
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
-    """Sort key in which `link10` follows `link9`; total: distinct names have distinct keys."""
-    return tuple(map(_part_key, _PARTS.findall(name)))
+    """Sort key in which `link10` follows `link9`; total: distinct names have distinct keys.
 
-
-def _part_key(part: str) -> tuple[int, int, str, str]:
-    """Numbers before words; numbers by value, however long they are, then by the zeros that lead them."""
-    if not "0" <= part[0] <= "9":
-        return 1, 0, part, part
-    digits = part.lstrip("0")
-    return 0, len(digits), digits, part
+    Numbers go before words, by their value, however long they are, and then by the zeros that lead them.
+    """
+    return tuple(
+        (0, len(part.lstrip("0")), part.lstrip("0"), part) if "0" <= part[0] <= "9" else (1, 0, part, part)
+        for part in _PARTS.findall(name)
+    )
 
 
 def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Identifier]:

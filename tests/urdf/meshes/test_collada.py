@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import trimesh
 
-from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Array, bounds
+from urdfsync.urdf.meshes.process import MeshError
 from urdfsync.urdf.meshes.reading import read_mesh
 
 BOX = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

@@ -18,8 +18,7 @@ from support.urdfs import link, robot
 
 from urdfsync import cli
 from urdfsync.urdf.meshes import process
-from urdfsync.urdf.meshes.errors import MeshError
-from urdfsync.urdf.meshes.process import MeshProcess
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess
 
 Capture = pytest.CaptureFixture[str]
 

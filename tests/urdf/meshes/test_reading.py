@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Array, import_form
+from urdfsync.urdf.meshes.process import MeshError
 from urdfsync.urdf.meshes.reading import read_mesh
 
 BOX = trimesh.creation.box((0.5, 1.0, 2.0))

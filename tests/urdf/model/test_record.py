@@ -10,7 +10,6 @@ from hypothesis import given
 from support.packages import record_components, record_text
 from support.robots import robots, tree
 
-from urdfsync.domain import Target
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import record_data
@@ -36,7 +35,7 @@ from urdfsync.urdf.robot import (
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     skeleton, options = KinematicTree.of(robot), Options()
     connectors = connector_names(skeleton, options)
-    found = record_data("", skeleton, connectors, {}, Target("Arm", "Arm"), options)
+    found = record_data("", skeleton, connectors, {}, "Arm", options)
     names = [link["name"] for link in found["links"]]
     matrix = found["structure"]["connection_matrix"]
     assert {(names[parent - 1], names[child - 1]) for parent, child in matrix} == {

@@ -8,7 +8,7 @@ from support.urdfs import dynamics, joint, limit, link, links, mimic, parsed, ro
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio, with_inertias
-from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import read
 from urdfsync.urdf.robot import Robot
 
 ENDS = '<parent link="base"/><child link="arm"/>'

@@ -15,7 +15,7 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.physics.reading import read
+from urdfsync.urdf.physics.reference import read
 
 BOT = Target("Bot", "Bot")
 POSE = (("position", "m"), ("orientation", ""))

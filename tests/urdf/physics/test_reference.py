@@ -13,8 +13,7 @@ from support.urdfs import joint, links, mimic, parsed, robot
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.reading import read
-from urdfsync.urdf.physics.reference import Configuration, Instant, Reference
+from urdfsync.urdf.physics.reference import Configuration, Instant, Reference, read
 
 Array = NDArray[np.float64]
 

@@ -69,7 +69,9 @@ def interface(
     for link in before.links:
         name = renames.get(("link", link.name), link.name)
         if ("link", name) in after.names:
-            found += _of_frame(name, was.frames.get(link.name), now.frames.get(name))
+            one, other = was.frames.get(link.name), now.frames.get(name)
+            hint = "" if other else f'list "{name}" in `frames` to keep it'
+            found += [Effect((f"link {name}", "frame"), one, other, hint=hint)] if one != other else []
     for joint in before.joints:
         name = renames.get(("joint", joint.name), joint.name)
         if ("joint", name) in after.names:
@@ -83,12 +85,6 @@ def interface(
     if positions != new_positions:
         found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions) or None))
     return found
-
-
-def _of_frame(link: str, old: str | None, new: str | None) -> Iterator[Effect]:
-    if old != new:
-        hint = "" if new else f'list "{link}" in `frames` to keep it'
-        yield Effect((f"link {link}", "frame"), old, new, hint=hint)
 
 
 def _of_drive(joint: str, old: Drive | None, new: Drive | None) -> Iterator[Effect]:

@@ -16,8 +16,8 @@ import numpy as np
 from lxml import etree
 from trimesh.exchange.dae import load_collada
 
-from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Triangles, placed
+from urdfsync.urdf.meshes.process import MeshError
 
 _NO_SHAPE = (
     "library_animations",

@@ -7,8 +7,7 @@ from pathlib import Path
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.errors import MeshError
-from urdfsync.urdf.meshes.process import MeshProcess
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 

@@ -11,12 +11,11 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from urdfsync.urdf.meshes.errors import MeshError
+from urdfsync.urdf.meshes.process import Facts, MeshError
 from urdfsync.urdf.robot import Vector
 
 Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
-Facts: TypeAlias = dict[str, list[list[float]]]
 
 MAX_TRIANGLES = 1_000_000
 """Of one mesh, in all its places; so many have 50 MB as binary STL."""

@@ -11,12 +11,16 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator, Mapping
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
+from typing import Any
 from urllib.parse import unquote
 
+import msgspec
+
 from urdfsync.domain import Dependency, Lookup
-from urdfsync.urdf.robot import Mesh, Robot, Vector
+from urdfsync.urdf.robot import Mesh, Vector
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
@@ -66,39 +70,35 @@ def target(mesh: Mesh) -> str:
     return f"Resources/{stem}_{digits}{suffix(mesh.filename) if as_is(mesh) else '.stl'}"
 
 
-def dependencies(robot: Robot, lookup: Lookup, lines: Mapping[str, int], *, touches: bool) -> tuple[Dependency, ...]:
-    """The mesh files of all visuals and collisions, each URI and scale once, in the order of their keys.
+def dependencies(
+    links: Mapping[str, Any], kinds: Sequence[str], lookup: Lookup, lines: Mapping[str, int], *, touches: bool
+) -> tuple[Dependency, ...]:
+    """The mesh files of the visuals and collisions of a snapshot, each URI and scale once, in the order of their keys.
 
-    Those of collisions need outermost points if the robot touches the ground.
+    `kinds` are the shapes that count. Those of collisions need outermost points if the robot touches the ground.
 
     `lines` holds the line of each element by its path, as reading the source gave it; those of the shapes count, for
     example `link wheel / visual 2 / geometry`, else those of their links.
     """
-    found: dict[str, tuple[Mesh, list[int]]] = {}
-    touching = set[str]()
-    for link in robot.links:
-        visuals, collisions = ([one.geometry for one in shapes] for shapes in (link.visuals, link.collisions))
-        for kind, shapes in (("visual", visuals), ("collision", collisions)):
-            for number, shape in enumerate(shapes, start=1):
-                if not isinstance(shape, Mesh):
-                    continue
-                name = key(shape)
-                place = f"link {link.name} / {kind} {number} / geometry"
-                line = lines.get(place, lines.get(f"link {link.name}", 0))
-                found.setdefault(name, (shape, []))[1].append(line)
-                if kind == "collision" and touches:
-                    touching.add(name)
+    found = defaultdict[Mesh, list[tuple[str, int]]](list)
+    for name, link in links.items():
+        for kind in kinds:
+            for number, shape in enumerate(link[f"{kind}s"], start=1):
+                if shape["geometry"]["kind"] == "mesh":
+                    place = f"link {name} / {kind} {number} / geometry"
+                    line = lines.get(place, lines.get(f"link {name}", 0))
+                    found[msgspec.convert(shape["geometry"], Mesh)].append((kind, line))
     return tuple(
         Dependency(
-            name,
+            key(mesh),
             mesh.filename,
             candidates(mesh.filename, lookup),
             target(mesh),
             "mesh",
-            min(filter(None, at), default=0),
-            facts=(BOUNDS, HULL) if name in touching else (BOUNDS,),
+            min((line for _, line in places if line), default=0),
+            facts=(BOUNDS, HULL) if touches and "collision" in dict(places) else (BOUNDS,),
         )
-        for name, (mesh, at) in sorted(found.items())
+        for mesh, places in sorted(found.items(), key=lambda item: key(item[0]))
     )
 
 

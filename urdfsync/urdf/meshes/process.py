@@ -12,7 +12,6 @@ from typing import IO, TypeAlias, cast
 import msgspec
 
 from urdfsync.processes import importable, python_module
-from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.robot import Vector
 
 CPU_SECONDS = 4.0
@@ -26,6 +25,11 @@ _MAX_LINE = 10_000_000
 _MAX_STL = 60_000_000
 
 Facts: TypeAlias = dict[str, list[list[float]]]
+"""Of a shape, by name: see `convert`."""
+
+
+class MeshError(Exception):
+    """A mesh can't be used; the text is the second half of `the mesh … can't be read: it …`."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -88,10 +92,8 @@ class MeshProcess:
         if process is not None:
             atexit.unregister(self.end)
             process.kill()
-            process.wait()
-            for pipe in (process.stdin, process.stdout):
-                with contextlib.suppress(OSError):  # what was not written is lost
-                    cast(IO[bytes], pipe).close()
+            with contextlib.suppress(OSError), process:  # closes its pipes and waits; what was not written is lost
+                pass
 
     def _start(self) -> subprocess.Popen[bytes]:
         atexit.register(self.end)

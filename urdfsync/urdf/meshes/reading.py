@@ -14,8 +14,8 @@ import numpy as np
 import trimesh
 
 from urdfsync.urdf.meshes.collada import collada_parts
-from urdfsync.urdf.meshes.errors import MeshError
 from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
+from urdfsync.urdf.meshes.process import MeshError
 
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
 _FACES = {

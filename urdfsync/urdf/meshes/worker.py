@@ -12,8 +12,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.processes import reserve_stdout
-from urdfsync.urdf.meshes.errors import MeshError
-from urdfsync.urdf.meshes.process import MEMORY, Answer, Request
+from urdfsync.urdf.meshes.process import MEMORY, Answer, MeshError, Request
 
 if sys.platform != "win32":
     import resource

@@ -1,11 +1,11 @@
-"""Template data of the record approach: `<Robot>Parameters.mo` and its bench, `<Robot>Generic.mo`."""
+"""Template data of the record of a whole robot, `<Robot>Parameters.mo`."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from urdfsync.domain import Import, Target
+from urdfsync.domain import Import
 from urdfsync.urdf.connectors import Connectors, free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
@@ -17,25 +17,12 @@ NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
 
 
-def generic_data(tree: KinematicTree, target: Target, options: Options) -> dict[str, Any]:
-    """Return the data of the bench in which the generic robot reads the record: structure only."""
-    return {
-        "within": target.package,
-        "type": target.name,
-        "record": f"{target.name}Parameters",
-        "title": f"robot {target.name}",
-        "base": options.base,
-        "rotational_axes": len(tree.axes("rotational")),
-        "translational_axes": len(tree.axes("translational")),
-    }
-
-
 def record_data(
     name: str,
     tree: KinematicTree,
     names: Connectors,
     imports: Mapping[str, Import],
-    target: Target,
+    package: str,
     options: Options,
 ) -> dict[str, Any]:
     """Return the data of the record of a whole robot; `name` is the robot's in the URDF.
@@ -45,19 +32,12 @@ def record_data(
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
     links, joints, drawn = [], [], []
     for number, link in enumerate(tree.links, 1):
-        identifier, (visuals, _) = tree.link(link.name), link_shapes(link, imports, target.package, options)
+        identifier, (visuals, _) = tree.link(link.name), link_shapes(link, imports, package, options)
         shapes = [
             shape | {"component": free_name(identifier, shape["component"].capitalize(), taken)} for shape in visuals
         ]
-        links.append(
-            {
-                "number": number,
-                "component": identifier.component,
-                "name": link.name,
-                "inertial": link.inertial,
-                "visuals": shapes,
-            }
-        )
+        data = {"number": number, "component": identifier.component, "name": link.name}
+        links.append({**data, "inertial": link.inertial, "visuals": shapes})
         for shape in shapes:
             kinds = ("Capsule", "LowerEnd", "UpperEnd") if shape["type"] == "Capsule" else (shape["type"],)
             length_axis = 1 if shape["type"] in ("Box", "Mesh") else 3  # of the shape frame: 1 is x, 3 is z
@@ -66,9 +46,8 @@ def record_data(
                 for kind in kinds
             ]
     for number, joint in enumerate(tree.joints, 1):
-        limits = joint.limit or NO_LIMITS
-        component = tree.joint(joint.name).component
-        joints.append({"number": number, "component": component, "joint": joint, "limits": limits})
+        data = {"number": number, "component": tree.joint(joint.name).component}
+        joints.append({**data, "joint": joint, "limits": joint.limit or NO_LIMITS})
     numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
     moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
 
@@ -94,12 +73,8 @@ def record_data(
         "axes": axes if is_generic else [],
     }
     return {
-        "within": target.package,
-        "type": target.name,
-        "record": f"{target.name}Parameters",
-        "title": f"robot {target.name}",
         "is_generic": is_generic,
-        "uses": () if target.package else USES,
+        "uses": () if package else USES,
         "name": name,
         "standing_height": standing_height(tree, imports) if options.base == "floating" else None,
         "structure": structure,

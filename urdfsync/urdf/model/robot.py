@@ -5,10 +5,12 @@ They depend on the structure of the robot alone, on no number of the URDF.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping
 from typing import Any
 
-from urdfsync.domain import Target
+import msgspec
+
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -25,48 +27,27 @@ def joint_title(joint: Joint) -> str:
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
 
 
-def robot_data(tree: KinematicTree, names: Connectors, target: Target, options: Options) -> Mapping[str, Any]:
+def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
     """Return the data of the robot model; `tree` has no numbers."""
-    top = _icon_top(names)
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
-    followers = tree.followers_by_leader()
-    joints, couplings = [], []
-    for joint in tree.joints:
-        identifier, follows = tree.joint(joint.name), None
-        drive = names.drives.get(joint.name)
-        if joint.mimic is not None:
-            # A leader that does not move holds its follower, which then has none in the model.
-            motion = motions[joint.mimic.joint]
-            leader = tree.joint(joint.mimic.joint).component if motion else None
-            follows = {"leader": leader, "leader_motion": motion}
-            coupling = {
-                "component": names.couplings[joint.name],
-                "follower": identifier.component,
-                "follower_motion": motions[joint.name],
-                "name": joint.name,
-                "leader_name": joint.mimic.joint,
-            }
-            couplings.append(follows | coupling)
-        part = {
-            "component": identifier.component,
-            "type": identifier.type,
-            "kind": joint.type,
-            "title": joint_title(joint),
-            "axis": drive.axis if drive else None,
-            "follows": follows,
-            "followers": [
-                names.couplings[follower.name]
-                for follower, _ in followers.get(joint.name, ())
-                if motions[joint.name] is not None
-            ],
+    couplings: dict[str, dict[str, Any]] = {
+        joint.name: {
+            "component": names.couplings[joint.name],
+            "follower": tree.joint(joint.name).component,
+            "follower_motion": motions[joint.name],
+            "name": joint.name,
+            # a leader that does not move holds its follower, which then has none in the model
+            "leader": tree.joint(mimic.joint).component if motions[mimic.joint] else None,
+            "leader_motion": motions[mimic.joint],
+            "leader_name": mimic.joint,
         }
-        joints.append(part)
-    diagram = layout(tree, names)
+        for joint, mimic in tree.followers()
+    }
+    followers = defaultdict[str | None, list[str]](list)
+    for coupling in couplings.values():
+        followers[coupling["leader"]].append(coupling["component"])
+    diagram, top = layout(tree, names), _icon_top(names)
     return {
-        "within": target.package,
-        "type": target.name,
-        "title": f"robot {target.name}",
-        "base": options.base,
         "frames": [
             {"connector": connector, "link": tree.link(name).component, "name": name, "y": top - 10 - _ROW * row}
             for row, (name, connector) in enumerate(names.frames.items())
@@ -76,11 +57,22 @@ def robot_data(tree: KinematicTree, names: Connectors, target: Target, options: 
             {"component": tree.link(link.name).component, "type": tree.link(link.name).type, "name": link.name}
             for link in tree.links
         ],
-        "joints": joints,
-        "couplings": couplings,
+        "joints": [
+            {
+                "component": tree.joint(joint.name).component,
+                "type": tree.joint(joint.name).type,
+                "kind": joint.type,
+                "title": joint_title(joint),
+                "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
+                "follows": couplings.get(joint.name),
+                "followers": followers[tree.joint(joint.name).component],
+            }
+            for joint in tree.joints
+        ],
+        "couplings": list(couplings.values()),
         "top": top,
         "extent": _extent(diagram.extent),
-        "diagram": {name: _extent((box.x1, box.y1, box.x2, box.y2)) for name, box in diagram.placements.items()},
+        "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
         "lines": [
             {"start": start, "end": end, "kind": kind, "points": ", ".join([f"{{{x}, {y}}}" for x, y in points])}
             for (start, end), (kind, points) in diagram.lines.items()
@@ -88,26 +80,19 @@ def robot_data(tree: KinematicTree, names: Connectors, target: Target, options: 
     }
 
 
-def bench_data(tree: KinematicTree, names: Connectors, target: Target, options: Options) -> dict[str, Any]:
+def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
     The robot's icon has one and a half times its size in the diagram, so that its rows are 30 apart, and a drive of
     20 has its place beside each.
     """
-    top = _icon_top(names)
-    drives = []
-    for row, drive in zip(_drives(tree, names), names.drives.values(), strict=True):
-        if drive.effort:
-            variables = {"position": drive.position, "effort": drive.effort}
-            drives.append(row | variables | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]})
+    top, rows = _icon_top(names), _drives(tree, names)
     return {
-        "within": target.package,
-        "type": target.name,
-        "title": f"robot {target.name}",
-        "base": options.base,
         "visualizer": options.visualizer,
-        "drives": drives,
-        "passive": [tree.joint(name).component for name, drive in names.drives.items() if not drive.effort],
+        "drives": [
+            row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["effort"] is not None
+        ],
+        "passive": [row["joint"] for row in rows if row["effort"] is None],
         "inputs": options.inputs,
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
@@ -119,14 +104,7 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
     """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there."""
     top = _icon_top(names)
     return [
-        {
-            "joint": tree.joint(name).component,
-            "name": name,
-            "motion": drive.motion,
-            "axis": drive.axis,
-            "support": drive.support,
-            "y": top - 10 - _ROW * row,
-        }
+        {"joint": tree.joint(name).component, "name": name, "y": top - 10 - _ROW * row, **msgspec.structs.asdict(drive)}
         for row, (name, drive) in enumerate(names.drives.items())
     ]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias
 
 from urdfsync.domain import Import
 from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
@@ -13,7 +13,6 @@ from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Origin, Sphere, Visual
 
-_Shape = TypeVar("_Shape", Visual, Collision)
 _Body: TypeAlias = Box | Cylinder | Capsule | Sphere | Sequence[Sequence[float]]
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
@@ -31,20 +30,21 @@ def link_shapes(
     outermost points.
     """
     visuals: list[dict[str, Any]] = []
-    for visual, shape in _shapes("visual", link.visuals, imports, package):
-        shape["y"] = _ROW * (len(visuals) + 1)
-        shape["color"], shape["opacity"] = GREY, 1.0
-        if visual.material is not None and visual.material.rgba is not None:
-            *rgb, alpha = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
-            shape["color"], shape["opacity"] = tuple(round(255 * part) for part in rgb), alpha
-        visuals.append(shape)
+    for number, visual in enumerate(link.visuals, 1):
+        if shape := _shape("visual", number, visual, imports, package):
+            color, opacity = GREY, 1.0
+            if visual.material is not None and visual.material.rgba is not None:
+                red, green, blue, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
+                color = round(255 * red), round(255 * green), round(255 * blue)
+            visuals.append(shape | {"y": _ROW * (len(visuals) + 1), "color": color, "opacity": opacity})
     collisions: list[dict[str, Any]] = []
-    for collision, shape in _shapes("collision", link.collisions, imports, package) if options.collisions else ():
-        shape |= {"y": -_ROW * (len(collisions) + 1), "is_collision": True, "color": PINK, "opacity": 0.5}
-        if options.base == "floating":
-            shape["hull"] = hull(collision.geometry, imports)
-            shape["touches"] = not isinstance(collision.geometry, Mesh) or bool(shape["hull"])
-        collisions.append(shape)
+    for number, collision in enumerate(link.collisions if options.collisions else (), 1):
+        if shape := _shape("collision", number, collision, imports, package):
+            shape |= {"y": -_ROW * (len(collisions) + 1), "is_collision": True, "color": PINK, "opacity": 0.5}
+            if options.base == "floating":
+                shape["hull"] = hull(collision.geometry, imports)
+                shape["touches"] = not isinstance(collision.geometry, Mesh) or bool(shape["hull"])
+            collisions.append(shape)
     return visuals, collisions
 
 
@@ -115,26 +115,24 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
     return None if lowest is None else round(-lowest, 12)
 
 
-def _shapes(
-    word: str, shapes: Sequence[_Shape], imports: Mapping[str, Import], package: str
-) -> Iterator[tuple[_Shape, dict[str, Any]]]:
-    """Yield each shape that can be shown, with what visuals and collisions have in common."""
-    for number, shape in enumerate(shapes, 1):
-        found = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
-        if isinstance(shape.geometry, Mesh) and found is None:
-            continue
-        label = f"{word.capitalize()} {number}"
-        data = {
-            "component": f"{word}{number}",
-            "type": type(shape.geometry).__name__,
-            "label": label,
-            "title": f'{label}: "{shape.name}"' if shape.name else label,
-            "is_collision": False,
-            "touches": False,
-            "origin": shape.origin,
-            "geometry": shape.geometry,
-            "uri": f"modelica://{package}/{found.target}" if found else "",
-            "bounds": found.facts["bounds"] if found else (),
-            "hull": (),
-        }
-        yield shape, data
+def _shape(
+    word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
+) -> dict[str, Any] | None:
+    """Return what visuals and collisions have in common; None for a shape that can't be shown."""
+    found = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
+    if isinstance(shape.geometry, Mesh) and found is None:
+        return None
+    label = f"{word.capitalize()} {number}"
+    return {
+        "component": f"{word}{number}",
+        "type": type(shape.geometry).__name__,
+        "label": label,
+        "title": f'{label}: "{shape.name}"' if shape.name else label,
+        "is_collision": False,
+        "touches": False,
+        "origin": shape.origin,
+        "geometry": shape.geometry,
+        "uri": f"modelica://{package}/{found.target}" if found else "",
+        "bounds": found.facts["bounds"] if found else (),
+        "hull": (),
+    }

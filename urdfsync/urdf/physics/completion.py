@@ -13,13 +13,13 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.robot import Inertia
 
-_TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _NEEDED = {
     "joint/limit": {"effort": "1000", "velocity": "1000"},
     "joint/safety_controller": {"k_velocity": "0"},
     "link/inertial/mass": {"value": "0"},
-    "link/inertial/inertia": dict.fromkeys(_TENSOR, "0"),
+    "link/inertial/inertia": dict.fromkeys(Inertia.__struct_fields__, "0"),
 }
 """Attributes that Pinocchio's reader insists on."""
 _POINTS = 4  # made-up inertias are those of so many equal masses: not diagonal, and never impossible
@@ -98,7 +98,7 @@ def _made_up_inertial(link: str) -> Element:
     mass = round(draw.uniform(0.5, 3), 3)
     points = [[draw.uniform(-0.15, 0.15) for _ in range(3)] for _ in range(_POINTS)]
     tensor = {}
-    for name in _TENSOR:
+    for name in Inertia.__struct_fields__:
         i, j = ("xyz".index(letter) for letter in name[1:])
         products = sum((i == j) * sum(x * x for x in point) - point[i] * point[j] for point in points)
         tensor[name] = repr(round(products * mass / _POINTS, 6))

@@ -5,13 +5,14 @@ It relies on little of the package, so that packages may be edited: on the varia
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 import msgspec
 
-from urdfsync.domain import Probe, Target
+from urdfsync.domain import Compared, Probe, Quantity, Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
@@ -60,19 +61,25 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Of the robot, up to the modifiers that depend on the comparison."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
-    places: Mapping[str, Sequence[str]]
+    places: Mapping[str, tuple[str, ...]]
     """By link: the three coordinates of its frame, in the world."""
-    axes: Mapping[str, Sequence[str]]
+    axes: Mapping[str, tuple[str, ...]]
     """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
     """By joint that can be driven: the connector of its axis."""
 
-    def efforts(self, tree: KinematicTree) -> dict[str, str]:
-        """By driven joint: what drives it, in the order of `motion.driven_axes`."""
-        return {
-            joint.name: f"{self.flanges[joint.name]}.{'tau' if MOTION_KINDS[joint.type] == 'rotational' else 'f'}"
-            for joint in motion.driven_axes(tree)
-        }
+    def compared(self, tree: KinematicTree) -> Iterator[Compared]:
+        """Yield all that is compared, from the root outwards."""
+        for link in tree.links:
+            yield Compared(Quantity.POSITION, f"link {link.name}", "m", self.places[link.name])
+            yield Compared(Quantity.ORIENTATION, f"link {link.name}", "", self.axes[link.name])
+        for joint in filter(can_be_driven, tree.joints):
+            unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
+            yield Compared(Quantity.EFFORT, f"joint {joint.name}", unit, (f"{self.flanges[joint.name]}.{effort}",))
+        yield Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N", FORCE)
+        yield Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N·m", TORQUE)
+        yield Compared(Quantity.MASS, "robot", "kg", MASS)
+        yield Compared(Quantity.CENTRE, "robot", "m", CENTRE)
 
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
@@ -80,15 +87,15 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
 
     With the record, the generic robot is moved: links are numbers there, and only their poses are told.
     """
-    places, axes = dict[str, list[str]](), dict[str, list[str]]()
+    places, axes = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]]()
     moments, three = list[str](), (1, 2, 3)
     if "package" in options.approach:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in connector_names(tree, options).drives.items()}
         for link in tree.links:
             part = f"robot.{tree.link(link.name).component}"
-            places[link.name] = [f"{part}.frame_a.r_0[{i}]" for i in three]
-            axes[link.name] = [f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three]
+            places[link.name] = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
+            axes[link.name] = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
             centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
             moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
     else:
@@ -101,8 +108,8 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
             for number, joint in enumerate(tree.axes(kind), 1)
         }
         for k, link in enumerate(tree.links, 1):
-            places[link.name] = [f"robot.r_0[{k},{i}]" for i in three]
-            axes[link.name] = [f"robot.R_0[{k},{j},{i}]" for i in three for j in three]
+            places[link.name] = tuple(f"robot.r_0[{k},{i}]" for i in three)
+            axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
     return RobotVariables(declaration, " + ".join(moments), places, axes, flanges)
@@ -139,6 +146,5 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    values = [name for link in tree.links for name in (*names.places[link.name], *names.axes[link.name])]
-    values += [*names.efforts(tree).values(), *FORCE, *TORQUE, *MASS, *CENTRE]
-    return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, tuple(values))
+    values = tuple(value for one in names.compared(tree) for value in one.values)
+    return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, values)

@@ -1,5 +1,8 @@
 """The reference: poses and efforts of a robot by Pinocchio, at prescribed motion.
 
+Nothing of ours is between the file and the reference but its XML, from which only `mimic` elements are taken, since
+Pinocchio's reader leaves them out.
+
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes, so that
 the efforts of these are Bᵀ·tau.
@@ -7,20 +10,67 @@ the efforts of these are Bᵀ·tau.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.extras import install_command
+from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reading import Array, PinocchioRobot, pinocchio
+from urdfsync.urdf.robot import Mimic
+
+Array = NDArray[np.float64]
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
 
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
+
+
+class PinocchioRobot(NamedTuple):
+    """What the reference knows of a robot."""
+
+    model: Any
+    """Pinocchio's model; its first joint is the free motion of the root link."""
+    followers: Mapping[str, Mimic]
+    """By joint."""
+
+
+def read(content: bytes, file: str) -> PinocchioRobot:
+    """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file."""
+    pin = pinocchio()
+    root = xml.parse(content).root
+    followers = {
+        joint.get("name", ""): Mimic(
+            mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
+        )
+        for joint in root.findall("joint")
+        for mimic in joint.findall("mimic")
+    }
+    unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter()))
+    try:
+        model = pin.buildModelFromXML(content.decode("utf-8-sig"), pin.JointModelFreeFlyer(), unused)
+    except (ValueError, RuntimeError) as error:
+        message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
+        hint = "correct the file, or compare it without physics"
+        raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
+    return PinocchioRobot(model, followers)
+
+
+def pinocchio() -> Any:
+    """The library; raises SourceError if it is not installed."""
+    try:
+        import pinocchio  # an optional extra
+    except ImportError:
+        message = "Pinocchio, the reference for physics, is not installed"
+        hint = install_command("physics")
+        raise SourceError(Diagnostic(Severity.ERROR, "no-pinocchio", message, hint=hint)) from None
+    return pinocchio
 
 
 class Configuration(msgspec.Struct, frozen=True):
