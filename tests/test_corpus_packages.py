@@ -27,8 +27,8 @@ from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.parser import parse
 
 BOT = Target("Bot", "Bot")
-PARTS = [pytest.param(part, marks=pytest.mark.large if part > 3 else pytest.mark.slow) for part in range(16)]
-"""The slower parser's work is cut into so many tests: four of them are a quarter of all kinds of text."""
+PARTS = [pytest.param(part, marks=pytest.mark.large if part else pytest.mark.slow) for part in range(8)]
+"""The slower parser's work is cut into so many tests."""
 
 TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtlebot3"
 SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
@@ -48,6 +48,14 @@ SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
 each_source = pytest.mark.parametrize("files", SOURCES.values(), ids=SOURCES)
 """One robot, or all versions of one history."""
+some_sources = pytest.mark.parametrize(
+    "files",
+    [
+        pytest.param(files, id=source, marks=pytest.mark.large if number % 4 else pytest.mark.slow)
+        for number, (source, files) in enumerate(SOURCES.items())
+    ],
+)
+"""The same, of which CI takes every fourth."""
 
 
 @functools.cache
@@ -164,8 +172,7 @@ def test_orders_are_complete_and_names_are_distinct(files: Sequence[str], corpus
         assert all(map(is_identifier, components))
 
 
-@pytest.mark.slow
-@each_source
+@some_sources
 def test_the_compiler_accepts_layout_and_names_of_all_versions(
     files: Sequence[str], corpus: Path, tmp_path: Path
 ) -> None:

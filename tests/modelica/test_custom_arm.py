@@ -113,6 +113,7 @@ def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series])
     assert np.array([series.values[name] for name in IMU]) == pytest.approx(np.array(expected), rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.large
 def test_the_whole_arm_holds_itself_and_its_payload(modelica_library: Path) -> None:
     """The torque is that of the plain robot, as Pinocchio has it, and that of the payload, by hand."""
     runs, values = [Run(0.08, 0.04, STIFF)], ["robot.elbowAxis.tau", "robot.imu.f[3]"]

@@ -111,9 +111,10 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
 
 def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Without drives."""
-    packages, tasks, accelerations = zip(*(release(name.title(), urdf) for name, urdf in DRIVEN.items()), strict=True)
+    robots = {name: DRIVEN[name] for name in ("types", "massless", "gripper")}
+    packages, tasks, accelerations = zip(*(release(name.title(), urdf) for name, urdf in robots.items()), strict=True)
     runs = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)
-    for name, task, expected, series in zip(DRIVEN, tasks, accelerations, runs, strict=True):
+    for name, task, expected, series in zip(robots, tasks, accelerations, runs, strict=True):
         found = np.array([series.values[value][0] for value in task.values])
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max()), name
 
@@ -157,7 +158,6 @@ FAULTS: Mapping[str, tuple[str, Callable[[str], str], dict[str, set[Quantity]]]]
         replaced("ixy = 0.003", "ixy = -0.003"),
         {"joint elbow": {EFFORT}, "link base": {REACTION}},
     ),
-    "product_of_root": ("Links/BaseParameters.mo", replaced("ixy = 0.004", "ixy = -0.004"), {"link base": {REACTION}}),
     "order_of_angles": (
         "Joints/GripParameters.mo",
         replaced("rpy = {0.5, -0.6, 0.7}", "rpy = {0.7, -0.6, 0.5}"),
@@ -173,7 +173,6 @@ FAULTS: Mapping[str, tuple[str, Callable[[str], str], dict[str, set[Quantity]]]]
         without_coupling,
         {"link finger": {POSITION}, "robot": {Quantity.CENTRE}, "joint elbow": {EFFORT}, "link base": {REACTION}},
     ),
-    "damping": ("Joints/ElbowParameters.mo", replaced("damping = 0.5", "damping = 0"), {"joint elbow": {EFFORT}}),
     "digit": (
         "Links/FingerParameters.mo",
         replaced("mass = 0.4", "mass = 0.40000001"),

@@ -89,12 +89,11 @@ def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> None:
+    """Run of the one on a fixed base, Test of the one that can go anywhere."""
     targets = {"fixed": Target("Bolted", "Bolted"), "floating": Target("Free", "Free")}
     folders = [menagerie(variant, target).write(tmp_path) for variant, target in targets.items()]
-    models = [f"{name}.{name}{bench}" for name in ("Bolted", "Free") for bench in ("", "Run", "Test")]
-    outcomes = execute(modelica_library, folders, [compile_task(model) for model in models])
-    errors = {model: outcome.error for model, outcome in zip(models, outcomes, strict=True) if outcome.error}
-    assert errors == {}
+    tasks = [compile_task(model) for model in ("Bolted.BoltedRun", "Free.FreeTest")]
+    assert [outcome.error for outcome in execute(modelica_library, folders, tasks)] == ["", ""]
 
 
 def test_every_template_is_in_use() -> None:
