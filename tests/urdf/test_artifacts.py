@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import pymoca.parser
 import pytest
 
 if __name__ == "__main__":
@@ -81,8 +82,11 @@ def test_the_text_is_the_golden_one(variant: str) -> None:
 
 @every_golden_folder
 def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
+    """To the compiler, to another parser, and to our own."""
     rumoca = pytest.importorskip("rumoca")
     folder = golden(variant).write(tmp_path)
+    models = [text for path, text in kept(variant).items() if path.endswith(".mo")]
+    assert None not in [pymoca.parser.parse(text, bypass_cache=True) for text in models]
     assert {path.name: found for path in folder.rglob("*.mo") if (found := rumoca.validate(str(path)))} == {}
     assert [path for path, text in golden(variant).models.items() if parse(text).faults] == []
 
