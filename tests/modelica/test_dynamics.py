@@ -205,19 +205,6 @@ def test_functions_agree_with_pinocchio_for_robots_of_the_corpus(
     assert max(worst.values()) < CLOSE, worst
 
 
-def test_an_error_in_any_element_of_any_result_is_found() -> None:
-    """However small it is beside the greatest element."""
-    expected = Functions(generic.GRIPPER.encode()).expected(1)
-    assert max(errors(expected, expected).values()) == 0
-    for part, array in expected.items():
-        size = max(abs(expected["mass"]).max(), abs(array).max(), 1)
-        for place in np.ndindex(array.shape):
-            wrong = array.astype(float)
-            wrong[place] += 2 * CLOSE * size
-            found = errors({**expected, part: wrong}, expected)
-            assert [name for name, error in found.items() if error > CLOSE] == [part], place
-
-
 def test_an_axis_of_any_length_counts_as_a_direction(modelica_library: Path, tmp_path: Path) -> None:
     """As in the joints of the package."""
     folder = generate(generic.GRIPPER.encode(), Target("Bot", "Bot"), approach=("record",)).write(tmp_path)
