@@ -8,8 +8,8 @@ import pytest
 from support import corpus as corpora
 from support.commands import Execute
 
-IN_CI = {"matlab-robotisTurtleBot3Burger", "oems-QARM", "ros-industrial-robotiq-3f-gripper_mesh"}
-"""A mobile robot on wheels, an arm, and a gripper with many links; one that slides is in test_joints."""
+IN_CI = {"matlab-robotisTurtleBot3Burger", "ros-industrial-robotiq-3f-gripper_mesh"}
+"""A mobile robot on wheels, and a gripper with many links; an arm is in test_custom_histories."""
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 """Without a package: see the tests of the reader."""
 LABELS = {corpora.label(file): file for file in corpora.moving_joints() if file not in FAULTY}
