@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from support.corpus import REPOSITORY
 from support.modelica import Run, Task, simulate
+from support.urdfs import joint, links, robot
 
 from urdfsync import cli
 from urdfsync.engine.result import Exit
@@ -18,6 +19,11 @@ from urdfsync.engine.result import Exit
 PAGE = REPOSITORY / "docs" / "templates.md"
 TEMPLATE = "link/model.mo.jinja"
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm"
+SHORT_ARM = robot(
+    *links(base_link=4.0, upper_arm=2.0, forearm=1.0),
+    joint("shoulder", "revolute", "base_link", "upper_arm", axis="0 1 0"),
+    joint("elbow", "revolute", "upper_arm", "forearm", axis="0 0 1"),
+)
 
 
 def block(language: str, containing: str) -> str:
@@ -31,6 +37,17 @@ def project(folder: Path, configuration: str) -> Path:
     """A project with the six-axis arm."""
     shutil.copytree(ARM, folder)
     (folder / "urdfsync.toml").write_text(configuration, encoding="utf-8")
+    return folder
+
+
+def marked_project(folder: Path) -> Path:
+    """A project with the arm and the template of the page."""
+    project(folder, block("toml", "templates"))
+    copy = folder / "templates" / TEMPLATE
+    copy.parent.mkdir(parents=True)
+    shutil.copyfile(REPOSITORY / "templates" / "urdf" / TEMPLATE, copy)
+    (folder / "marker.patch").write_text(block("diff", "marker"), encoding="utf-8")
+    subprocess.run(["git", "apply", "marker.patch"], cwd=folder, check=True)
     return folder
 
 
@@ -50,13 +67,7 @@ def default(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def marked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The package that the page builds."""
-    folder = project(tmp_path_factory.mktemp("marked") / "arm", block("toml", "templates"))
-    copy = folder / "templates" / TEMPLATE
-    copy.parent.mkdir(parents=True)
-    shutil.copyfile(REPOSITORY / "templates" / "urdf" / TEMPLATE, copy)
-    (folder / "marker.patch").write_text(block("diff", "marker"), encoding="utf-8")
-    subprocess.run(["git", "apply", "marker.patch"], cwd=folder, check=True)
-    return build(folder)
+    return build(marked_project(tmp_path_factory.mktemp("marked") / "arm"))
 
 
 def models(package: Path, kind: str) -> dict[str, str]:
@@ -86,14 +97,17 @@ def test_nothing_but_the_models_of_links_has_changed(default: Path, marked: Path
 
 
 @pytest.mark.slow
-def test_the_sensor_measures_the_marker_where_the_extension_puts_it(marked: Path, modelica_library: Path) -> None:
+def test_the_sensor_measures_the_marker_where_the_extension_puts_it(tmp_path: Path, modelica_library: Path) -> None:
+    """Of an arm that ends with the forearm."""
+    folder = marked_project(tmp_path / "arm")
+    (folder / ARM.with_suffix(".urdf").name).write_text(SHORT_ARM)
     # rumoca loads no package for a text unless the text imports it
     imports = "  import Modelica;\n  import UrdfSync;\n  import Arm;\n"
     source = block("modelica", "Tracked").replace("  import Modelica;\n", imports, 1)
     places = {"seen": "robot.seen.r", "link": "robot.forearm.frame_a.r_0"}
     values = [f"{place}[{i}]" for place in places.values() for i in (1, 2, 3)]
     turned = [f"robot.forearm.frame_a.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
-    (series,) = simulate(modelica_library, [marked], [Task(source, "Tracked", [Run(1, 1)], [*values, *turned])])
+    (series,) = simulate(modelica_library, [build(folder)], [Task(source, "Tracked", [Run(1, 1)], [*values, *turned])])
     at = {name: series.end(*(f"{place}[{i}]" for i in (1, 2, 3))) for name, place in places.items()}
     rotation = series.end(*turned).reshape(3, 3)
     assert rotation @ (at["seen"] - at["link"]) == pytest.approx([0.1, 0.04, 0.05], abs=1e-9)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import json
-import shutil
 import sys
 import types
 from collections.abc import Callable
@@ -14,7 +13,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support import fake_omc
-from support.modelica import URDFSYNC
 
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import installed_version, omc, run_job
@@ -24,7 +22,6 @@ from urdfsync.check.compilers.compiler import (
     CompileResult,
     CompileTask,
     Simulation,
-    compile_task,
 )
 from urdfsync.check.process import Limits
 
@@ -35,7 +32,6 @@ ODD = '"[/x/a.mo:1:1-2:2:writable] Warning: Something is odd.\n"\n'
 
 needs_library = pytest.mark.skipif(importlib.util.find_spec("OMPython") is None, reason="no OMPython")
 needs_scripts = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
-needs_omc = pytest.mark.skipif(shutil.which("omc") is None, reason="no omc on the PATH")
 
 
 def work(
@@ -162,16 +158,6 @@ def test_an_omc_that_does_not_start_or_is_not_there_is_one_clear_line(
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(CompilerError, match="`omc` is not on the PATH; install OpenModelica"):
         run_job("omc", CompileJob((), (TASK,)), cache, Limits("the check", 60, 2e9))
-
-
-@needs_library
-@needs_omc
-@pytest.mark.slow
-def test_a_real_omc_compiles_the_double_pendulum(modelica_library: Path, tmp_path: Path) -> None:
-    job = CompileJob((str(modelica_library), str(URDFSYNC)), (compile_task("UrdfSync.Examples.DoublePendulum"),))
-    (result,) = run_job("omc", job, UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9))
-    assert result.problem == ""
-    assert result.unknowns > 0
 
 
 @needs_scripts

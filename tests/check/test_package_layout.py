@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from support import arm, corpus, packages
+from support import arm, corpus
 from support.arm import ELBOW
 
 from urdfsync.check.package import PackageTexts, package_texts
 from urdfsync.check.texts import check_around, check_layout
-from urdfsync.domain import Target
 
 LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"
 WITHIN = f"within {arm.NAME}.Joints;"
@@ -28,16 +27,6 @@ def findings(edits: Mapping[str, str | bytes | None]) -> list[str]:
 
 def test_the_library_with_its_examples_is_sound() -> None:
     assert check_layout(PackageTexts("UrdfSync", LIBRARY, package_texts(LIBRARY))) == []
-
-
-SMALL = [file for file in corpus.robots() if 0 < corpus.moving_joints()[file] <= 3][:4] or [corpus.ABSENT]
-
-
-@pytest.mark.parametrize("file", SMALL, ids=corpus.label)
-def test_generated_packages_are_sound(file: str, corpus: Path) -> None:
-    made = packages.generate(corpus / file, Target("Plant.Robots.Bot", "Bot"))
-    texts = {path: text.encode() for path, text in made.texts.items()}
-    assert check_layout(PackageTexts("Plant.Robots.Bot", Path("Bot"), texts)) == []
 
 
 @pytest.mark.parametrize("edits", [

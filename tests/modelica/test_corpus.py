@@ -1,39 +1,36 @@
-"""Every robot of the corpus as `check --physics` sees it: all its models compile, and it moves as Pinocchio says."""
+"""Every robot of the corpus, as `init` and `check --physics` see it, compiles and moves as Pinocchio says."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import check_corpus
 import pytest
 from support import corpus as corpora
+from support.commands import Execute
 
-IN_CI = {
-    *("matlab-robotisTurtleBot3Burger", "oems-QARM", "oems-jackal"),
-    *("random-schunk_pg70", "ros-industrial-robotiq-3f-gripper_mesh"),
-}
-"""A robot of each kind: wheels, an arm, a mobile base, a gripper that slides, one with many links. Others take long."""
+IN_CI = {"matlab-robotisTurtleBot3Burger", "ros-industrial-robotiq-3f-gripper_mesh"}
+"""A mobile robot on wheels, and a gripper with many links; an arm is in test_custom_histories."""
 FAULTY = {"robots/random/spot_ros/spot_description/urdf/spot_arm.urdf"}
 """Without a package: see the tests of the reader."""
 LABELS = {corpora.label(file): file for file in corpora.moving_joints() if file not in FAULTY}
 CASES = [
-    pytest.param(file, id=label, marks=pytest.mark.slow if label in IN_CI else pytest.mark.large)
+    pytest.param(file, "package", id=label, marks=pytest.mark.slow if label in IN_CI else pytest.mark.large)
     for label, file in LABELS.items()
-]
+] + [pytest.param(file, "record", id=f"{label} (record)", marks=pytest.mark.large) for label, file in LABELS.items()]
 
 
-@pytest.mark.parametrize("file", CASES)
+@pytest.mark.parametrize(("file", "approach"), CASES)
 def test_robots_are_right(
-    file: str,
-    corpus: Path,
-    modelica_library: Path,
-    capsys: pytest.CaptureFixture[str],
+    file: str, approach: str, corpus: Path, modelica_library: Path, folder: Path, execute: Execute
 ) -> None:
     """Stationary or mobile, as `init` proposes. Nothing is built, so nothing is remembered."""
-    code = check_corpus.main([str(corpus / "robots"), "--only", file])
-    printed = capsys.readouterr().out
-    assert code == 0, printed
-    assert "| agrees" in printed
+    execute("init", corpus / file)
+    configuration = folder / "urdfsync.toml"
+    text = configuration.read_text("utf-8").replace("[defaults]\n", f'[defaults]\napproach = ["{approach}"]\n')
+    configuration.write_text(text, "utf-8")
+    (found,) = execute("check", "--physics", "--json", code=1).json["robots"]
+    assert not found["built"]
+    assert (found["failed"], found["gaps"], found["agrees"]) == (False, [], True), found
 
 
 def test_the_robots_of_each_run_are_in_the_corpus(corpus: Path) -> None:

@@ -5,7 +5,6 @@ Pinocchio says what each axis needs for the motion that the simulation has.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -91,19 +90,6 @@ def values(name: str) -> list[str]:
     return [*(f"robot.{name}.{component}.{part}" for part in (q, v, "a")), f"robot.{name}Axis.{effort}"]
 
 
-@pytest.fixture(scope="module")
-def found(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
-    """What each model of the user gives."""
-    folder = generate(BEFORE.encode(), Target("Bot", "Bot")).write(tmp_path_factory.mktemp("customized"))
-    axes = [value for name in AXES for value in values(name)]
-    runs = {"ChangedTest": Run(8, 0.5), "ChangedRun": Run(0.1, 0.05), "RedeclaredTest": Run(8, 0.5, tolerance=1e-10)}
-    tasks = [
-        Task(USERS, f"Users_.{name}", [run], [*axes, *(["mass"] if name == "RedeclaredTest" else [])])
-        for name, run in runs.items()
-    ]
-    return dict(zip(runs, simulate(modelica_library, [folder], tasks), strict=True))
-
-
 def model_of(urdf: str) -> pin.Model:
     model = pin.buildModelFromXML(urdf)
     model.gravity.linear = np.array([0, 0, -GRAVITY])
@@ -139,21 +125,29 @@ def moves(q: Array) -> bool:
     return bool((np.ptp(q, axis=0) > 0.05).all())
 
 
-@pytest.mark.parametrize("name", ["ChangedTest", "ChangedRun"])
-def test_numbers_that_a_bench_changes_are_those_of_the_robot(name: str, found: Mapping[str, Series]) -> None:
-    """Mass, centre and inertia of a link, and damping, axis and origin of joints, all at once."""
-    q, v, a, efforts = measured(found[name])
-    expected = efforts_of(model_of(AFTER), q, v, a)
-    assert moves(q) or name == "ChangedRun", "Run stays where its inputs, which are constant, have put it"
-    assert efforts == pytest.approx(expected, rel=1e-10, abs=1e-10 * np.abs(expected).max())
-    plain = efforts_of(model_of(BEFORE), q, v, a)
-    assert (np.abs(plain - expected).max(axis=0) > 0.1).all(), "each axis shows a change"
+def test_what_a_bench_changes_is_part_of_the_robot(modelica_library: Path, tmp_path: Path) -> None:
+    """Mass, centre and inertia of a link, and damping, axis and origin of joints, all at once; or a link.
 
-
-def test_a_redeclared_link_with_a_payload_is_part_of_the_robot(found: Mapping[str, Series]) -> None:
-    """Redeclared joints are those of test_custom_arm and test_custom_histories."""
-    q, v, a, efforts = measured(found["RedeclaredTest"])
-    expected = efforts_of(loaded(model_of(BEFORE)), q, v, a)
-    assert moves(q)
-    assert efforts == pytest.approx(expected, rel=1e-8, abs=1e-8 * np.abs(expected).max())
-    assert found["RedeclaredTest"].values["mass"] == pytest.approx(4.0 + 2.5 + 1.5 + 0.7 + PAYLOAD.mass)
+    Redeclared joints are those of test_custom_arm and test_custom_histories.
+    """
+    folder = generate(BEFORE.encode(), Target("Bot", "Bot")).write(tmp_path)
+    axes = [value for name in AXES for value in values(name)]
+    tasks = [
+        Task(USERS, "Users_.ChangedTest", [Run(8, 0.5)], axes),
+        Task(USERS, "Users_.ChangedRun", [Run(0.1, 0.05)], axes),
+        Task(USERS, "Users_.RedeclaredTest", [Run(8, 0.5, tolerance=1e-10)], [*axes, "mass"]),
+    ]
+    test, run, redeclared = simulate(modelica_library, [folder], tasks)
+    for series, changed, accuracy in (
+        (test, model_of(AFTER), 1e-10),
+        (run, model_of(AFTER), 1e-10),
+        (redeclared, loaded(model_of(BEFORE)), 1e-8),
+    ):
+        q, v, a, efforts = measured(series)
+        expected = efforts_of(changed, q, v, a)
+        assert moves(q) or series is run, "Run stays where its inputs, which are constant, have put it"
+        assert efforts == pytest.approx(expected, rel=accuracy, abs=accuracy * np.abs(expected).max())
+        plain = efforts_of(model_of(BEFORE), q, v, a)
+        shows = np.abs(plain - expected).max(axis=0) > 0.1
+        assert shows.all() or (series is redeclared and shows.any()), "each axis shows a change of numbers"
+    assert redeclared.values["mass"] == pytest.approx(4.0 + 2.5 + 1.5 + 0.7 + PAYLOAD.mass)

@@ -1,4 +1,7 @@
-"""Limit warnings are alive: as errors they stop the same model where a limit is passed, and only there."""
+"""Limit warnings are alive: as errors they stop the same model where a limit is passed, and only there.
+
+So they do in the package, and in the robot that reads its record.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
-from support.modelica import Run, Series, Task, bench, simulate_all
+from support import generic
+from support.modelica import Run, Task, bench, simulate_all
 from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
@@ -78,8 +82,21 @@ INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
 }
 """Motions that pass no limit, and how long they last."""
 
-EVERYTHING = {"elbow.a1": 1.0, "roll.a2": 4.0, "rail.a2": 100.0, "lid.a1": -1.0}
-"""A motion that passes limits of all kinds."""
+IN_RECORD = ("lower", "backward", "slide", "effort", "leader", "follower", "at rest", "leading as strong as allowed")
+"""The motions that the robot is put to that reads its record, too."""
+RECORD_AXES = {
+    "elbow": "rotationalAxis[2]",
+    "lid": "rotationalAxis[1]",
+    "roll": "rotationalAxis[3]",
+    "rail": "translationalAxis[1]",
+}
+"""In the order of its record."""
+MILD = robot(
+    link("base"),
+    balanced("wheel"),
+    joint("roll", "continuous", "base", "wheel", axis="0 0 1", inside=[LIMITS], **LEVEL),
+)
+"""One axis, for limits that do not stop the simulation."""
 
 
 def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: str = "Bot", classes: str = "") -> Task:
@@ -90,45 +107,36 @@ def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: st
     return bench("\n    ".join(body), runs, packages=[package], classes=DRIVES + classes)
 
 
-MILD = "passed with warnings"
-OFF = "passed with limits off"
-
-
-@pytest.fixture(scope="module")
-def series(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Series]:
-    """What comes of each motion if passing a limit is an error; of everything if it is a warning, or limits are off."""
-    folder = tmp_path_factory.mktemp("limits")
+def test_passing_a_limit_is_noticed_and_nothing_else(modelica_library: Path, tmp_path: Path) -> None:
+    """If it is an error; warnings, and limits that are off, do not stop the simulation."""
     packages = [
-        strict(generate(ROBOT.encode(), Target("Bot", "Bot"))).write(folder),
-        generate(ROBOT.encode(), Target("Mild", "Bot")).write(folder),
+        strict(generate(ROBOT.encode(), Target("Bot", "Bot"))).write(tmp_path),
+        generate(ROBOT.encode(), Target("Listed", "Bot"), approach=("record",)).write(tmp_path),
+        generate(MILD.encode(), Target("Mild", "Bot")).write(tmp_path),
+        strict(generate(MILD.encode(), Target("Off", "Bot"))).write(tmp_path),
     ]
     motions = {name: Run(1.0, 0.1, motion) for name, (motion, _, _) in PASSING.items()}
     motions |= {name: Run(stop, stop / 10, motion) for name, (motion, stop) in INSIDE.items()}
-    everything = [Run(1.0, 0.1, EVERYTHING)]
-    robot = "{}.Bot robot(fixedStart = false, checkLimits = {});"
+    some = {name: motions[name] for name in IN_RECORD}
+    generic_robot = "GenericRobot robot(redeclare parameter Listed.BotParameters data, fixedStart = false);"
+    package_robot = "{}.Bot robot(fixedStart = false, checkLimits = {});"
     tasks = [
-        driven(robot.format("Bot", "true"), AXES, list(motions.values())),
-        driven(robot.format("Mild", "true"), AXES, everything, "Mild"),
-        driven(robot.format("Bot", "false"), AXES, everything),
+        driven(package_robot.format("Bot", "true"), AXES, list(motions.values())),
+        driven(generic_robot, RECORD_AXES, list(some.values()), "Listed", generic.strict_generic()),
+        driven(package_robot.format("Mild", "true"), {"roll": "rollAxis"}, [motions["velocity"]], "Mild"),
+        driven(package_robot.format("Off", "false"), {"roll": "rollAxis"}, [motions["velocity"]], "Off"),
     ]
-    return dict(zip([*motions, MILD, OFF], simulate_all(modelica_library, packages, tasks), strict=True))
-
-
-def test_a_limit_that_is_passed_is_named(series: Mapping[str, Series]) -> None:
-    for limit_name, (_, time, message) in PASSING.items():
-        error = series[limit_name].error
-        found = re.search(r"assert failed at t=([\d.]+): (.*)", error)
-        assert found, error or f"{limit_name}: the simulation ran to its end"
-        assert float(found[1]) == pytest.approx(time, rel=1e-3), limit_name
-        assert found[2].strip() == f"Bench.robot.{message}"
-
-
-def test_nothing_is_said_inside_the_limits(series: Mapping[str, Series]) -> None:
-    ends = {name: (series[name].error, series[name].times[-1:].tolist()) for name in INSIDE}
-    assert ends == {name: ("", [stop]) for name, (_, stop) in INSIDE.items()}
-
-
-@pytest.mark.parametrize("case", [MILD, OFF])
-def test_warnings_and_limits_that_are_off_do_not_stop_the_simulation(case: str, series: Mapping[str, Series]) -> None:
-    assert series[case].error == ""
-    assert series[case].times[-1] == 1.0
+    *strict_runs, with_warnings, with_limits_off = simulate_all(modelica_library, packages, tasks)
+    for series in (with_warnings, with_limits_off):
+        assert (series.error, series.times[-1]) == ("", 1.0)
+    names = [*((".", name) for name in motions), *((" ", name) for name in some)]
+    for (between, name), series in zip(names, strict_runs, strict=True):
+        if name in INSIDE:
+            assert (series.error, series.times[-1:].tolist()) == ("", [INSIDE[name][1]]), name
+            continue
+        _, time, message = PASSING[name]
+        found = re.search(r"assert failed at t=([\d.]+): (.*)", series.error)
+        assert found, series.error or f"{name}: the simulation ran to its end"
+        assert float(found[1]) == pytest.approx(time, rel=1e-3), name
+        joint_message = message if between == "." else message[message.index("(joint") :]
+        assert found[2].strip() == f"Bench.robot{between}{joint_message}"

@@ -94,11 +94,6 @@ def test_a_string_reads_back_but_for_control_characters(text: str) -> None:
     assert literal.encode("utf-8").decode("utf-8") == literal
 
 
-@pytest.mark.parametrize("character", HARMFUL)
-def test_each_harmful_character_becomes_one_space(character: str) -> None:
-    assert string(f"a{character}b") == '"a b"'
-
-
 @given(TEXTS)
 def test_html_shows_the_text_and_adds_no_markup(text: str) -> None:
     inside = html(text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -247,13 +247,14 @@ def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tupl
         yield from stored_below(sources, (*name, inner))
 
 
-def faults_in(top: str) -> list[str]:
+def faults_in(top: str, *inside: str) -> list[str]:
+    """Names without meaning in a library, or in a package of it."""
     places = [REPOSITORY / "modelica", *libraries.library_folders(os.environ)]
     if libraries.find_library(top, places) is None:
         pytest.skip(f"there is no library {top}")
     sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
     scopes, count, faults = Scopes(sources), 0, []
-    for name in stored_below(sources, (top,)):
+    for name in stored_below(sources, (top, *inside)):
         node = scopes.node(name)
         if isinstance(node, Node):
             count += 1
@@ -263,13 +264,11 @@ def faults_in(top: str) -> list[str]:
 
 
 @pytest.mark.slow
-def test_nothing_is_missing_in_our_library() -> None:
-    assert faults_in("UrdfSync") == []
-
-
-@pytest.mark.slow
-def test_nothing_is_missing_in_the_standard_library() -> None:
-    assert faults_in("Modelica") == []
+@pytest.mark.parametrize(
+    "package", [("UrdfSync",), ("Modelica", "Mechanics"), pytest.param(("Modelica",), marks=pytest.mark.large)]
+)
+def test_nothing_is_missing_in_libraries(package: Sequence[str]) -> None:
+    assert faults_in(*package) == []
 
 
 @pytest.mark.slow

@@ -7,12 +7,14 @@ Runge-Kutta method: of fourth order for axes, of second order for the attitude o
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Sequence
 
 import numpy as np
 
-from support.modelica import Array, Run, Task, bench
+from support.modelica import URDFSYNC, Array, Run, Task, bench
 from support.packages import Package, generate
+from support.urdfs import dynamics, joint, link, links, mimic, robot
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -22,6 +24,38 @@ from urdfsync.urdf.physics.reference import Configuration, Reference, read
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""
+
+GRIPPER = robot(
+    *links(base=2.0, plate=1.0),
+    *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
+    link("sensor", 0.3),
+    joint("bolts", "fixed", "base", "plate"),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5)]),
+    joint("mount", "fixed", "slide", "sensor"),
+    joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
+    joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
+    joint(
+        "grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4)]
+    ),
+)
+"""A chain with branches; press follows grip, which comes after it, and grip follows shoulder."""
+
+LADDER = robot(
+    link("base"),
+    *(link(name, 2.0) for name in ("car", "mast", "left", "right")),
+    joint("drive", "prismatic", "base", "car", axis="1 0 0", inside=[dynamics(2.0, 0.0)]),
+    joint("lift", "prismatic", "car", "mast", axis="0.6 0 0.8"),
+    joint("left swing", "revolute", "mast", "left", axis="0 1 0"),
+    joint("right swing", "revolute", "mast", "right", axis="0 1 0", inside=[mimic("left swing", -1.0)]),
+)
+"""Two sliding joints first; a base without mass; a name with a space."""
+
+STONE = robot(link("stone", 2.0))
+ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
+"""Two that have all there is: joints that turn and slide, on a chain and on branches, links behind fixed joints, mimic
+joints in a chain, damping and dry friction."""
+CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
 
 _FIXED = "equation connect(world.frame_b, robot.frame_a);"
 _FLOATING = """UrdfSync.Robots.FreeBase base({start});
@@ -48,6 +82,15 @@ class Robot:
     def skeleton(self) -> KinematicTree:
         """Its links and joints in order."""
         return self.package.skeleton
+
+
+def strict_generic() -> str:
+    """The generic robot as it is, but passing a limit is an error, which the compiler tells."""
+    texts = [(URDFSYNC / "Robots" / f"{name}.mo").read_text("utf-8") for name in CLASSES]
+    joined = "".join(text.replace("within UrdfSync.Robots;", "") for text in texts)
+    joined = re.sub(rf"UrdfSync\.Robots\.({'|'.join(CLASSES)})\b", r"\1", joined)
+    assert joined.count("AssertionLevel.warning") == 5
+    return joined.replace("AssertionLevel.warning", "AssertionLevel.error")
 
 
 def prepare(content: bytes, name: str = "Bot") -> Robot:
