@@ -7,6 +7,7 @@ import functools
 import hashlib
 import os
 import re
+import secrets
 import shutil
 import struct
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,6 +25,8 @@ from urdfsync.state import file_operations
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: so many steps of random edits, and all histories of the corpus."""
 STEPS = int(os.environ.get(ALL, "0"))
+SEED = secrets.randbelow(10**9) if STEPS else 0
+"""Long runs begin with another one each time; a failure tells it."""
 PACKAGE = "modelica/Bot"
 """The package's folder; paths of files count from it."""
 
