@@ -49,14 +49,6 @@ def test_build_in_words(project: Path, execute: Execute) -> None:
     assert execute("build").out == "ladder: in step, 14 files\n"
 
 
-def test_build_of_what_was_edited(edited: Path, execute: Execute) -> None:
-    source("220.5", "330")
-    assert execute("build").lines == [
-        "ladder: 1 file written, 1 kept because you edited it",
-        "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
-    ]
-
-
 def test_check_writes_nothing_and_exits_with_1_if_out_of_step(
     project: Path, execute: Execute, snapshot_of: Callable[[Path], object]
 ) -> None:

@@ -1,13 +1,15 @@
-"""All that a decision reads is recorded: the calls of the system are compared with the record."""
+"""What was read is recorded; the record is incomplete if something changed meanwhile, or was rendered or written."""
 
 from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
+from support.networks import run_all
 
-from urdfsync import cli, dependencies, registry
+from urdfsync import dependencies, registry
 from urdfsync.dependencies import STAT
 
 
@@ -15,16 +17,16 @@ from urdfsync.dependencies import STAT
 def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(in_step, tmp_path / "project")
     monkeypatch.chdir(tmp_path / "project")
-    assert cli._main(["build"]) == 0  # the first one in a copy notes that it wrote this folder
+    run_all()  # the first one in a copy notes that it wrote this folder
     return tmp_path / "project"
 
 
-@pytest.mark.parametrize("options", [["--full"], ["--jobs", "1"], ["--jobs", "2"]], ids=" ".join)
-def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: list[str]) -> None:
-    if options != ["--full"]:
+@pytest.mark.parametrize("options", [{"full": True}, {"jobs": 1}, {"jobs": 2}], ids=str)
+def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: dict[str, Any]) -> None:
+    if "jobs" in options:
         (folder / "modelica/Leg/Leg.mo").unlink()
     with dependencies.Dependencies() as found:
-        assert cli._main(["build", "--quiet", *options]) == 0
+        assert not any(result.failed for result in run_all(**options))
     assert not found.complete
 
 

@@ -132,14 +132,6 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
     assert statefile.loads(statefile.dumps(record), "sample.state") == record
 
 
-def test_an_earlier_reading_makes_no_difference(case: Case) -> None:
-    source = SAMPLES[case.domain.name][0]
-    first = case.domain.read(source, "n", case.options)
-    for content in (source.replace(b"1", b"2"), source[:-9]):
-        case.domain.read(content, "n", case.options)
-    assert case.domain.read(source, "n", case.options) == first
-
-
 def test_nobody_changes_a_snapshot(case: Case) -> None:
     before = json.dumps(case.snapshot)
     case.generated()
@@ -234,18 +226,3 @@ def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
     models = case.domain.models(case.snapshot, TARGET, case.options)
     assert models[0] == TARGET.name
     assert {f"{model.replace('.', '/')}.mo" for model in models} <= case.generated().artifacts.keys()
-
-
-def test_a_record_alone_is_one_that_needs_nothing_around_it(case: Case) -> None:
-    reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
-    for package, within_clause in (("Plant", "within Plant;\n"), ("", "within ;\n")):
-        found = case.domain.record(reading, "sample", Target(package, "Whole"), case.options)
-        if found is None:
-            continue
-        assert found.artifact.role is Role.RECORD
-        assert {one.file for one in found.diagnostics} <= {"sample"}
-        folders = (config.templates_folder(case.domain),)
-        templates = Templates(folders, templates_digest(folders))
-        text = generate.Package([found.artifact], templates, "").content(found.artifact.path).decode()
-        assert text.startswith(f"{within_clause}\nrecord Whole ")
-        assert text.endswith("end Whole;\n")

@@ -65,25 +65,6 @@ def test_another_number_renews_one_record(project: Path, execute: Execute) -> No
     assert (project / "modelica/Gearbox/Motor.mo").stat() == model
 
 
-def test_edits_stay_and_conflict(project: Path) -> None:
-    cli.main(["build"])
-    record = project / "modelica/Gearbox/MotorParameters.mo"
-    edit(record, "mass = 1.2", "mass = 1.25")
-    edit(project / "parts.yaml", "1.2", "1.4")
-    assert cli.main(["build"]) == Exit.CONFLICT
-    assert "mass = 1.25" in record.read_text()
-    assert cli.main(["resolve", str(record), "--take"]) == Exit.IN_STEP
-    assert "mass = 1.4" in record.read_text()
-
-
-def test_a_part_that_comes_and_one_that_goes_are_structural(project: Path) -> None:
-    cli.main(["build"])
-    edit(project / "parts.yaml", "  wheel:", "  pinion:")
-    assert cli.main(["build"]) == Exit.IN_STEP
-    assert not (project / "modelica/Gearbox/Wheel.mo").exists()
-    assert "Pinion part_Pinion" in (project / "modelica/Gearbox/Gearbox.mo").read_text()
-
-
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [("1.2,", "1.2, : [", "parts.yaml:4"), ("mass: 1.2", "mass: heavy", "Expected `float`"), ("motor:", "1:", "part")],

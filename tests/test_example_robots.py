@@ -26,13 +26,6 @@ def test_there_are_examples_for_every_joint_type_and_mesh_format() -> None:
 
 
 @every_robot
-def test_urdfsync_has_nothing_to_say_about_it(source: Path) -> None:
-    reading = read_robot(source.read_bytes(), source.name)
-    assert reading.diagnostics == ()
-    assert reading.robot is not None
-
-
-@every_robot
 def test_pinocchio_reads_it_without_a_word(source: Path, capfd: pytest.CaptureFixture[str]) -> None:
     model = pin.buildModelFromUrdf(str(source), pin.JointModelFreeFlyer())
     assert pin.computeTotalMass(model) == pytest.approx(TOTAL_MASS[source.stem], rel=1e-12)

@@ -67,7 +67,9 @@ def test_what_nobody_foresaw_ends_in_2_with_its_traceback_in_a_file(
     ],
     ids=" ".join,
 )
-@pytest.mark.parametrize("error", [MemoryError(), RecursionError("too deep")], ids=repr)
+@pytest.mark.parametrize(
+    "error", [MemoryError(), pytest.param(RecursionError("too deep"), marks=pytest.mark.slow)], ids=repr
+)
 def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     execute: Execute,
     tmp_path: Path,

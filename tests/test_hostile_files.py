@@ -206,6 +206,9 @@ def damaged_text(text: str) -> st.SearchStrategy[str]:
     )
 
 
+SOURCES = SMALL_ROBOTS.map(str.encode) | SMALL_ROBOTS.flatmap(lambda source: damaged(source.encode()))
+
+
 @pytest.fixture(scope="module")
 def of_random(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A project of a random robot, in step."""
@@ -215,16 +218,16 @@ def of_random(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @often(100)
-@given(configurations(), SMALL_ROBOTS, st.lists(COMMANDS, min_size=1, max_size=2))
+@given(configurations(), SOURCES, st.lists(COMMANDS, min_size=1, max_size=2))
 def test_a_hostile_configuration(
-    of_random: Path, tmp_path: Path, text: bytes, source: str, commands: Sequence[Sequence[str]]
+    of_random: Path, tmp_path: Path, text: bytes, source: bytes, commands: Sequence[Sequence[str]]
 ) -> None:
     work = Workplace(tmp_path)
     work.fill(of_random)
     (work.project / "link").symlink_to(work.outside)
     os.mkfifo(work.project / "fifo")
     (work.project / "urdfsync.toml").write_bytes(text.replace(OUTSIDE.encode(), os.fsencode(work.outside)))
-    (work.project / "bot.urdf").write_text(source)
+    (work.project / "bot.urdf").write_bytes(source)
     for command in commands:
         run_one(work, command)
 

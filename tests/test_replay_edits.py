@@ -11,8 +11,6 @@ import collections
 import itertools
 import re
 import shutil
-import subprocess
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
@@ -160,7 +158,6 @@ class Episode:
         yield from self.lost_lines(raw)
         yield from self.replaced()
         yield from self.out_of_step(result)
-        yield from self.odd_merges()
         yield from self.odd_conflicts(result, raw)
         yield from self.odd_choices(result)
         stamps = self.project.stamps()
@@ -223,16 +220,6 @@ class Episode:
         same = sorted(left) == sorted(generated)  # a line that was his stays in its place
         return (wanted if same else "".join(left).encode()) or None
 
-    def odd_merges(self) -> Iterator[str]:
-        """What git merges without a conflict is merged to the same text."""
-        for path, action in self.actions.items():
-            base = self.texts.get(action.base or "")
-            if action.kind is Kind.MERGE and action.writes and base is not None:
-                merged = merged_by_git(self.before[path], base, self.fresh[path])
-                self.tally["as git"] += merged is not None
-                if merged is not None and merged != self.after[path]:
-                    yield f"{path} is merged in another way than git does"
-
     def odd_conflicts(self, result: Result, raw: Files) -> Iterator[str]:
         """The file is as it was, and the texts of both sides are put aside; nothing of older conflicts is left."""
         found, aside = self.project.files(), replay.contents(self.project.root / CONFLICTS)
@@ -293,16 +280,6 @@ def retuned(content: bytes, random: Random) -> bytes:
     return content
 
 
-def merged_by_git(mine: bytes, base: bytes, generated: bytes) -> bytes | None:
-    """What git makes of three texts; None if it finds a conflict."""
-    with tempfile.TemporaryDirectory() as folder:
-        paths = [Path(folder, name) for name in ("mine", "base", "generated")]
-        for path, content in zip(paths, (mine, base, generated), strict=True):
-            path.write_bytes(content)
-        done = subprocess.run(["git", "merge-file", "-p", *paths], capture_output=True, check=False)
-    return None if done.returncode else done.stdout
-
-
 def lf(content: bytes) -> bytes:
     """The content with the line ends that are normal here."""
     return content.replace(b"\r\n", b"\n")
@@ -351,7 +328,7 @@ def size(versions: Sequence[bytes]) -> int:
 
 def test_no_edited_line_gets_lost(corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     tally = run(tmp_path, STEPS)
-    assert all(tally[count] for count in ("edits", "conflicts", "merges", "moves", "resolved", "clones", "as git"))
+    assert all(tally[count] for count in ("edits", "conflicts", "merges", "moves", "resolved", "clones"))
     with capsys.disabled():
         print(f"\n{dict(tally)}")  # noqa: T201
 

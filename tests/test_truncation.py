@@ -1,7 +1,4 @@
-"""Sources that were cut off, as exporters leave them while they write: one error, and nothing changes.
-
-`URDFSYNC_TRUNCATIONS=1` tries every byte of a real robot, and 500 cuts of a large one.
-"""
+"""Sources that were cut off, as exporters leave them while they write: one error, and nothing changes."""
 
 from __future__ import annotations
 

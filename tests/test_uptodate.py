@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -301,7 +302,7 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
 
 
 def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(console, "_BAR_AFTER", 0.0)
+    monkeypatch.setattr(console, "BAR_AFTER", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     save(*BUILD)
     assert "━" in capsys.readouterr().err, "there was one"
@@ -402,8 +403,8 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 def _full(command: list[str]) -> list[str] | None:
     """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
     said: streams.Transcript = []
-    with streams.SafeStreams(said):
-        code = cli._main(command)
+    with streams.SafeStreams(said), mock.patch.object(uptodate, "save_answer"):
+        code = cli.main(command)
     return [text for pair in said if pair[1] for text in pair] if code == 0 else None
 
 
@@ -444,7 +445,7 @@ FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
 @pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
 def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
-    full = f"from urdfsync.output import console; console._BAR_AFTER = 1e9; {FULL}"  # no bar on a busy machine
+    full = f"from urdfsync.output import console; console.BAR_AFTER = 1e9; {FULL}"  # no bar on a busy machine
     said = {_on_terminal(full, variables)}
     answers.until(Path(STAMP).exists, lambda: said.add(_on_terminal(full, variables)))
     short = "import sys; from urdfsync.__main__ import main; main(); assert 'argparse' not in sys.modules"

@@ -8,11 +8,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 from support.crashes import run
-from support.networks import edit
 from support.replay import contents
 
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import ChangeKind
 
 SAMPLES = Path(__file__).parents[1] / "modelica" / "UrdfSync" / "Resources" / "robots"
 CONFIGURATION = """
@@ -99,16 +97,6 @@ def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytes
     assert {found.code for found in run(arm).diagnostics} == {"mesh-unreadable-kept"}
 
 
-def test_a_robot_whose_meshes_were_never_there_has_no_broken_path(arm: Path) -> None:
-    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
-    result = run(arm)
-    assert {found.code for found in result.diagnostics} == {"mesh-not-found"}
-    assert not (arm / "modelica/Arm/Resources").exists()
-    for text in contents(arm / "modelica").values():
-        assert b"modelica://" not in text
-        assert b"UrdfSync.Visualizers.Mesh" not in text
-
-
 def test_missing_meshes_are_one_warning_for_each_package(arm: Path) -> None:
     shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
     source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
@@ -178,11 +166,3 @@ def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None
     (error,) = run(cart).diagnostics
     assert (error.code, error.line, error.hint) == ("frame-of-no-link", 4, "did you mean `tire`?")
     assert contents(cart / "modelica") == before
-
-
-def test_another_name_of_a_joint_that_others_follow_is_told_as_such(arm: Path) -> None:
-    run(arm)
-    edit(arm / "ws/src/six_axis_arm/six_axis_arm.urdf", '"gripper_stroke"', '"stroke"')
-    changes = run(arm).changes
-    assert changes is not None
-    assert [(one.kind, one.element) for one in changes.changes] == [(ChangeKind.RENAMED, "joint gripper_stroke")]

@@ -16,7 +16,7 @@ import pytest
 from support import crashes
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, own_model, resistor
+from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli, config
 from urdfsync.commands.hook import is_interrupted
@@ -108,15 +108,6 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
         command = said(capsys, "build")[-1]
     run(command)
     assert said(capsys, "build", code=0) == said(capsys, "check", code=0) == []
-
-
-def test_a_template_that_is_not_tracked_is_told(repo: Repository, capsys: Capture) -> None:
-    own_model("  Real mine;")
-    repo.git("add", "urdfsync.toml")
-    command = said(capsys, "build")[-1]
-    assert "own/element/model.mo.jinja" in command.split(" ")
-    run(command)
-    assert said(capsys, "check", code=0) == []
 
 
 @pytest.mark.parametrize(
@@ -228,17 +219,6 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
     assert lines[0] == "ladder: in step, but not staged: 1 file"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
-
-
-def test_a_dependency_outside_of_the_repository_is_no_file_of_the_commit(repo: Repository, capsys: Capture) -> None:
-    Path("../tables").mkdir()
-    Path("step.csv").rename("../tables/step.csv")
-    edit("urdfsync.toml", "domain", 'package_paths = ["../tables"]\ndomain')
-    run("urdfsync build")
-    repo.commit()
-    assert said(capsys, "check", code=0) == []
-    edit("../tables/step.csv", "0.1,5", "0.1,6")
-    assert said(capsys, "check")[0].startswith("ladder: out of step: 1 file to write")
 
 
 @pytest.mark.parametrize("name", ["robots", "two words", "caf\xe9", "-x"])

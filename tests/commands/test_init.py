@@ -5,13 +5,11 @@ from __future__ import annotations
 import sys
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.commands import Execute
 
 from urdfsync import config
-from urdfsync.files import TEMPORARY
 
 INIT = ("init", "--domain", "rcnetwork")
 
@@ -120,24 +118,6 @@ def test_long_and_taken_names_give_a_configuration_that_is_right(execute: Execut
         (bare / f"{name}.json").write_bytes((bare / "ladder.json").read_bytes())
     execute(*INIT, *(f"{name}.json" for name in names))
     assert len(config.load(bare / "urdfsync.toml").robots) == len(names)
-
-
-@pytest.mark.parametrize("failing", ["open", "replace"])
-def test_a_disk_that_is_full_leaves_no_configuration_behind(
-    execute: Execute, bare: Path, monkeypatch: pytest.MonkeyPatch, failing: str
-) -> None:
-    real = getattr(Path, failing)
-
-    def refuse(path: Path, *arguments: Any, **options: Any) -> Any:
-        if path.name.endswith(TEMPORARY):
-            raise OSError(28, "No space left on device", str(path))
-        return real(path, *arguments, **options)
-
-    monkeypatch.setattr(Path, failing, refuse)
-    before = sorted(bare.iterdir())
-    message = "urdfsync.toml: error: the configuration can't be written: No space left on device; check the folder's"
-    assert execute(*INIT, "ladder.json", code=2).err.startswith(message)
-    assert sorted(bare.iterdir()) == before
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.cases import often
 
 from urdfsync.merge import Merge, merge, split_lines
 from urdfsync.merge.lines import find_flaw, merge_lines
@@ -368,44 +369,19 @@ def test_no_word_is_lost_doubled_or_brought_back(
 Texts = tuple[list[str], list[str], list[str]]
 
 
-def edited(rng: random.Random, text: Sequence[str], pool: Sequence[str]) -> list[str]:
-    """Lines with a few random edits: inserted, removed, replaced, changed, moved."""
-    result = list(text)
-    for _ in range(rng.randint(1, 5)):
-        place, size = rng.randint(0, len(result)), rng.randint(0, 3)
-        match rng.randrange(5):
-            case 0:
-                result[place:place] = rng.choices(pool, k=size)
-            case 1:
-                del result[place : place + size]
-            case 2:
-                result[place : place + size] = rng.choices(pool, k=rng.randint(0, 3))
-            case 3:
-                result[place : place + 1] = [line.replace("0", str(size)) for line in result[place : place + 1]]
-            case _:
-                moved, result[place : place + 3] = result[place : place + 3], []
-                target = rng.randint(0, len(result))
-                result[target:target] = moved
-    return result
-
-
-def random_case(rng: random.Random, files: Sequence[Sequence[str]]) -> Texts:
-    """Three texts: of few different lines, or of real Modelica."""
-    if rng.random() < 0.5:
-        size = rng.choice([2, 3, 5, 12, 40])
-        pool = [f"{number}\n" for number in range(size + 2)]
-        base = rng.choices(pool[:size], k=rng.randint(0, 30))
-    else:
-        source, other = rng.sample(files, 2)
-        start = rng.randrange(len(source))
-        base = list(source[start : start + rng.choice([8, 30, 400])])
-        pool = [*base, *other]
-    mine = edited(rng, base, pool) if rng.random() < 0.95 else rng.choices(pool, k=rng.randint(0, 40))
-    generated = edited(rng, base if rng.random() < 0.8 else mine, pool)
-    for text in (base, mine, generated):
-        if text and rng.random() < 0.1:
-            text[:] = split_lines("".join(text).removesuffix("\n"))
-    return base, mine, generated
+@st.composite
+def three_texts(draw: st.DrawFn) -> Texts:
+    """Lines of few kinds, and twice the same lines with some of them replaced, gone or more."""
+    line = st.sampled_from([f"{number}\n" for number in range(draw(st.sampled_from([2, 5, 40])))])
+    base = draw(st.lists(line, max_size=30))
+    sides = list(base), list(base)
+    for side in sides:
+        for _ in range(draw(st.integers(0, 5))):
+            place, size = draw(st.integers(0, len(side))), draw(st.integers(0, 3))
+            side[place : place + size] = draw(st.lists(line, max_size=3))
+        if side and draw(st.integers(0, 9)) == 9:
+            side[-1] = side[-1].removesuffix("\n")
+    return base, *sides
 
 
 def git_merge(folder: Path, texts: Texts) -> str | None:
@@ -433,28 +409,13 @@ def by_lines(texts: Texts) -> str | None:
     return "".join(result + mine[place:])
 
 
-@pytest.fixture(scope="module")
-def files() -> list[list[str]]:
-    paths = sorted([*EXAMPLES.glob("*/Links/*.mo"), *EXAMPLES.glob("*/Joints/*.mo")])
-    found = [split_lines(path.read_text(encoding="utf-8")) for path in paths]
-    assert len(found) > 20
-    return found
-
-
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed: there is nothing to compare with")
-@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 8))])
-def test_lines_merge_as_in_git(seed: int, files: list[list[str]], tmp_path: Path) -> None:
-    rng = random.Random(seed)
-    clean = 0
-    for _ in range(60):
-        texts = random_case(rng, files)
-        expected = git_merge(tmp_path, texts)
-        assert by_lines(texts) == expected
-        result = merge(*map("".join, texts)).text
-        if expected is not None:
-            clean += 1
-            assert result == expected
-    assert 5 < clean < 55, "the cases are worth comparing"
+@often(200)
+@given(texts=three_texts())
+def test_lines_merge_as_in_git(texts: Texts, tmp_path: Path) -> None:
+    expected = git_merge(tmp_path, texts)
+    assert by_lines(texts) == expected
+    assert expected is None or merge(*map("".join, texts)).text == expected
 
 
 def test_edits_of_one_side_are_judged_one_by_one() -> None:

@@ -157,12 +157,6 @@ def test_commands_can_be_copied(path: str, typed: str) -> None:
 # How much of it
 
 
-def test_a_dry_run_has_put_nothing_aside() -> None:
-    lines = seen(texts_of("1\n" * 99, "2\n" * 99, base="3\n"), dry=True)
-    assert not any(".urdfsync" in line for line in lines)
-    assert any("more lines; --verbose shows them" in line for line in lines)
-
-
 def test_long_differences_are_cut() -> None:
     base = "".join(f"{number}\n" for number in range(200))
     found = texts_of(base.replace("\n", "!\n"), base, base=base)
@@ -182,14 +176,6 @@ def test_contradictions_come_before_all_else_if_there_is_no_room() -> None:
     assert any(line.endswith("the sides contradict each other") for line in lines)
     assert any("1 edited" in line for line in lines)
     assert not any("9 edited" in line for line in lines)
-
-
-def test_lines_that_nobody_changed_take_one_row() -> None:
-    base = BASE.replace("Real b = 2;", f"Real b[:] = {{{0:0300}}};")
-    found = texts_of(base.replace("a = 1", "a = 2"), base.replace("a = 1", "a = 3"), base=base)
-    for width in (80, 120):
-        (row,) = [line for line in seen(found, width=width) if "00000" in line]
-        assert "…" in row
 
 
 def test_of_many_conflicts_the_first_are_shown_in_full() -> None:

@@ -63,11 +63,6 @@ def test_distant_changes_are_hunks_of_their_own() -> None:
     assert (shown(joined)[0], shown(joined)[-1]) == (" 1 a", " 10 j")
 
 
-def test_numbers_are_those_of_each_version() -> None:
-    (_, second) = three(LETTERS, LETTERS.replace("b", "1\n2\n3"), LETTERS.replace("m", "M"))
-    assert shown(second) == [" 13 k", " 14 l", "base 13 m", "generated 13 M", " 16 n", " 17 o"]
-
-
 def test_kinds_of_line_endings_are_no_difference() -> None:
     assert three("a\nb\n", "a\r\nb\r\n", "a\nb\n") == []
 

@@ -7,9 +7,9 @@ import functools
 import hashlib
 import os
 import re
+import secrets
 import shutil
 import struct
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from unittest import mock
@@ -25,7 +25,7 @@ from urdfsync.state import file_operations
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: so many steps of random edits, and all histories of the corpus."""
 STEPS = int(os.environ.get(ALL, "0"))
-SEED = int(os.environ.get("URDFSYNC_SEED") or (int(time.time()) % 1_000_000 if STEPS else 3))
+SEED = int(os.environ.get("URDFSYNC_SEED") or (secrets.randbelow(10**6) if STEPS else 3))
 """The first of the seeds: another one for each long run, unless one is asked for; a failure names its seed."""
 PACKAGE = "modelica/Bot"
 """The package's folder; paths of files count from it."""

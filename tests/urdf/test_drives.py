@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import pytest
-from support.corpus import label, robots
 
 from urdfsync.urdf.drives import driven_joints, passive_joints
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, Limit, Mimic
-
-MIR = {f"{corner}_caster_{part}_joint" for corner in ("fl", "fr", "bl", "br") for part in ("rotation", "wheel")}
-TENDONS = {f"finger_{finger}_joint_{number}" for finger in ("1", "2", "middle") for number in (0, 1, 2)}
-PASSIVE = {"random-mir": MIR, "drake-robotiq_tendons": TENDONS}
-"""Passive joints of the robots of the corpus that have any."""
 
 
 def joint(name: str, kind: str = "continuous", limit: bool = False, mimic: str = "", actuated: bool = False) -> Joint:
@@ -63,8 +55,3 @@ def test_driven_and_passive_joints(
 ) -> None:
     assert driven_joints(joints, Options(driven=names)) == driven
     assert passive_joints(joints) == passive
-
-
-def test_real_robots(corpus: Path) -> None:
-    read = {label(file): read_robot((corpus / file).read_bytes(), file).robot for file in robots()}
-    assert {name: found for name, robot in read.items() if robot and (found := passive_joints(robot.joints))} == PASSIVE

@@ -9,7 +9,6 @@ from __future__ import annotations
 import copy
 import functools
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +19,6 @@ from hypothesis import strategies as st
 from lxml import etree
 from support import corpus
 from support.cases import SMALL_ROBOTS, damaged, often, seldom
-from support.workplace import Workplace
 
 from urdfsync.config import templates_folder
 from urdfsync.diagnostics import Severity
@@ -33,13 +31,6 @@ from urdfsync.urdf.options import Options
 LARGEST = 12_000
 """Bytes of a robot of the corpus that is changed."""
 TARGET = Target("Plant.Bot", "Bot")
-CONFIGURATION = """\
-[robots.bot]
-source = "bot.urdf"
-package = "Bot"
-cross_check = false
-approach = ["package", "record"]
-"""
 
 NUMBERS = (
     *"nan inf -inf NaN Infinity 1e999 -1e999 1e308 5e-324 1e-999 -0 -0.0 0 1 -1 3.14 1. .5 +1 1e 1e5 0x10 0b1".split(),
@@ -214,29 +205,3 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
     assert parse(text).faults == [], path
     if (drawing := DOMAIN.drawing(reading.snapshot, {}, TARGET, options)) is not None:
         etree.fromstring(drawing.encode())
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
-@often(20)
-@given(st.data())
-def test_commands_after_a_hostile_export_change_nothing_outside(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
-) -> None:
-    """`Workplace.run` says what must not happen."""
-    original, work = data.draw(originals()), Workplace(tmp_path_factory.mktemp("work"))
-    work.folder.joinpath("empty").mkdir()
-    work.folder.joinpath("empty/urdfsync.toml").write_text(CONFIGURATION)
-    work.fill(work.folder / "empty")
-    source = work.project / "bot.urdf"
-    source.write_text(original)
-    work.run(["build"])
-    source.write_bytes(data.draw(sources(st.just(original))))
-    for command in (
-        ["diff"],
-        ["status"],
-        ["build"],
-        ["record", "bot.urdf"],
-        ["init", "--config", "o.toml", "bot.urdf"],
-    ):
-        work.run(command)

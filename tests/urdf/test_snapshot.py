@@ -57,34 +57,6 @@ def sorted_by_name(robot: Robot) -> Robot:
     )
 
 
-def test_a_snapshot_as_an_example() -> None:
-    zero = {"xyz": [0.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
-    sphere = {"kind": "sphere", "radius": 1.0}
-    red = {"name": "red", "rgba": [1.0, 0.0, 0.0, 1.0]}
-    inertia = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
-    assert to_snapshot(parsed(ARM)) == {
-        "name": "arm",
-        "links": {
-            "a": {"visuals": [], "collisions": []},
-            "b": {
-                "inertial": {"mass": 1.0, "origin": zero, "inertia": inertia},
-                "visuals": [{"geometry": sphere, "origin": zero, "name": "", "material": red}],
-                "collisions": [{"geometry": sphere, "origin": zero, "name": ""}],
-            },
-        },
-        "joints": {
-            "j": {
-                "type": "fixed",
-                "parent": "a",
-                "child": "b",
-                "origin": {"xyz": [1.0, 2.0, 3.0], "rpy": [0.0, 0.0, 0.0]},
-                "axis": [1.0, 0.0, 0.0],
-            }
-        },
-        "extensions": {"": {"gazebo": ['<gazebo reference="b"></gazebo>', "<gazebo></gazebo>"]}},
-    }
-
-
 @settings(deadline=None)
 @given(values(Robot))
 def test_nothing_is_lost_on_the_way_through_json(robot: Robot) -> None:
@@ -103,11 +75,3 @@ def test_nothing_is_lost_on_the_way_through_json(robot: Robot) -> None:
 ])  # fmt: skip
 def test_what_is_no_change_at_all(text: str) -> None:
     assert json.dumps(to_snapshot(parsed(text))) == json.dumps(to_snapshot(parsed(ARM)))
-
-
-@pytest.mark.parametrize(
-    "snapshot", [{}, {"name": "r", "links": {"a": {"mass": "1"}}, "joints": {"j": {"type": "ball"}}, "extensions": {}}]
-)
-def test_other_data_is_refused(snapshot: dict[str, object]) -> None:
-    with pytest.raises((KeyError, ValueError)):
-        from_snapshot(snapshot)

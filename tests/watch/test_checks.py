@@ -118,16 +118,6 @@ def test_a_source_that_can_not_be_built_leaves_the_check_of_the_last_build_alone
     assert len(compiler.saw) == 1
 
 
-def test_who_wants_no_checks_any_more_gets_none(project: Path, start: Start) -> None:
-    compiler, daemon = held(start)
-    since = daemon.mark
-    daemon.after(lambda: edit("urdfsync.toml", '"check"', '"nothing"'), events.Started)
-    daemon.wait(events.Built, since)
-    daemon.after(renew, events.Built)
-    assert "CheckDone" not in daemon.kinds()
-    assert len(compiler.saw) == 1
-
-
 def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Path, start: Start) -> None:
     first, second = Compiler(), Compiler()
     daemon = start(first)

@@ -77,17 +77,6 @@ def test_it_builds_at_its_start_and_whenever_the_source_changed(start: Start) ->
     assert watch.kinds(since) == 3 * BUILD
 
 
-def test_an_editor_that_renames(start: Start) -> None:
-    watch, source = start(), Path("ladder.json")
-    with building(watch, 330) as since:
-        Path(".ladder.json.swp").write_text("half")
-        source.rename("ladder.json~")
-        put("ladder.new", 330).rename(source)
-        Path("ladder.json~").unlink()
-    probe(watch)
-    assert watch.kinds(since) == 2 * BUILD
-
-
 def test_a_slow_writer_is_one_build(start: Start) -> None:
     watch = start("--settle", "500", "--sample", "100")
     content = ladder(330).encode()
@@ -186,15 +175,6 @@ def test_the_configuration_changes(start: Start) -> None:
     assert "net" in Path("modelica/Ladder/Ladder.mo").read_text()
 
 
-def test_another_source_in_the_configuration_ends_the_wait_for_a_valid_one(start: Start) -> None:
-    watch, file = start(*PATIENT), Path("urdfsync.toml")
-    Path("ladder.json").write_text("{")
-    watch.wait("waiting")
-    with building(watch, 330, has_files):
-        put("other.json", 330)
-        file.write_text(file.read_text().replace("ladder.json", "other.json"))
-
-
 def test_an_imported_file_changes_vanishes_and_comes_back(start: Start) -> None:
     watch = start()
     signal_file, imported = Path("step.csv"), Path("modelica/Ladder/Resources/step.txt")
@@ -242,21 +222,6 @@ def test_git_works_underneath(start: Start, project: Path, monkeypatch: pytest.M
     assert holds(330)
     with building(watch, 330, lambda event: event["robot"] == "ladder" and has_files(event)):
         repository.git("checkout", "--", "modelica", ".urdfsync")
-
-
-def test_times_of_files_do_not_matter(start: Start) -> None:
-    """Neither old ones, nor those in the future, nor those that stay the same."""
-    watch, source = start(), Path("ladder.json")
-    for ohm, moment in ((330, 86400.0), (331, 4102444800.0), (332, 86400.0)):
-        with building(watch, ohm):
-            os.utime(put("ladder.new", ohm), (moment, moment))
-            Path("ladder.new").rename(source)
-    facts = source.stat()
-    with building(watch, 333):
-        with source.open("r+") as file:
-            file.write(ladder(333))
-        os.utime(source, ns=(facts.st_atime_ns, facts.st_mtime_ns))
-    assert (source.stat().st_size, source.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
 
 
 def test_without_events_it_looks_by_itself(start: Start) -> None:
@@ -349,17 +314,6 @@ def test_the_state_folder_is_deleted(start: Start) -> None:
 
 
 # Other builds, and pre-commit
-
-
-def test_builds_by_hand_beside_it(start: Start) -> None:
-    watch = start()
-    for ohm in (330, 331, 332):
-        put("ladder.json", ohm)
-        assert cli.main(["build", "--quiet"]) == 0
-        assert holds(ohm)
-    probe(watch)
-    assert cli.main(["build", "--check", "--quiet"]) == 0
-    assert "failed" not in watch.kinds()
 
 
 def test_it_pauses_while_pre_commit_has_stashed_changes(start: Start, project: Path) -> None:

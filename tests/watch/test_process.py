@@ -8,7 +8,6 @@ import signal
 import sys
 import time
 from pathlib import Path
-from random import Random
 
 import psutil
 import pytest
@@ -39,19 +38,6 @@ HEEDS = (
     "os.execv(sys.argv[2], sys.argv[2:])"
 )
 """A program that runs another one, which heeds a signal that the tests may have been told to ignore, as by `nohup`."""
-
-
-@pytest.mark.slow
-def test_a_signal_during_a_build_leaves_all_or_nothing(start: Start) -> None:
-    random = Random(1)
-    for ohm in (330, 331, 332, 333):
-        watch, before = start(), [holds(330 + number) for number in range(4)]
-        Path("ladder.json").write_text(ladder(ohm))
-        watch.wait("building", since=2)
-        time.sleep(random.random() * 0.05)
-        assert watch.stop() == 0
-        assert cli.main(["build", "--check", "--quiet"]) == (not holds(ohm))
-        assert holds(ohm) or before == [holds(330 + number) for number in range(4)]
 
 
 ENDLESS = "<%- for a in range(99999) %><% for b in range(99999) %><% endfor %><% endfor -%>\n"

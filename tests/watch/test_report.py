@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import datetime
-import io
 import re
 import sys
 from collections.abc import Callable, Sequence
@@ -177,14 +176,6 @@ def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFix
     out, err = capsys.readouterr()
     assert out.splitlines() == ["14:03:12  watching 1 robot of urdfsync.toml", "14:03:12  arm  1 file written"]
     assert err.splitlines()[-1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
-
-
-def test_an_error_stream_elsewhere_gets_the_errors(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
-    screen, elsewhere = terminal(), io.StringIO()
-    monkeypatch.setattr(sys, "stderr", elsewhere)
-    tell(TextReport(Console()), started("arm"), FAILED)
-    assert screen.shown()[1:] == ["", "✗ arm  error: arm.urdf:12: this is no XML"]
-    assert elsewhere.getvalue().splitlines()[-1] == "arm.urdf:12: error: this is no XML [xml-syntax]"
 
 
 # The status of each robot

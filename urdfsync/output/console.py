@@ -28,7 +28,7 @@ JSON_VERSION = 2
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 FEW = 5
 """So many warnings of one code are shown; of more, only the first ones and their number."""
-_BAR_AFTER = 0.5
+BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
@@ -179,7 +179,7 @@ class Console:
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
         is_wanted = not self.json and not self.quiet and sys.stderr.isatty()
-        if not is_wanted or time.monotonic() - self._begin < _BAR_AFTER:
+        if not is_wanted or time.monotonic() - self._begin < BAR_AFTER:
             return
         if self._bar is None:
             from rich.progress import Progress

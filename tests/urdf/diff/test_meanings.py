@@ -168,22 +168,6 @@ def test_what_is_named_by_its_element_alone_came_or_went() -> None:
     assert found == [("link nine", ADDED, STRUCTURAL), ("joint nine", ADDED, STRUCTURAL)]
 
 
-def test_another_kind_of_geometry_is_structural() -> None:
-    edit = put("link base / visual 1 / geometry", {"kind": "sphere", "radius": 1.0})
-    assert {(str(change), change.change_class) for change in changes(edit)} == {
-        (f"link base / visual 1 / geometry / {field}", STRUCTURAL) for field in ("kind", "radius", "size")
-    }
-
-
-def test_units_of_a_joint_that_turned_into_a_slide() -> None:
-    def edit(data: Data) -> None:
-        data["joints"]["turn"].update(type="prismatic", limit={"lower": -0.5, "upper": 0.5, "effort": 5.0})
-
-    units = {str(change): change.unit for change in changes(edit)}
-    assert units["joint turn / limit / lower"] == "rad → m"
-    assert units["joint turn / limit / velocity"] == "rad/s"
-
-
 def test_collisions_that_are_not_wanted_are_not_modelled_unless_the_robot_stands_on_them() -> None:
     edit = put("link base / collision 1 / geometry / radius", 0.2)
     assert [change.change_class for change in changes(edit, Options(collisions=False))] == [UNMODELLED]
@@ -239,26 +223,6 @@ def test_a_mesh_that_comes_or_goes_with_its_shapes_is_no_change_by_itself() -> N
     found = {str(change): change.change_class for change in compare(old, new, DOMAIN, FIXED).changes}
     shapes = ("visual", "collision")
     assert found == {f"link base / {shape} 2 / geometry / filename": PARAMETER for shape in shapes}
-
-
-def test_a_mesh_that_is_found_is_one_change_and_the_place_of_its_shape_another() -> None:
-    new = version(put("link base / visual 2 / origin / xyz[0]", 1.0), import_("a"))
-    found = {str(change): change.change_class for change in compare(version(), new, DOMAIN, FIXED).changes}
-    assert found == {"mesh arm.stl / content": STRUCTURAL, "link base / visual 2 / origin / xyz[0]": PARAMETER}
-
-
-def test_each_of_several_changes_has_its_own_class() -> None:
-    def edit(data: Data) -> None:
-        shape, joint = data["links"]["base"]["visuals"][0], data["joints"]["turn"]
-        shape["geometry"], joint["type"] = {"kind": "sphere", "radius": 1.0}, "continuous"
-        shape["origin"]["xyz"][0] = joint["origin"]["xyz"][0] = 1.0
-
-    found = {str(change): change.change_class for change in changes(edit)}
-    assert {path: one for path, one in found.items() if one is PARAMETER} == {
-        "link base / visual 1 / origin / xyz[0]": PARAMETER,
-        "joint turn / origin / xyz[0]": PARAMETER,
-    }
-    assert found["link base / visual 1 / geometry / kind"] is found["joint turn / type"] is STRUCTURAL
 
 
 CASTERS = (

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import Severity
@@ -468,15 +467,3 @@ def test_long_words_are_judged_at_once_and_shown_in_brief() -> None:
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_numbers_are_read_exactly(value: float) -> None:
     assert parse_numbers(repr(value), 1) == (value,)
-
-
-@settings(deadline=None)
-@given(st.binary(max_size=60), st.integers(0, len(ARM)), st.integers(0, 30))
-@example(b"\xfe\xff", 0, 0)
-def test_no_input_raises(noise: bytes, position: int, removed: int) -> None:
-    arm = ARM.encode()
-    reading = read_robot(arm[:position] + noise + arm[position + removed :], "a.urdf")
-    errors = [d for d in reading.diagnostics if d.severity is Severity.ERROR]
-    assert (reading.robot is None) == bool(errors)
-    assert all(d.line > 0 and d.hint for d in reading.diagnostics)
-    assert all(re.fullmatch("[a-z]+(-[a-z]+)*", d.code) for d in reading.diagnostics)

@@ -29,7 +29,6 @@ def masses(content: bytes) -> dict[str, float]:
     return {one.name: one.inertial.mass if one.inertial else 0.0 for one in robot_of(content).links}
 
 
-GOOD = two_links(limit())
 LACKING = {
     "the robot's name": two_links(limit(), name=""),
     "<limit>": two_links('<limit lower="-1" upper="2"/>'),
@@ -50,15 +49,6 @@ def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
     model = read(content, "robot.urdf").model
     assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
     assert completed_for_pinocchio(content) == (content, ())
-
-
-def test_another_encoding_becomes_utf_8() -> None:
-    content, notes = completed_for_pinocchio(
-        f'<?xml version="1.0" encoding="utf-16"?>{GOOD}'.replace("arm", "Älm").encode("utf-16")
-    )
-    assert notes == ()
-    assert [one.name for one in robot_of(content).links] == ["base", "Älm"]
-    assert read(content, "robot.urdf").model.existFrame("Älm")
 
 
 TREE = robot(
