@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import gc
 import importlib
-import os
 import signal
 import sys
 import threading
@@ -16,7 +15,7 @@ import msgspec
 from urdfsync import __version__, streams, uptodate
 from urdfsync.commands import arguments
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, internal_error
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of, internal_error
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
@@ -79,8 +78,7 @@ def _main(given: list[str]) -> int:
     except UrdfsyncError as error:
         found, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
     except OSError as error:
-        message, place = error.strerror or str(error), os.fsdecode(error.filename or "")
-        found, code = (Diagnostic(Severity.ERROR, "system", message, place),), Exit.ERROR
+        found, code = findings_of(error), Exit.ERROR
     except KeyboardInterrupt:
         message = "interrupted; run the command again to finish the work"
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED

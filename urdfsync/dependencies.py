@@ -117,7 +117,8 @@ def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
     except OSError:
         mark_incomplete()
         raise
-    _record(check, path, found)
+    if (dependencies := _current.get()) is not None:
+        dependencies.add(check, path, found)
     return found[0]
 
 
@@ -133,7 +134,8 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
     """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, for anything else as well."""
-    _record_stat(path)
+    if (dependencies := _current.get()) is not None:
+        _add(dependencies, path)
     return read_unrecorded(path)
 
 
@@ -154,30 +156,35 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
 
 def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:
     """Ask for a path itself, links not followed, before its content is read; None for nothing. Raises OSError."""
+    dependencies = _current.get()
     try:
         found = os.lstat(path)
     except (FileNotFoundError, NotADirectoryError):
-        _record(LSTAT_TYPE, path, (0,))
+        if dependencies is not None:
+            dependencies.add(LSTAT_TYPE, path, (0,))
         return None
     except OSError:
         mark_incomplete()
         raise
-    _record(LSTAT, path, stat_of(found))
+    if dependencies is not None:
+        dependencies.add(LSTAT, path, stat_of(found))
     return found
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """The names in a folder, in no order. Raises OSError."""
-    _record_stat(folder)
+    if (dependencies := _current.get()) is not None:
+        _add(dependencies, folder)
     return os.listdir(folder)
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
-    try:
-        _record_stat(path)
-    except OSError:
-        return  # the reader meets the same error, and reports it
+    if (dependencies := _current.get()) is not None:
+        try:
+            _add(dependencies, path)
+        except OSError:
+            return  # the reader meets the same error, and reports it
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
@@ -199,20 +206,12 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
                 waiting.append(path)
 
 
-def _record(check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
-    if (dependencies := _current.get()) is not None:
-        dependencies.add(check, path, found)
-
-
-def _record_stat(path: str | os.PathLike[str]) -> None:
-    """Record a path that is about to be read, if anybody asks for dependencies. Raises OSError."""
-    if _current.get() is None:
-        return
+def _add(dependencies: Dependencies, path: str | os.PathLike[str]) -> None:
     try:
-        _record(STAT, path, stat_of(os.stat(path)))
+        dependencies.add(STAT, path, stat_of(os.stat(path)))
     except (FileNotFoundError, NotADirectoryError):
-        _record(STAT_TYPE, path, (0,))
+        dependencies.add(STAT_TYPE, path, (0,))
         raise
     except OSError:
-        mark_incomplete()
+        dependencies.complete = False
         raise

@@ -82,3 +82,11 @@ class StateError(UrdfsyncError):
 
 class OutputError(UrdfsyncError):
     """The outputs can't be written where the configuration wants them."""
+
+
+def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
+    """Return what an error says, that of the system included, as findings."""
+    if isinstance(error, UrdfsyncError):
+        return error.diagnostics
+    place = os.fsdecode(error.filename or "")
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)

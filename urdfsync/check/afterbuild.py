@@ -12,11 +12,10 @@ import msgspec
 
 from urdfsync.check import run
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import findings_of
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.engine.result import Checked, Result
 

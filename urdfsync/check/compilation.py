@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -37,7 +36,7 @@ from urdfsync.check.results import (
     listed,
 )
 from urdfsync.config import find_own_library
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
@@ -324,11 +323,3 @@ def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagn
         return Diagnostic(Severity.ERROR, code, message, shown(file), *place, hint=look)
     where = edited[0] if len(edited) == 1 else shown(package.folder)
     return Diagnostic(Severity.ERROR, code, message, where, hint=look)
-
-
-def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
-    """What an error says, that of the system included, as findings."""
-    if isinstance(error, UrdfsyncError):
-        return error.diagnostics
-    place = os.fsdecode(error.filename or "")
-    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)

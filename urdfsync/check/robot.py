@@ -10,13 +10,13 @@ import psutil
 
 from urdfsync.check import compilers, libraries, texts
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import Compilation, findings_of
+from urdfsync.check.compilation import Compilation
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.package import CheckedPackage, read_package
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Severity, UrdfsyncError
+from urdfsync.diagnostics import Severity, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.workers import tell

@@ -21,11 +21,10 @@ from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
-from urdfsync.output.json_values import result_values
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
-from urdfsync.output.results import action_word, file_line, headline
+from urdfsync.output.results import action_word, file_line, headline, result_values
 
 _STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
 _WIDEST = 44

@@ -16,10 +16,9 @@ from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
-from urdfsync.output.json_values import action_values, result_values
 from urdfsync.output.phrases import RESOLVE_HINT, action_counts, change_classes, counted, error_count, generator_change
 from urdfsync.output.phrases import reason as reason_of
-from urdfsync.output.results import file_line, headline
+from urdfsync.output.results import action_values, file_line, headline, result_values
 
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""

@@ -1,17 +1,23 @@
-"""The result of a build as lines: a headline, what changed in the model, files, and conflicts."""
+"""The result of a build: as lines for people, and as plain data for JSON documents (docs/json.md)."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
+import msgspec
+
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
-from urdfsync.output.conflicts import conflict_lines, shown_path
+from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
-from urdfsync.output.json_values import result_values
 from urdfsync.output.phrases import change_lines, counted, reason, summary
+
+if TYPE_CHECKING:
+    from urdfsync.changes import Changes
 
 _STYLES = {
     **dict.fromkeys((Kind.CREATE, Kind.RESTORE, Kind.ADOPT, Kind.UPDATE, Kind.MERGE, Kind.MOVE), "green"),
@@ -91,3 +97,59 @@ def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Ite
         yield line((_ORPHANS, "dim"))
     if result.drawing:
         yield line((f"  diagram: {shown(result.drawing)}", ""))
+
+
+def action_values(action: Action, changes: Changes | None = None) -> dict[str, Any]:
+    """What happens to a file as plain data; `changes` tell why, if it is because of them."""
+    return {
+        "path": action.path,
+        "action": action.kind,
+        "held": action.held,
+        "owner": action.owner,
+        "role": action.role,
+        "reason": reason(action, changes),
+    }
+
+
+def result_values(result: Result) -> dict[str, Any]:
+    """What was done with a robot as plain data; paths are relative to the configuration's folder."""
+    changes = result.changes
+    return {
+        "name": result.robot,
+        "package": result.package,
+        "folder": str(result.folder),
+        "failed": result.failed,
+        "locked": result.locked,
+        "was_in_step": result.in_step,
+        "in_step": result.is_in_step_now,
+        "summary": summary(result),
+        "drawing": str(result.drawing) if result.drawing else None,
+        "checked": result.checked,
+        "class": changes.change_class if changes else ChangeClass.NONE,
+        "changes": [
+            {
+                "change": str(change),
+                "kind": change.kind,
+                "class": change.change_class,
+                "old": change.old,
+                "new": change.new,
+                "unit": change.unit,
+                "noise": change.noise,
+            }
+            for change in (changes.changes if changes else ())
+        ],
+        "actions": [action_values(action, changes) for action in result.actions],
+        "conflicts": [
+            {
+                "path": target.action.path,
+                "origin": target.action.origin,
+                "owner": target.action.owner,
+                "merges": target.merges,
+                "reason": describe(target),
+                **dict.fromkeys(("base", "generated", "merge")),
+                **saved_texts(target),
+            }
+            for target in find_conflicts([result])
+        ],
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }

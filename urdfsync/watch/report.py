@@ -12,7 +12,7 @@ import msgspec
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Result
 from urdfsync.output.console import JSON_VERSION, Console, has_marks, rich_console, write_lines
-from urdfsync.output.json_values import result_values
+from urdfsync.output.results import result_values
 from urdfsync.watch import events
 from urdfsync.watch.event_log import EventLog
 from urdfsync.watch.status import StatusTable
