@@ -17,7 +17,7 @@ from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, Joint, Link, Robot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -44,7 +44,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             stance = {"record": f"{target.name}Stance", "height": standing_height(tree, imports)}
             files.append(_of_robot("Stance", "stance", target, options, stance, Role.RECORD))
     if has_bench(tree.joints, options):
-        axes = {f"{motion}_axes": len(tree.axes(motion)) for motion in ("rotational", "translational")}
+        axes = {f"{motion}_axes": len(tree.axes(motion)) for motion in MOTIONS}
         files.append(_of_robot("Generic", "generic", target, options, axes))
     if "record" in options.approach:
         data = record_data(robot.name, tree, names, imports, package, options)

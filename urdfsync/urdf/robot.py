@@ -11,7 +11,7 @@ These values refer to each other in one direction only, so Python need not searc
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import msgspec
 
@@ -19,6 +19,7 @@ Vector: TypeAlias = tuple[float, float, float]
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
 Motion = Literal["rotational", "translational"]
+MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
 
 class JointKind(msgspec.Struct, frozen=True):

@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from trimesh.util import append_faces
 
 from urdfsync.urdf.meshes.process import Facts, MeshError
 from urdfsync.urdf.robot import Vector
@@ -62,9 +63,7 @@ def joined(parts: Sequence[Triangles]) -> Triangles:
             raise MeshError("one of its faces has an index that no vertex has")
     if len(parts) == 1:  # without a copy: a large one takes a quarter of the memory that there is
         return parts[0]
-    starts = itertools.accumulate((len(part.points) for part in parts), initial=0)
-    faces = [part.faces + start for part, start in zip(parts, starts, strict=False)]
-    return Triangles(np.concatenate([part.points for part in parts]), np.concatenate(faces))
+    return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 
 
 def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triangles, Facts]:

@@ -11,7 +11,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Limit
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit
 
 NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
@@ -56,7 +56,7 @@ def record_data(
 
     axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges
         {"constant": names.drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
-        for motion in ("rotational", "translational")
+        for motion in MOTIONS
         for number, joint in enumerate(tree.axes(motion), 1)
     ]
     structure = {

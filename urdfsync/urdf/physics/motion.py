@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import Joint, Vector
+from urdfsync.urdf.robot import MOTIONS, Joint, Vector
 
 DURATION = 0.01
 """End of the motion, in s: prescribed motion is exact all the time."""
@@ -63,4 +63,4 @@ def axis_course(joint: Joint) -> Course:
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:
     """Joints with a drive, first those that turn, then those that slide."""
-    return (*tree.axes("rotational"), *tree.axes("translational"))
+    return tuple(joint for motion in MOTIONS for joint in tree.axes(motion))

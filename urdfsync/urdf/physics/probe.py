@@ -16,7 +16,7 @@ from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.robot import MOTION_KINDS, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
 _DRIVE = """
@@ -101,10 +101,9 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
     else:
         record = f"redeclare parameter {target.package}.{target.name}Parameters data"
         declaration = f"UrdfSync.Robots.GenericRobot robot({record}, "
-        kinds: tuple[Motion, ...] = ("rotational", "translational")
         flanges = {
             joint.name: f"robot.{kind}Axis[{number}]"
-            for kind in kinds
+            for kind in MOTIONS
             for number, joint in enumerate(tree.axes(kind), 1)
         }
         for k, link in enumerate(tree.links, 1):
