@@ -1,6 +1,6 @@
 """Builds that are killed at random times, with random edits in place: the next one finishes them.
 
-The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills, with new seeds.
+The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills, with a new seed.
 The counts are printed. `test_crash` has each operation, full disks and saves.
 """
 
