@@ -1,13 +1,14 @@
 """Builds that are killed at random times, with random edits in place: the next one finishes them.
 
-The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills. The counts are
-printed. `test_crash` has each operation, full disks and saves.
+The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills, with a new seed.
+The counts are printed. `test_crash` has each operation, full disks and saves.
 """
 
 from __future__ import annotations
 
 import collections
 import os
+import secrets
 import select
 import shutil
 import signal
@@ -23,6 +24,7 @@ from urdfsync.engine.result import Result
 from urdfsync.state.planned import is_interrupted
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))
+SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20
 SAME = 10
 """So many kills of one project and one change."""
 
@@ -77,7 +79,7 @@ def conflicts(result: Result) -> set[str]:
 
 
 def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    random, tally = Random(20), collections.Counter[str]()
+    random, tally = Random(SEED), collections.Counter[str]()
     for number in range(KILLS):
         if number % SAME == 0:
             shutil.rmtree(tmp_path / "original", ignore_errors=True)
@@ -90,7 +92,7 @@ def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: 
             kill(project, seconds, random)
             tally["kills"] += 1
             tally["halfway"] += is_interrupted(project / ".urdfsync")
-        assert (conflicts(run(project)), contents(project)) == wanted, number
+        assert (conflicts(run(project)), contents(project)) == wanted, (SEED, number)
         tally["with conflicts"] += bool(wanted[0])
     with capsys.disabled():
         print(f"\n{dict(tally)}")  # noqa: T201
