@@ -196,7 +196,7 @@ def test_verbose_says_what_goes_on_and_lists_changes_and_files() -> None:
         f"{TIME}paused: pre-commit runs",
         f"{TIME}building again",
     ]
-    lines = [f"{TIME}arm  {MASS}, 1 file written", f"  {MASS}", f"  update     {ELBOW}  {MASS}"]
+    lines = [f"{TIME}arm  {MASS}, 1 file written", f"  {MASS}", f"  update     {ELBOW}  link elbow"]
     assert told(UPDATED, verbose=True) == lines
 
 

@@ -170,8 +170,13 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
 def _bases(generation: Generation, decision: Decision, record: Record) -> dict[str, bytes]:
     """Return the bases of edited files by their hashes, as far as they are not lost: templates may change."""
     inputs, found = generation.inputs, dict[str, bytes]()
-    edited = [one for one in decision.actions if one.kind in USERS or (one.held and one.choice)]
-    for key in record.files.keys() & {key for one in edited for key in (one.path, one.origin or one.path)}:
+    for action in decision.actions:
+        if not (action.kind in USERS or (action.held and action.choice)):
+            continue
+        key = action.path if action.writes else action.origin or action.path
+        text_after = action.result if action.writes and action.result else action.mine
+        if key not in record.files or text_after in record.files[key].hashes:
+            continue
         path = key.removeprefix(f"{record.folder}/")
         for sha256 in record.files[key].hashes if role_of(path) is not Role.IMPORT else ():
             text = generation.base(key, sha256)
