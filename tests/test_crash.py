@@ -166,7 +166,7 @@ def test_killed_builds_on_lesser_file_systems(
     if missing == "links":
         error = PermissionError(errno.EPERM, os.strerror(errno.EPERM))
         monkeypatch.setattr(os, "link", mock.Mock(side_effect=error))
-    monkeypatch.setattr(file_operations, "_rename", lambda path, target, flag: False)
+    monkeypatch.setattr(file_operations, "rename", lambda path, target, flag: False)
     assert_finished(changed, tmp_path, CHANGES)
 
 
@@ -288,7 +288,7 @@ class Saves:
 @pytest.fixture(params=["exchanges", "no exchanges"])
 def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     if request.param == "no exchanges":
-        monkeypatch.setattr(file_operations, "_rename", lambda path, target, flag: False)
+        monkeypatch.setattr(file_operations, "rename", lambda path, target, flag: False)
 
 
 @pytest.mark.usefixtures("system")

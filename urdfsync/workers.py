@@ -22,7 +22,7 @@ from urdfsync.processes import end_with_parent
 
 T = TypeVar("T")
 
-_PATIENCE = 10
+PATIENCE = 10
 """Seconds to wait for a Dask scheduler to answer."""
 
 _steps: SimpleQueue[str] | None = None
@@ -98,7 +98,7 @@ def _connect(address: str) -> Any:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
     try:
-        return Client(address, timeout=_PATIENCE, set_as_default=False)
+        return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
         hint = "start one with `dask scheduler`, or go without `--executor`"

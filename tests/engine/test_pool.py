@@ -82,7 +82,7 @@ def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Pat
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "_plan", _die)
+    monkeypatch.setattr(pool, "plan_in_worker", _die)
     results = run_all(jobs=2)
     assert all(result.failed for result in results)
     (found,) = results[0].diagnostics
@@ -113,7 +113,7 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.workers._PATIENCE", 1)
+    monkeypatch.setattr("urdfsync.workers.PATIENCE", 1)
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
         run_all(executor="tcp://127.0.0.1:9")
 

@@ -74,7 +74,7 @@ class Pool:
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
         while self._workers is not None and self._waiting and len(self._futures) < self._most:
             robot = self._waiting.popleft()
-            self._futures[robot.name] = self._workers.submit(_plan, self._config, robot, options)
+            self._futures[robot.name] = self._workers.submit(plan_in_worker, self._config, robot, options)
 
     def _result(self, robot: RobotConfig) -> Plan:
         message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
@@ -103,7 +103,7 @@ class Pool:
         return plan
 
 
-def _plan(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
+def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
     """Plan in a worker; also what that has read. Raises UrdfsyncError."""
     with Dependencies() as found:
         plan = plan_robot(config, robot, options)

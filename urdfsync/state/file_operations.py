@@ -101,7 +101,7 @@ def exchange(path: Path, target: Path) -> None:
     Raises FileNotFoundError or FileExistsError if somebody got in between.
     """
     if not os.path.lexists(spare(path)):
-        if _rename(path, target, _EXCHANGE):
+        if rename(path, target, _EXCHANGE):
             return
         replace(target, spare(path))
     if os.path.lexists(path):
@@ -121,7 +121,7 @@ def replace(path: Path, target: Path) -> None:
 
 def place(path: Path, target: Path) -> None:
     """Move a file to a name of its folder that must be free. Raises FileExistsError if it is not."""
-    if _rename(path, target, _NOREPLACE):
+    if rename(path, target, _NOREPLACE):
         return
     try:
         os.link(path, target)  # unlike a rename, it fails if the name is taken
@@ -156,7 +156,7 @@ def sync(paths: Sequence[Path]) -> None:
             os.close(descriptor)
 
 
-def _rename(path: Path, target: Path, flag: int) -> bool:
+def rename(path: Path, target: Path, flag: int) -> bool:
     """Rename by `renameat2`. Returns False, and does nothing, where the system or the file system can't."""
     number = _renameat2()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:

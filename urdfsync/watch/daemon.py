@@ -30,7 +30,7 @@ from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import Invalid, Resting, Unsettled, WatchedRobot, read_state
+from urdfsync.watch.robot import Hashes, Invalid, Resting, Unsettled, WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
@@ -299,6 +299,9 @@ class Daemon:
                     return True
                 watched.state = Unsettled(now + options.sample, sample)
                 return not options.sample
+            case Unsettled(is_told=False) if _is_new(watched, before, sample):
+                self._touch([watched])  # its event may come later
+                return False
             case Unsettled() as state:
                 watched.state = msgspec.structs.replace(state, due=now + options.sample, sample=sample)
                 return sample == state.sample or not options.sample
@@ -350,7 +353,7 @@ class Daemon:
             old, now = before[watched.name], watched.read_files()
             if now == old and watched.name not in writers:  # git may have taken back what was written
                 self._rest(watched)
-            elif any(path in old and old[path] != now[path] for path in watched.paths.inputs):
+            elif _is_new(watched, old, now):
                 watched.state = Resting()
                 self._touch([watched])  # somebody saved meanwhile: the user is told
             else:  # most likely its own writes: confirmed without a word
@@ -385,3 +388,8 @@ class Daemon:
         watched.failure, watched.left_alone = None, left_alone
         if files:
             self._show_all(self._commands.run(watched.robot, files))
+
+
+def _is_new(watched: WatchedRobot, before: Hashes, now: Hashes) -> bool:
+    """Whether an input is other than before: somebody saved it, since the daemon writes none."""
+    return any(path in before and before[path] != now[path] for path in watched.paths.inputs)
