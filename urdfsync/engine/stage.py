@@ -174,7 +174,7 @@ def _bases(generation: Generation, decision: Decision, record: Record) -> dict[s
         if not (action.kind in USERS or (action.held and action.choice)):
             continue
         key = action.path if action.writes else action.origin or action.path
-        text_after = action.result if action.writes and action.result else action.mine
+        text_after = (action.result or action.generated) if action.writes else action.mine
         if key not in record.files or text_after in record.files[key].hashes:
             continue
         path = key.removeprefix(f"{record.folder}/")
