@@ -72,6 +72,7 @@ def test_it_builds_at_its_start_and_whenever_the_source_changed(start: Start) ->
     Path("unrelated").mkdir()
     for number in range(500):
         Path("unrelated" if number % 2 else ".", f"{number}.txt").write_text("nothing")
+    await_rescans()  # and the look at what the daemon has written, which would take the source along without a word
     for ohm in (300, 400, 500):
         probe(watch, ohm=ohm)
     assert watch.kinds(since) == 3 * BUILD
