@@ -17,6 +17,7 @@ from urdfsync.domain import (
     Import,
     Snapshot,
     Version,
+    displaced,
 )
 
 NOISE = 1e-6
@@ -131,13 +132,13 @@ def moved_files(
     if old == new and not renames:
         return {}
     owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
-    gone = set(owners.values()) - owners.keys()
+    gone = {f"{kind} {name}" for kind, name in displaced(renames)}
     sources, targets = defaultdict[Hashable, list[str]](list), defaultdict[Hashable, list[str]](list)
     staying = set()
     for path, (owner, template) in old.items():
-        key = owners.get(owner, owner), template
         if owner in gone:
             continue
+        key = owners.get(owner, owner), template
         if new.get(path) == key:
             staying.add(path)
         else:

@@ -409,7 +409,8 @@ class Domain(Protocol):
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         """Return the snapshot with those elements renamed wherever it mentions them, in the order of a report.
 
-        Lists without an order of their own may be keyed, so that the same things are compared.
+        Lists without an order of their own may be keyed, so that the same things are compared. Elements that are
+        `displaced` are left out.
         """
         return snapshot
 
@@ -476,3 +477,8 @@ class Domain(Protocol):
         made up. It runs in a process of its own. Raises SourceError if the reference can't be had or can't read it.
         """
         return "there is no reference for such packages"
+
+
+def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:
+    """Return the elements that are gone and whose names others have now."""
+    return {(kind, name) for (kind, _), name in renames.items()} - renames.keys()

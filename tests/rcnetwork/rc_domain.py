@@ -35,6 +35,7 @@ from urdfsync.domain import (
     Snapshot,
     Target,
     Version,
+    displaced,
 )
 
 GROUND = "ground"
@@ -148,7 +149,7 @@ class RcNetwork(Domain):
         return {("element", before[key]): after[key] for key in before if key in after}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        gone = {name for name in renames.values() if ("element", name) not in renames}  # another element has their name
+        gone = {name for _, name in displaced(renames)}
         names = {name: renames.get(("element", name), name) for name in snapshot["elements"] if name not in gone}
         elements = {new: {**snapshot["elements"][old], "name": new} for old, new in names.items()}
         return {**snapshot, "elements": elements}

@@ -72,8 +72,7 @@ def decide_package(generation: Generation) -> Decision:
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
     numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
-    moves = inputs.folder != inputs.old_folder
-    held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), moves))
+    held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
     decision = Decision(
         held,
@@ -104,7 +103,7 @@ def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple
     The record may be a stranger's, who has put the hashes of the user's own files into it.
     """
     inputs, now = generation.inputs, generation.imported.imports.values()
-    if inputs.folder == inputs.old_folder:
+    if not inputs.has_moved:
         return tuple(actions)
     imported = {one.target_hash for one in now}
 
@@ -235,7 +234,7 @@ def _decide_orders(
     inputs, files = generation.inputs, generation.inputs.files
     recorded, desired = generation.recorded_orders(), generation.desired_orders()
     removable = _removable_lines(recorded, actions)
-    if inputs.folder != inputs.old_folder:
+    if inputs.has_moved:
         removable = _lines_of_gone_classes(inputs, actions, removable)
     inside = (f"{inputs.folder}/", f"{inputs.old_folder}/")
     found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()

@@ -38,7 +38,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning if something stays in the folder that a package had in the last build."""
     files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
-    if inputs.old_folder == inputs.folder or any(action.held for action in actions):
+    if not inputs.has_moved or any(action.held for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.kind in DELETES}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it

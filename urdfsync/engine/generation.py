@@ -15,7 +15,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Domain, ElementKey, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Role, Snapshot, Target, Version, displaced
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
@@ -167,11 +167,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         inputs, last = self.inputs, self.last_package
         hashes = {inputs.old_path(key): one.hashes for key, one in inputs.recorded_files.items() if not one.is_users}
         texts = set(hashes)
-        if inputs.folder != inputs.old_folder:  # the record may be a stranger's, and the folder the user's
+        if inputs.has_moved:  # the record may be a stranger's, and the folder the user's
             texts = {path for path in texts if self.is_rendered(path, hashes[path])}
         before = {path: (a.owner, a.template) for path, a in last.artifacts.items() if path in texts} if last else {}
         now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
-        if before == now and inputs.folder == inputs.old_folder:
+        if before == now and not inputs.has_moved:
             return {}
         renamed = changes.moved_files(before, now, self.renames)
         pairs = ((inputs.key(renamed.get(path, path)), inputs.old_key(path)) for path in texts)
@@ -189,12 +189,12 @@ def find_renames(domain: Domain, recorded: Snapshot, open_: Open | None, now: Sn
         return direct
     later = domain.renames(open_.seen, now) if open_.seen != now else {}
     there, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
-    followed, taken = {}, {(kind, name) for (kind, _), name in open_.renamed.items()}
+    gone, followed = displaced(open_.renamed), {}
     for kind, name in _elements(domain, recorded):
+        if (kind, name) in gone:
+            continue
         last_name = open_.renamed.get((kind, name), name)
         new_name = later.get((kind, last_name), last_name)
-        if (kind, name) in taken and (kind, name) not in open_.renamed:
-            continue  # it is gone, and another element has its name
         if (kind, last_name) in elements and (kind, new_name) in there:
             followed[kind, name] = new_name
     taken = {(kind, name) for (kind, _), name in followed.items()}
@@ -220,7 +220,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         inputs.dependencies(snapshot, reading.lines),
         inputs.recorded_imports,
         shown(robot.source),
-        options.full or inputs.old_folder != inputs.folder,  # no copy of a former folder serves: it may be the user's
+        options.full or inputs.has_moved,  # no copy of a former folder serves: it may be the user's
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports)

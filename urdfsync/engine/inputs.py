@@ -57,6 +57,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """Key of the package's folder in the last build."""
         return self.record.folder if self.record else self.folder
 
+    @property
+    def has_moved(self) -> bool:
+        """Whether the package has another folder than in the last build."""
+        return self.folder != self.old_folder
+
     @cached_property
     def old_target(self) -> Target:
         """Package and class of the last build."""
@@ -154,7 +159,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
             found,
             copy=lambda target: self.files.read(self.old_key(target)),
             bases={path: hashes for path, hashes in bases.items() if path.startswith(RESOURCES)},
-            moved=self.old_folder != self.folder,
+            moved=self.has_moved,
         )
 
     def changed_options(self) -> tuple[str, ...]:

@@ -149,7 +149,7 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
     )
-    renewed = renewed_files(decision.actions) if inputs.folder == inputs.old_folder else {}
+    renewed = {} if inputs.has_moved else renewed_files(decision.actions)
     renewed = {key: one for key, one in renewed.items() if key.startswith(inside) and record.files.get(key) != one}
     files = {**record.files, **renewed}
     imported = inputs.key(RESOURCES)

@@ -86,7 +86,7 @@ def _users_texts(generation: Generation, actions: Sequence[Action]) -> _Texts:
     written = {action.path for action in actions} | inputs.recorded_files.keys()
     places = {action.path: action.origin or action.path for action in actions if action.kind in USERS}
     around = dict(files.users_files({inputs.folder, inputs.old_folder}))
-    if inputs.old_folder != inputs.folder:
+    if inputs.has_moved:
         left = files.classes(inputs.old_folder) - written
         around |= {files.path(key): files.any_text(key).encode() for key in left}
     return _Texts(
@@ -113,7 +113,7 @@ def _packages(
     after = {inputs.key(path): generation.content(inputs.key(path)).decode() for path in generation.package.artifacts}
     doubtful = _lost_parts(generation, before, after)
     before |= {place: texts.edited[key] for key, place in texts.places.items()}
-    if inputs.old_folder == inputs.folder:
+    if not inputs.has_moved:
         before |= texts.own
     staying = {action.path for action in actions if action.kind is Kind.NEEDED or action.released}
     after |= {**texts.own, **{key: files.any_text(key) for key in staying}, **texts.edited, **merged}

@@ -92,8 +92,8 @@ _ACTION_PHRASES = {
 def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
     """Why an action happens, as the end of a sentence that begins with the path, and what it waits for.
 
-    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`, or by `link
-    forearm` alone if `brief`, where all changes are listed beside it.
+    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, their
+    elements are, `link forearm`: the changes are listed beside it.
     """
     return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.waits_for]))
 

@@ -78,7 +78,8 @@ class Daemon:
         self._config_hash = self._hash_config()
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
-        self._stop_signal, self._is_working = "", True
+        self._stop_signal = ""
+        self._is_working = True
         self._is_paused = False
         self._next_poll = self._next_rescan = 0.0
 

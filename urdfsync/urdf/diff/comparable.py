@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from urdfsync.domain import ElementKey, Snapshot
+from urdfsync.domain import ElementKey, Snapshot, displaced
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 
@@ -20,7 +20,7 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     """
     links, joints, extensions = snapshot["links"], snapshot["joints"], snapshot["extensions"]
     if renames:
-        gone = {(kind, name) for (kind, _), name in renames.items()} - renames.keys()  # another element has their name
+        gone = displaced(renames)
         links = {renames.get(("link", name), name): link for name, link in links.items() if ("link", name) not in gone}
         joints = {
             renames.get(("joint", name), name): _joint(joint, renames)
@@ -30,7 +30,8 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
         extensions = {}
         for owner, tags in snapshot["extensions"].items():
             kind, _, name = owner.partition(" ")
-            extensions[f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner] = tags
+            if (kind, name) not in gone:
+                extensions[f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner] = tags
     robot = joints_of(joints)
     passive = passive_joints(robot)
     drives = {
