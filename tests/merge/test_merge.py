@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.cases import often
+from urdfsync.merge.tokens import inner_lines, is_word, tokens
 
 from urdfsync.merge import Merge, merge, split_lines
 from urdfsync.merge.lines import find_flaw, merge_lines
-from urdfsync.merge.tokens import inner_lines, is_word, tokens
 
 EXAMPLES = Path(__file__).parents[2] / "modelica" / "UrdfSync" / "Examples"
 

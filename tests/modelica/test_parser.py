@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from urdfsync.merge.tokens import tokens
+
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Declared, Extends, Modifier, Name, declared
 

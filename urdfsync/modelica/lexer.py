@@ -34,23 +34,24 @@ class Fault(NamedTuple):
 
 
 class Token(NamedTuple):
-    """One token, and the line in which it begins, from 1."""
+    """One token, the line in which it begins, from 1, and its place in the text, from 0."""
 
     text: str
     line: int
+    start: int
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
     """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
     found, faults, line = [], [], 1
-    for match in _TOKEN.finditer(text.removeprefix("\ufeff")):
+    for match in _TOKEN.finditer(text, text.startswith("\ufeff")):
         word, kind = match[0], match.lastgroup
         if kind in _ENDLESS:
             faults.append(Fault(f"has a {_ENDLESS[kind]} without an end", line))
         if kind not in ("blank", "endless_comment"):
-            found.append(Token(word, line))
+            found.append(Token(word, line, match.start()))
         line += word.count("\n")
-    found.append(Token("", line))
+    found.append(Token("", line, len(text)))
     return found, faults
 
 

@@ -20,15 +20,15 @@ _DEEPEST = 50
 _LONGEST = 60
 """Characters of what is quoted from a text."""
 
-_SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
-_BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *_SECTIONS})
-_CLASSES = frozenset("class model record block connector type package function operator".split())
+SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
+_BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})
+CLASSES = frozenset("class model record block connector type package function operator".split())
 # prefixes in their order, of which each group may have one
-_CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
-_ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
-_ARGUMENT_PREFIXES = ("redeclare",), ("each",), ("final",), ("replaceable",)
-_TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
-_CLASS_STARTS = _CLASSES.union(*_CLASS_PREFIXES)
+CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
+ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
+ARGUMENT_PREFIXES = ("redeclare",), ("each",), ("final",), ("replaceable",)
+TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
+CLASS_STARTS = CLASSES.union(*CLASS_PREFIXES)
 _ARITHMETIC = frozenset("+-*/^")
 _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
 _BRANCHES = {"if": ("elseif", "else"), "when": ("elsewhen",)}
@@ -42,7 +42,7 @@ _REPEATABLE = frozenset(
 
 def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
-    parser = _Parser(text)
+    parser = Parser(text)
     parser.document()
     return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes)
 
@@ -55,7 +55,7 @@ class _FaultError(Exception):
         self.fault = Fault(reason, line)
 
 
-class _Parser:
+class Parser:
     """Reads one text from the first token to the last.
 
     A method reads what it is named for, and returns its value, or the names used in it. It raises _FaultError where
@@ -156,7 +156,7 @@ class _Parser:
             self.faults.append(error.fault)
             self._depth, self._subscript_depth = depth, subscript_depth
             del self.open[classes:]
-            while self.word not in (";", "end", "", *_SECTIONS):
+            while self.word not in (";", "end", "", *SECTIONS):
                 self._step()
             if self.word == ";" or self.at == start:
                 self._step()
@@ -292,7 +292,7 @@ class _Parser:
         prefixes = self._prefixes((("final",),))
         if self.word == "end":
             raise _FaultError("has an `end` too many", self.line)
-        if self.word not in _CLASS_STARTS:
+        if self.word not in CLASS_STARTS:
             raise self._lack("a class")
         self.open[-1].classes.append(self._class(names, prefixes))
 
@@ -302,8 +302,8 @@ class _Parser:
 
     def _class(self, names: set[str], prefixes: set[str]) -> Class:
         """A class; `names` are those declared before in the class around it, `prefixes` those read already."""
-        prefixes |= self._prefixes(_CLASS_PREFIXES)
-        kind = self._accept(*_CLASSES)
+        prefixes |= self._prefixes(CLASS_PREFIXES)
+        kind = self._accept(*CLASSES)
         if not kind:
             raise self._lack("the kind of class")
         if kind == "operator" and (more := self._accept("record", "function")):
@@ -342,7 +342,7 @@ class _Parser:
                 self._name()
             found.is_derivative = True
         else:
-            self._prefixes(_TYPE_PREFIXES)
+            self._prefixes(TYPE_PREFIXES)
             name = self._name()
             self._subscripts()
             found.alias = Extends(name, self._arguments())
@@ -355,7 +355,7 @@ class _Parser:
         while (word := self.word) not in ("end", ""):
             if word == "initial" and self.following in ("equation", "algorithm"):
                 self._step()
-            if found := self._accept(*_SECTIONS):
+            if found := self._accept(*SECTIONS):
                 section = found
             elif section in ("public", "protected") or word == "external":
                 self._each(self._element, names)
@@ -380,8 +380,8 @@ class _Parser:
         elif self._accept("external"):
             self._external()
         else:
-            prefixes = self._prefixes(_ELEMENT_PREFIXES)
-            if self.word in _CLASS_STARTS:
+            prefixes = self._prefixes(ELEMENT_PREFIXES)
+            if self.word in CLASS_STARTS:
                 found = self._class(names, prefixes)
                 found.constraint = self._constraint()
                 around.classes.append(found)
@@ -425,7 +425,7 @@ class _Parser:
 
     def _components(self, names: set[str], prefixes: set[str]) -> list[Component]:
         """The components of one declaration."""
-        prefixes |= self._prefixes(_TYPE_PREFIXES)
+        prefixes |= self._prefixes(TYPE_PREFIXES)
         kind, sizes = self._name(), self._subscripts()
         found: list[Component] = []
         while not found or self._accept(","):
@@ -478,20 +478,20 @@ class _Parser:
 
     def _argument(self, names: set[str]) -> Modifier | None:
         """One modifier; None for a connection that is taken away."""
-        prefixes = self._prefixes(_ARGUMENT_PREFIXES)
+        prefixes = self._prefixes(ARGUMENT_PREFIXES)
         declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
         if self._accept("break"):
             if not self._accept("connect"):
                 return Modifier(self._name())
             self._expression()
             return None
-        if declares and self.word in _CLASS_STARTS:
+        if declares and self.word in CLASS_STARTS:
             definition = self._class(names, prefixes)
             return Modifier(definition.name, (), (), is_redeclared, definition.alias, self._constraint())
         new_type: Extends | None = None
         uses: list[Name] = []
         if declares:
-            self._prefixes(_TYPE_PREFIXES)
+            self._prefixes(TYPE_PREFIXES)
             new_type = Extends(self._name())
             uses += self._subscripts()
         name = self._name()

@@ -1,0 +1,286 @@
+"""Three-way merge of classes: what changed from base to generated is done to the user's text, thing by thing.
+
+A thing is an element, an equation, a modifier or a part of one (`urdfsync.modelica.tree`).
+
+- What one side added, removed or changed is done; what both added stays, the user's first.
+- Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
+- Nothing else of the user's text changes: his comments, blanks and order stay.
+- Blanks, comments and the order of declarations are no change. Neither is rounding, where the user changed something.
+- Layout is the user's in a class where he changed some of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
+
+import msgspec
+
+from urdfsync.merge.lines import merge_whole_lines
+from urdfsync.modelica.tree import LAYOUT, Kind, Leaf, Node, Part, Tree, comments
+
+ROUNDING = 1e-6
+"""Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
+
+_ROLES = (
+    *("within", "prefixes", "word", "head", "type", "name", "sizes", "connect", "equation", "import", "external"),
+    *("arguments", "sign", "expression", "value", "condition", "constraint", "description", "annotation"),
+    *("definition", "body", "end", ";"),
+)
+"""The order of the roles that the parts of an element have."""
+_MOVABLE = frozenset({"arguments", "annotation"})
+"""Lists that mean nothing if they are empty."""
+
+
+class Contradiction(msgspec.Struct, frozen=True):
+    """A thing of which the sides say something else; a text is empty on a side that does not have the thing."""
+
+    path: tuple[str, ...]
+    """The keys of the things around it, from the outermost one, and its own."""
+    base: str
+    mine: str
+    generated: str
+    starts: tuple[int, int, int]
+    """Where the texts of base, mine and generated begin; where the thing around it does on a side that lacks it."""
+
+
+Piece: TypeAlias = str | Contradiction
+
+
+def merge_trees(base: Tree, mine: Tree, generated: Tree) -> list[Piece]:
+    """Return the merged text of a class in pieces: texts, and where the sides contradict each other."""
+    return _join(_merge((), base, mine, generated, keeps_layout=False))
+
+
+def _join(pieces: Iterable[Piece]) -> list[Piece]:
+    """Texts that follow each other, in one."""
+    found: list[Piece] = []
+    for piece in pieces:
+        if isinstance(piece, str) and found and isinstance(found[-1], str):
+            found[-1] += piece
+        else:
+            found.append(piece)
+    return found
+
+
+def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node, *, keeps_layout: bool) -> list[Piece]:
+    """Merge a thing that both sides have."""
+    if (base and base.meaning == generated.meaning) or mine.meaning == generated.meaning:
+        return [mine.text]
+    if (path[-1:] and path[-1] in LAYOUT and (keeps_layout or not base)) or (not base and mine.bare == generated.bare):
+        return [mine.text]
+    if isinstance(mine, Tree) and isinstance(generated, Tree) and mine.kind is generated.kind:
+        if isinstance(base, Tree) and base.kind is mine.kind:
+            return _merge_parts(path, base, mine, generated, keeps_layout)
+        if not base and mine.kind is not Kind.SLOTS:
+            return _merge_parts(path, None, mine, generated, keeps_layout)
+    if base and base.meaning == mine.meaning:
+        return [generated.text, *(f" {note}" for note in _new_comments(mine.text, base.text))]
+    if _is_rounding(mine, generated) or (base and _is_rounding(base, generated)):
+        return [mine.text]
+    if base and all("\n" in node.text for node in (base, mine, generated)):
+        text = merge_whole_lines(base.text, mine.text, generated.text)
+        if text is not None:
+            return [text]
+    return [_contradiction(path, base, mine, generated, mine)]
+
+
+def _contradiction(
+    path: tuple[str, ...], base: Node | None, mine: Node | None, generated: Node | None, around: Node
+) -> Contradiction:
+    nodes = (base, mine, generated)
+    texts, starts = [node.text if node else "" for node in nodes], [(node or around).start for node in nodes]
+    return Contradiction(path, texts[0], texts[1], texts[2], (starts[0], starts[1], starts[2]))
+
+
+def _is_rounding(one: Node, other: Node) -> bool:
+    """Whether two texts differ in the last digits of numbers alone."""
+    if not (isinstance(one, Leaf) and isinstance(other, Leaf)) or len(one.words) != len(other.words):
+        return False
+    return all(
+        left == right
+        or (
+            isinstance(left, float)
+            and isinstance(right, float)
+            and math.isclose(left, right, rel_tol=ROUNDING, abs_tol=0)
+        )
+        for left, right in zip(one.words, other.words, strict=True)
+    )
+
+
+def _new_comments(mine: str, base: str) -> list[str]:
+    """Comments of the user's in a text that goes; those to the end of a line end one."""
+    old = comments(base)
+    return [f"{note}\n" if note.startswith("//") else note for note in comments(mine) if note not in old]
+
+
+class _Item(msgspec.Struct):
+    """A part of the merged text."""
+
+    key: str
+    section: str
+    before: str
+    pieces: list[Piece]
+    after: str = ""
+    is_users: bool = False
+    """Whether the user alone has it."""
+
+
+def _merge_parts(
+    path: tuple[str, ...], base: Tree | None, mine: Tree, generated: Tree, keeps_layout: bool
+) -> list[Piece]:
+    """Merge things that consist of others."""
+    if mine.kind is Kind.BODY:
+        keeps_layout = base is not None and _has_moved(base, mine)
+    items: list[_Item] = []
+    notes = ""  # the user's comments in what goes, for the next item
+    for part, section in zip(mine.parts, _sections(mine), strict=True):
+        old, new, here = base and base.find(part.key), generated.find(part.key), (*path, part.key)
+        pieces: list[Piece] = [part.node.text]
+        if new:
+            pieces = _merge(here, old.node if old else None, part.node, new.node, keeps_layout=keeps_layout)
+        elif old and part.key.startswith("section "):
+            pass
+        elif old and part.node.bare == old.node.bare:
+            notes += _remaining_notes(part, old)
+            continue
+        elif old and part.key in _MOVABLE and isinstance(old.node, Tree) and isinstance(part.node, Tree):
+            nothing = msgspec.structs.replace(old.node, parts=())
+            pieces = _merge(here, old.node, part.node, nothing, keeps_layout=keeps_layout)
+        elif old:
+            pieces = [_contradiction(here, old.node, part.node, None, part.node)]
+        items.append(_Item(part.key, section, notes + part.before, pieces, part.after, not (old or new)))
+        notes = ""
+    for number, (part, section) in enumerate(zip(generated.parts, _sections(generated), strict=True)):
+        old = base and base.find(part.key)
+        if mine.find(part.key) or (old and _is_settled(part, old)):
+            continue
+        pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)] if old else [part.node.text]
+        before = part.before if number or mine.kind is not Kind.LIST else ""
+        item = _Item(part.key, section, before, pieces, part.after)
+        _insert(items, item, number, generated, mine)
+    return _text_of(mine, items, notes)
+
+
+def _is_settled(part: Part, old: Part) -> bool:
+    """Whether the user removed what the export did not change."""
+    return part.key.startswith("section ") or part.node.bare == old.node.bare
+
+
+def _sections(tree: Tree) -> list[str]:
+    """The section in which each part of a body stands."""
+    section, found = "section public", []
+    for part in tree.parts:
+        if part.key.startswith("section "):
+            section = part.key.rpartition(" ")[0]
+        found.append(part.key if part.key == "annotation" else section)
+    return found if tree.kind is Kind.BODY else [""] * len(tree.parts)
+
+
+def _has_moved(base: Tree, mine: Tree) -> bool:
+    """Whether the user changed the layout of anything in a class."""
+    pairs = ((part.node, mine.find(part.key)) for part in base.parts)
+    return any(other and _layout(node) != _layout(other.node) for node, other in pairs)
+
+
+def _layout(node: Node) -> list[object]:
+    """The layout of one element."""
+    annotation = node.find("annotation") if isinstance(node, Tree) else None
+    parts = annotation.node.parts if annotation and isinstance(annotation.node, Tree) else ()
+    return [(part.key, part.node.meaning) for part in sorted(parts, key=lambda part: part.key) if part.key in LAYOUT]
+
+
+def _remaining_notes(part: Part, old: Part) -> str:
+    """The user's comments at a thing that goes, each with the blanks before it."""
+    had = comments(old.before + old.node.text + old.after)
+    indent = part.before.rpartition("\n")[2] if "\n" in part.before else " "
+    lead = f"\n{indent}" if "\n" in part.before else " "
+    found = [note for note in comments(f"{part.before}{part.node.text}{part.after}") if note not in had]
+    return "".join(f"{lead}{note}" for note in found)
+
+
+# --- where something new goes -------------------------------------------------------------------------------------
+
+
+def _insert(items: list[_Item], item: _Item, number: int, generated: Tree, mine: Tree) -> None:
+    """Put something new behind what precedes it in the generated text, and behind what the user added there."""
+    items.insert(_place(items, item, number, generated, mine.kind), item)
+
+
+def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, kind: Kind) -> int:
+    if kind is Kind.SLOTS:
+        return sum(_ROLES.index(one.key) <= _ROLES.index(item.key) for one in items if one.key in _ROLES)
+    places = {one.key: place for place, one in enumerate(items)}
+    is_section = item.key.startswith("section ")
+    for part in reversed(generated.parts[:number]):
+        place = places.get(part.key)
+        if place is not None and (is_section or items[place].section == item.section):
+            place += 1
+            while place < len(items) and items[place].is_users and (is_section or items[place].section == item.section):
+                place += 1
+            return place
+    for part in generated.parts[number + 1 :]:
+        place = places.get(part.key)
+        if place is not None and items[place].section == item.section:
+            return place
+    inside = [place for place, one in enumerate(items) if one.section == item.section]
+    if inside:
+        return inside[-1] + 1
+    if item.section == "section public":
+        return 0
+    return next((place for place, one in enumerate(items) if one.key == "annotation"), len(items))
+
+
+# --- the text -----------------------------------------------------------------------------------------------------
+
+
+def _text_of(tree: Tree, items: Sequence[_Item], notes: str) -> list[Piece]:
+    """The merged things as text, with what stands around and between them."""
+    kept = [item for number, item in enumerate(items) if not _is_empty_section(tree, items, number)]
+    if tree.kind in (Kind.LIST, Kind.ARRAY, Kind.SUM):
+        _set_apart(tree, kept)
+    found: list[Piece] = [tree.opening]
+    for number, item in enumerate(kept):
+        is_last = number == len(kept) - 1
+        found += [item.before, *item.pieces, item.after, "" if is_last else tree.separator]
+    return [*found, _ended(notes, tree.closing), tree.closing]
+
+
+def _ended(notes: str, following: str) -> str:
+    """Comments such that what follows does not run into them."""
+    runs_in = notes.rpartition("\n")[2].lstrip().startswith("//") and following.strip(" \t")[:1] not in ("", "\r", "\n")
+    return f"{notes}\n" if runs_in else notes
+
+
+def _is_empty_section(tree: Tree, items: Sequence[_Item], number: int) -> bool:
+    """Whether a word that begins a section has nothing behind it, unlike in the user's text."""
+    if not items[number].key.startswith("section "):
+        return False
+    follows = [item.key for item in items[number + 1 : number + 2]]
+    was = [part.key for part in tree.parts]
+    place = was.index(items[number].key) if items[number].key in was else -1
+    had = was[place + 1 : place + 2]
+    is_empty, was_empty = (not one or one[0] == "annotation" or one[0].startswith("section ") for one in (follows, had))
+    return is_empty and (place < 0 or not was_empty)
+
+
+def _set_apart(tree: Tree, items: Sequence[_Item]) -> None:
+    """Give items of a list the blanks that this list has between its items."""
+    known = {part.key for part in tree.parts}
+    usual = next((part.before for part in tree.parts[1:] if part.before.isspace()), "")
+    between = (part.after for part in tree.parts[:-1] if part.after.isspace())
+    behind = next(between, "" if tree.separator == "," else " ")
+    first = tree.parts[0].before if tree.parts else ""
+    for number, item in enumerate(items):
+        if item.key not in known:
+            item.before = (usual or item.before or " ") if number else first
+            item.after = behind
+        elif not number and item.before.isspace():
+            item.before = first
+        elif number and not item.before:
+            item.before = usual or " "
+        if number < len(items) - 1 and not item.after:
+            item.after = behind
+    if items and (not items[-1].after or items[-1].after.isspace()):
+        items[-1].after = ""
