@@ -51,14 +51,17 @@ def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]
     return found
 
 
-def find_conflict(action: Action, bases: Sequence[str], mine: str, generated: str) -> Conflict:
+def find_conflict(
+    action: Action, bases: Sequence[str], mine: str, generated: str, names: Mapping[str, str] | None = None
+) -> Conflict:
     """Merge the texts of a file; a merge that is no sound Modelica is rejected, and so is one that is ambiguous.
 
-    `bases` are all texts that may be the base, best first.
+    `bases` are all texts that may be the base, best first; `names` has new names by the old ones.
     """
     from urdfsync.merge import merge
 
-    merges = [merge(base, mine, generated, is_modelica=action.path.endswith(".mo")) for base in bases]
+    is_modelica = action.path.endswith(".mo")
+    merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
     first = merges[0] if merges else None
     rejected = f"the merge {first.flaw}" if first and first.flaw else ""
     if first and any(other.text != first.text for other in merges):

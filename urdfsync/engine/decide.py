@@ -58,7 +58,8 @@ def decide_package(generation: Generation) -> Decision:
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
-    conflicts = {action.path: _conflict(generation, action) for action in disputed}
+    names = _renamed(generation) if disputed else {}
+    conflicts = {action.path: _conflict(generation, action, names) for action in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
@@ -83,7 +84,16 @@ def decide_package(generation: Generation) -> Decision:
     return msgspec.structs.replace(decision, diagnostics=warnings) if decision.is_complete else decision
 
 
-def _conflict(generation: Generation, action: Action) -> Conflict:
+def _renamed(generation: Generation) -> Mapping[str, str]:
+    """Return new names by the old ones, of all that has got another one since the last complete build."""
+    if not _takes_names_away(generation):
+        return {}
+    from urdfsync.engine.vanished import renamed_names
+
+    return renamed_names(generation)
+
+
+def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
     key, files = action.origin or action.path, generation.inputs.files
     mine, generated = files.text(key), generation.content(action.path).decode()
@@ -91,7 +101,7 @@ def _conflict(generation: Generation, action: Action) -> Conflict:
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
     if mine is not None:
-        return find_conflict(action, bases, mine, generated)
+        return find_conflict(action, bases, mine, generated, names)
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
     return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)

@@ -168,6 +168,22 @@ def _renamed_identifiers(generation: Generation) -> dict[str, str]:
     return {one: found[one] for one in sorted(found, key=len, reverse=True) if one != found[one]}
 
 
+def renamed_names(generation: Generation) -> dict[str, str]:
+    """Return new names by the old ones: of classes, and of what those at the top of the package declare.
+
+    Only names that the package has no more.
+    """
+    inputs, renamed = generation.inputs, _renamed_identifiers(generation)
+    if not renamed:
+        return {}
+    keys = [key for key, record in inputs.recorded_files.items() if record.hashes and key.endswith(".mo")]
+    tops = (key for key in keys if "/" not in inputs.old_path(key))
+    texts = (generation.base(key, inputs.recorded_files[key].hashes[0]) or "" for key in tops)
+    known = _known_names(generation)
+    old = (_declared(texts) | frozenset(map(class_of, keys))) - known
+    return {name: new for name in sorted(old) if (new := _new_name(name, renamed, known))}
+
+
 def _known_names(generation: Generation) -> frozenset[str]:
     """Return the names of all generated classes, and of what those at the top of the package declare."""
     paths = generation.package.artifacts

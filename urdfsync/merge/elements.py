@@ -17,6 +17,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.merge.layout import arrange
 from urdfsync.merge.lines import merge_whole_lines
 from urdfsync.modelica.tree import LAYOUT, Kind, Leaf, Node, Part, Tree, comments
 
@@ -152,11 +153,14 @@ def _merge_parts(
             pieces = [_contradiction(here, old.node, part.node, None, part.node)]
         items.append(_Item(part.key, section, notes + part.before, pieces, part.after, not (old or new)))
         notes = ""
+    arranged = arrange(mine, generated) if mine.kind is Kind.BODY and keeps_layout else {}
     for number, (part, section) in enumerate(zip(generated.parts, _sections(generated), strict=True)):
         old = base and base.find(part.key)
         if mine.find(part.key) or (old and _is_settled(part, old)):
             continue
-        pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)] if old else [part.node.text]
+        pieces = [arranged.get(part.key, part.node.text)]
+        if old:
+            pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
         before = part.before if number or mine.kind is not Kind.LIST else ""
         item = _Item(part.key, section, before, pieces, part.after)
         _insert(items, item, number, generated, mine)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
 from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
+from urdfsync.merge.renames import rename
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
@@ -37,8 +38,10 @@ class Merge(msgspec.Struct, frozen=True):
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
 
 
-def merge(base: str, mine: str, generated: str, *, is_modelica: bool = False) -> Merge:
-    """Bring what changed from `base` to `generated` into `mine`.
+def merge(
+    base: str, mine: str, generated: str, *, is_modelica: bool = False, names: Mapping[str, str] | None = None
+) -> Merge:
+    """Bring what changed from `base` to `generated` into `mine`; `names` has new names by the old ones.
 
     Kinds of line endings are no difference. Lines of `mine` keep theirs, others get the one that prevails in
     `mine`. With `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side
@@ -46,6 +49,8 @@ def merge(base: str, mine: str, generated: str, *, is_modelica: bool = False) ->
     """
     ending = "\r\n" if 2 * mine.count("\r\n") > mine.count("\n") else "\n"
     base, generated = (text.replace("\r\n", "\n").replace("\n", ending) for text in (base, generated))
+    if names:
+        base, mine = rename(base, mine, names)
     plain = [text.replace("\r\n", "\n") for text in (base, mine, generated)]
     if plain[1] in (plain[0], plain[2]):
         return Merge(generated, generated, ()) if plain[1] == plain[0] != plain[2] else Merge(mine, mine, ())

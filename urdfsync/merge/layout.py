@@ -1,0 +1,184 @@
+"""Places for new things in a diagram that the user has arranged himself.
+
+Something new gets the place beside its neighbour that it has in the generated diagram, or the nearest one that is free;
+a new line goes from one end to the other with a bend in the middle. Lengths are in units of the diagram.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Collection, Mapping
+from typing import NamedTuple
+
+from urdfsync.modelica.tree import Leaf, Part, Tree
+
+_STEP = 20.0
+"""Places are looked for at multiples of this from the wanted one."""
+_REACH = 40
+"""So many steps away a place is looked for."""
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
+
+
+class Point(NamedTuple):
+    """A place, or the way from one to another."""
+
+    x: float
+    y: float
+
+    def shifted(self, by: Point) -> Point:
+        """The place so far away."""
+        return Point(self.x + by.x, self.y + by.y)
+
+    def to(self, other: Point) -> Point:
+        """The way to another place."""
+        return Point(other.x - self.x, other.y - self.y)
+
+
+class Box(NamedTuple):
+    """The place of a component."""
+
+    low: Point
+    high: Point
+
+    @property
+    def centre(self) -> Point:
+        """The middle."""
+        return Point((self.low.x + self.high.x) / 2, (self.low.y + self.high.y) / 2)
+
+    def shifted(self, by: Point) -> Box:
+        """The box so far away."""
+        return Box(self.low.shifted(by), self.high.shifted(by))
+
+    def touches(self, other: Box) -> bool:
+        """Whether the two lie upon each other."""
+        return all(one.low[axis] < two.high[axis] for one, two in ((self, other), (other, self)) for axis in (0, 1))
+
+
+def arrange(mine: Tree, generated: Tree) -> dict[str, str]:
+    """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`."""
+    boxes = {part.key: box for part in mine.parts if (box := _box(part))}
+    planned = {part.key: box for part in generated.parts if (box := _box(part))}
+    lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
+    shifts = {key: planned[key].centre.to(boxes[key].centre) for key in planned.keys() & boxes.keys()}
+    found: dict[str, str] = {}
+    for part in generated.parts:
+        if part.key in planned and not mine.find(part.key):
+            shift = _find_shift(part.key, planned, shifts, lines, boxes.values())
+            shifts[part.key], boxes[part.key] = shift, planned[part.key].shifted(shift)
+            found[part.key] = _moved(part, shift)
+    for key, (first, second) in lines.items():
+        line, start, end = generated.find(key), shifts.get(first, Point(0, 0)), shifts.get(second, Point(0, 0))
+        if line and not mine.find(key) and (start, end) != (Point(0, 0), Point(0, 0)):
+            found[key] = _rerouted(line, start, end)
+    return found
+
+
+def _find_shift(
+    key: str,
+    planned: Mapping[str, Box],
+    shifts: Mapping[str, Point],
+    lines: Mapping[str, tuple[str, str]],
+    taken: Collection[Box],
+) -> Point:
+    """How far from its generated place a new component goes: as far as its neighbour did, and on to a free place."""
+    around = [other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts]
+    earlier = [other for other in itertools.takewhile(lambda other: other != key, planned) if other in shifts]
+    neighbour = next(iter(around), earlier[-1] if earlier else "")
+    wanted = shifts.get(neighbour, Point(0, 0))
+    for x, y in _steps():
+        shift = wanted.shifted(Point(x, y))
+        if not any(planned[key].shifted(shift).touches(box) for box in taken):
+            return shift
+    return wanted
+
+
+@functools.cache
+def _steps() -> list[Point]:
+    """Ways to the places around one, the nearest first, and of those the one below."""
+    reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
+    return sorted(
+        itertools.starmap(Point, itertools.product(reach, reach)), key=lambda way: (abs(way.x) + abs(way.y), way.y)
+    )
+
+
+# --- annotations --------------------------------------------------------------------------------------------------
+
+
+def _find(part: Part, *keys: str) -> Leaf | None:
+    """The value of an annotation of an element: `_find(part, "Line", "points")`."""
+    node = part.node
+    for key in ("annotation", *itertools.chain.from_iterable((key, "arguments") for key in keys[:-1]), keys[-1]):
+        found = node.find(key) if isinstance(node, Tree) else None
+        if found is None:
+            return None
+        node = found.node
+    for key in ("value", "expression"):
+        found = node.find(key) if isinstance(node, Tree) else None
+        if found is None:
+            return None
+        node = found.node
+    return node if isinstance(node, Leaf) else None
+
+
+def _points(leaf: Leaf | None) -> list[Point]:
+    numbers = [float(number) for number in _NUMBER.findall(leaf.text)] if leaf else []
+    return [Point(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
+
+
+def _box(part: Part) -> Box | None:
+    """The place of a component; None for what has none."""
+    place = ("Placement", "transformation")
+    corners = _points(_find(part, *place, "extent"))
+    if len(corners) != 2:
+        return None
+    origin = next(iter(_points(_find(part, *place, "origin"))), Point(0, 0))
+    (left, right), (low, high) = (sorted(one) for one in zip(*corners, strict=True))
+    return Box(Point(left, low), Point(right, high)).shifted(origin)
+
+
+def _ends(part: Part) -> tuple[str, str] | None:
+    """The keys of the components that a line connects."""
+    if not part.key.startswith("connect ") or not isinstance(part.node, Tree):
+        return None
+    connect = part.node.find("connect")
+    names = re.findall(r"[\w.\[\]']+", connect.node.text)[1:] if connect else []
+    return (f"component {_first(names[0])}", f"component {_first(names[1])}") if len(names) == 2 else None
+
+
+def _first(name: str) -> str:
+    return re.split(r"[.\[]", name, maxsplit=1)[0]
+
+
+def _moved(part: Part, shift: Point) -> str:
+    place = ("Placement", "transformation")
+    return _with_points(part, _find(part, *place, "origin") or _find(part, *place, "extent"), shift)
+
+
+def _with_points(part: Part, leaf: Leaf | None, shift: Point) -> str:
+    """The text of a part with all points of an annotation so far away."""
+    return _replaced(part, leaf, [point.shifted(shift) for point in _points(leaf)])
+
+
+def _rerouted(part: Part, start: Point, end: Point) -> str:
+    """The text of a connection whose ends have moved."""
+    leaf = _find(part, "Line", "points")
+    points = _points(leaf)
+    if start == end or len(points) < 2:
+        return _with_points(part, leaf, start)
+    first, last = points[0].shifted(start), points[-1].shifted(end)
+    middle = (first.x + last.x) / 2
+    bends = [] if first.y == last.y else [Point(middle, first.y), Point(middle, last.y)]
+    return _replaced(part, leaf, [first, *bends, last])
+
+
+def _replaced(part: Part, leaf: Leaf | None, points: list[Point]) -> str:
+    """The text of a part with other points in an annotation."""
+    text = part.node.text
+    if leaf is None:
+        return text
+    said = ", ".join(f"{{{point.x:g}, {point.y:g}}}" for point in points)
+    said = f"{{{said}}}" if leaf.text.startswith("{{") or len(points) > 1 else said
+    place = leaf.start - part.node.start
+    return f"{text[:place]}{said}{text[place + len(leaf.text) :]}"
