@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_o
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
-_COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "library")
+_COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "merge-file", "library")
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 
@@ -127,5 +127,5 @@ def _parser(given: Sequence[str]) -> arguments.Parser:
     parser.add_argument("--version", action="version", version=f"urdfsync {__version__}")
     commands = parser.add_subparsers(title="commands", dest="command", metavar="COMMAND", required=True)
     for name in names:
-        importlib.import_module(f"urdfsync.commands.{name}").add(commands)
+        importlib.import_module(f"urdfsync.commands.{name.replace('-', '_')}").add(commands)
     return parser

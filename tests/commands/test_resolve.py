@@ -86,7 +86,7 @@ def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradic
     with unchanged(contradictory, but=".urdfsync/lock"):
         proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
         assert execute("resolve", MODEL, "--merge", code=2).err == (
-            f"{Path(MODEL)}: error: it can't be merged: the changes contradict each other; "
+            f"{Path(MODEL)}: error: it can't be merged: component `elementR2`: you changed it, the export removes it; "
             f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
         )
         assert MINE in proposal.read_text()

@@ -12,7 +12,6 @@ from urdfsync import config
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
 CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
@@ -67,7 +66,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
 
 
 def add_command(
-    commands: Commands, name: str, run: Callable[[argparse.Namespace, Console], Exit], shared: str = "", **texts: Any
+    commands: Commands, name: str, run: Callable[[argparse.Namespace, Console], int], shared: str = "", **texts: Any
 ) -> Parser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has."""
     parser = commands.add_parser(name, **texts)

@@ -7,6 +7,8 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import msgspec
+
 from urdfsync import dependencies
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
@@ -39,6 +41,9 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
+    parser.add_argument(
+        "--merge", action="store_true", help="merge what is new into files that you edited, where both fit together"
+    )
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument(
         "--explain",
@@ -51,6 +56,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Build the robots, one after the other, and show each as soon as it is built."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
+    if args.merge:
+        robots = [msgspec.structs.replace(robot, merging=True) for robot in robots]
     dry = args.dry_run or args.check
     request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg)
     results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)

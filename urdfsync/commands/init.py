@@ -34,7 +34,7 @@ _DEFAULTS = """\
 output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
 # on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
-# on_conflict = "merge"  # where you and the source changed a file, merge if that leaves no doubt; default "keep"
+{on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
 # package_paths = []  # folders that hold packages, where sources refer to files in them
 # templates = "templates"  # a folder with templates that replace single ones of urdfsync
 """
@@ -62,6 +62,9 @@ def add(commands: arguments.Commands) -> None:
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
     parser.add_argument("sources", nargs="*", type=Path, metavar="SOURCE", help="default: all below this folder")
+    parser.add_argument(
+        "--merge", action="store_true", help="let builds merge what is new into files that you edited, where both fit"
+    )
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
 
 
@@ -71,7 +74,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     _refuse_existing(file)
     domain = registry.domain(args.domain)
     guesses, warnings = guess_robots(domain, file.parent, args.sources)
-    _write(file, configuration_text(domain, guesses))
+    _write(file, configuration_text(domain, guesses, merges=args.merge))
     console.warnings(warnings)
     if console.json:
         console.write_json("init", Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
@@ -139,9 +142,10 @@ def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> 
     return guess, reading.diagnostics
 
 
-def configuration_text(domain: Domain, guesses: Sequence[Guess]) -> str:
-    """Return a configuration with comments."""
-    return "\n".join([_HEADER, _DEFAULTS, *(_table(guess, domain) for guess in guesses)])
+def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
+    """Return a configuration with comments; `merges` is consent to merge edited files."""
+    defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
+    return "\n".join([_HEADER, defaults, *(_table(guess, domain) for guess in guesses)])
 
 
 def _table(guess: Guess, domain: Domain) -> str:

@@ -15,6 +15,9 @@ from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.tree import read_tree
 
+MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated"), (">>>>>>> generated", "")
+"""What stands before each version of a contradiction, and behind the last one."""
+
 
 class ConflictingLines(msgspec.Struct, frozen=True):
     """Where the sides disagree: line numbers, from 1, in the three texts; an empty range is the place before a line."""
@@ -47,20 +50,48 @@ def merge(
     `mine`. With `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side
     has.
     """
-    ending = "\r\n" if 2 * mine.count("\r\n") > mine.count("\n") else "\n"
-    base, generated = (text.replace("\r\n", "\n").replace("\n", ending) for text in (base, generated))
+    ending = _ending(mine)
+    base, generated = _with_ending(base, ending), _with_ending(generated, ending)
     if names:
         base, mine = rename(base, mine, names)
-    plain = [text.replace("\r\n", "\n") for text in (base, mine, generated)]
-    if plain[1] in (plain[0], plain[2]):
-        return Merge(generated, generated, ()) if plain[1] == plain[0] != plain[2] else Merge(mine, mine, ())
-    pieces = _merge_classes(base, mine, generated) if is_modelica and plain[0] != plain[2] else None
-    pieces = pieces or _merge_by_lines(mine, plain, ending)
+    pieces = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
     texts = base, mine, generated
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
-    merged = _with_markers(pieces, ending)
+    merged = with_markers(pieces, ending)
     flaw = find_flaw(merged, (mine, generated)) if is_modelica and not conflicts and merged != mine else ""
     return Merge(None if conflicts or flaw else merged, merged, conflicts, flaw)
+
+
+def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
+    """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
+    ending = _ending(mine)
+    base, other = _with_ending(base, ending), _with_ending(other, ending)
+    pieces = merge_pieces(base, mine, other, ending, is_modelica=True)
+    merged = with_markers(pieces, ending, markers)
+    conflicts = sum(isinstance(piece, Contradiction) for piece in pieces)
+    if not conflicts and find_flaw(merged, (mine, other)):
+        pieces = merge_pieces(base, mine, other, ending, is_modelica=False)
+        merged = with_markers(pieces, ending, markers)
+        conflicts = sum(isinstance(piece, Contradiction) for piece in pieces)
+    return merged, conflicts
+
+
+def _ending(text: str) -> str:
+    """The line ending that prevails in a text."""
+    return "\r\n" if 2 * text.count("\r\n") > text.count("\n") else "\n"
+
+
+def _with_ending(text: str, ending: str) -> str:
+    return text.replace("\r\n", "\n").replace("\n", ending)
+
+
+def merge_pieces(base: str, mine: str, generated: str, ending: str, *, is_modelica: bool) -> list[Piece]:
+    """Return the merged text in pieces; `ending` is that of the lines of `base` and `generated`."""
+    one, two, three = plain = [text.replace("\r\n", "\n") for text in (base, mine, generated)]
+    if two in (one, three):
+        return [generated if two == one != three else mine]
+    pieces = _merge_classes(base, mine, generated) if is_modelica and one != three else None
+    return pieces or _merge_by_lines(mine, plain, ending)
 
 
 def _merge_classes(*texts: str) -> list[Piece] | None:
@@ -95,30 +126,29 @@ def _find_lines(found: Contradiction, texts: Sequence[str]) -> ConflictingLines:
     return ConflictingLines(ranges[0], ranges[1], ranges[2], describe(found))
 
 
-def _with_markers(pieces: Sequence[Piece], ending: str) -> str:
-    """Return the pieces as one text; lines with contradictions in them in all three versions."""
+def with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]] = MARKERS) -> str:
+    """Return the pieces as one text; lines with contradictions in them in all versions that have a marker."""
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
         *rows, rest = piece.split("\n") if isinstance(piece, str) else [piece]
         for part in rows:
-            result += _shown([*row, f"{part}\n"], ending)
+            result += _shown([*row, f"{part}\n"], ending, markers)
             row = []
         row.append(rest)
-    return "".join([*result, *_shown(row, ending)])
+    return "".join([*result, *_shown(row, ending, markers)])
 
 
-def _shown(row: Sequence[Piece], ending: str) -> list[str]:
-    """One line as it is, or in three versions between markers."""
+def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> list[str]:
+    """One line as it is, or in several versions between markers."""
     if all(isinstance(piece, str) for piece in row):
         return [piece for piece in row if isinstance(piece, str)]
     found: list[str] = []
-    sides = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated")
-    for marker, side in sides:
-        text = "".join(piece if isinstance(piece, str) else getattr(piece, side) for piece in row)
-        text = text.removesuffix("\n").removesuffix("\r")
-        found.append(f"{marker}{ending}{text.replace(chr(13), '').replace(chr(10), ending)}{ending if text else ''}")
-    return [*found, f">>>>>>> generated{ending}"]
+    for marker, side in markers:
+        text = "".join(piece if isinstance(piece, str) else getattr(piece, side) for piece in row) if side else ""
+        text = text.replace("\r\n", "\n").removesuffix("\n").replace("\n", ending)
+        found.append(f"{marker}{ending}{text}{ending if text else ''}")
+    return found
 
 
 def find_flaw(text: str, sides: Sequence[str]) -> str:

@@ -6,28 +6,40 @@ from urdfsync.merge.elements import Contradiction
 
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""
-_SILENT = frozenset({"body", "arguments", "annotation", "value", "expression"})
-"""Roles that need no name, since what is in them has one."""
+_SILENT = frozenset({"body", "arguments", "annotation", "value", "expression", "constraint"})
+"""Parts that need no name, since what is in them has one."""
+_ROLES = {
+    "connect": "equation",
+    "description": "description",
+    "head": "kind and name",
+    "name": "name",
+    "prefixes": "prefixes",
+    "sizes": "size",
+    "type": "type",
+}
+"""Parts of an element in words."""
 
 
 def describe(found: Contradiction) -> str:
     """Say what the sides disagree about: component `body`: you set `m = 99`, the export changes 11.5 to 12.1."""
     if not found.path:
         return ""
-    names = [key for key in found.path if key not in _SILENT]
-    kind, _, name = names[0].partition(" ") if names else ("", "", "")
-    place = f"{kind} `{name}`" if name else kind or "the class"
-    inner = ".".join(names[1:])
+    names = [key for key in found.path if key not in _SILENT and key not in _ROLES]
+    kind, _, name = names[0].partition(" ") if names else ("class", "", "")
+    place = f"{kind} `{name}`" if name else f"the {kind}"
+    inner, role = ".".join(names[1:]), _ROLES.get(found.path[-1], "")
+    what = f"the {role} of `{inner}`" if role and inner else f"the {role}" if role else f"`{inner}`" if inner else "it"
     base, mine, generated = map(_quoted, (found.base, found.mine, found.generated))
-    setting = f"{inner} = " if inner and found.path[-1] == "expression" else f"{inner} " if inner else ""
     if not found.mine:
-        told = f"you removed {inner or 'it'}, the export changes it"
+        told = f"you removed {what}, the export changes it"
     elif not found.generated:
-        told = f"you changed {inner or 'it'}, the export removes it"
+        told = f"you changed {what}, the export removes it"
     elif not found.base:
-        told = f"you added `{setting}{mine}`, the export `{setting}{generated}`"
+        told = f"you added `{mine}`, the export `{generated}`"
+    elif inner and not role:
+        told = f"you set `{inner} = {mine}`, the export changes {base} to {generated}"
     else:
-        told = f"you set `{setting}{mine}`, the export changes {base} to {generated}"
+        told = f"you changed {what} to `{mine}`, the export to `{generated}`"
     return f"{place}: {told}"
 
 

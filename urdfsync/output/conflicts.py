@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
+_NAMED = 3
+"""So many contradictions of a file are named in its sentence."""
 
 
 class DisputedFile(msgspec.Struct, frozen=True):
@@ -81,9 +83,12 @@ def describe(target: DisputedFile) -> str:
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
-        return f"the changes fit together line by line, but {texts.rejected}"
-    number = len(texts.merge.conflicts)
-    return f"the changes contradict each other{f' in {number} places' if number > 1 else ''}"
+        return f"the changes fit together, but {texts.rejected}"
+    found = [conflict.what for conflict in texts.merge.conflicts]
+    if not all(found):
+        return f"the changes contradict each other{f' in {len(found)} places' if len(found) > 1 else ''}"
+    more = f"; and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
+    return f"{'; '.join(found[:_NAMED])}{more}"
 
 
 def saved_texts(target: DisputedFile) -> dict[str, str]:
