@@ -99,7 +99,7 @@ PUT = "first put into it what you want of both"
     [
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Kind.CONFLICT),
-            f"{CHANGED} The changes fit together line by line, but the merge declares `x` twice.",
+            f"{CHANGED} The changes fit together, but the merge declares `x` twice.",
             f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --keep --keep leaves your file as it is: {PUT}",
         ),
         (
