@@ -14,6 +14,7 @@ from random import Random
 
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _NUMBER = re.compile(r"(?<![\w.\"])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.\"])")
+_LAYOUT = re.compile(r"\b(?:Placement|Line)\(")
 _ORDER = "package.order"
 
 Edit = Callable[[Path, Random, str], object]
@@ -31,12 +32,14 @@ class Line:
 
 
 def tagged(files: Mapping[str, bytes]) -> dict[str, Line]:
-    """The lines of all tags in these files."""
+    """The lines of all tags in these files; numbers in the layout of a part go with the part."""
     found = {}
     for path, content in files.items():
         if path.endswith((".mo", _ORDER)):
             for line in content.decode().splitlines():
                 for tag in _TAG.findall(line):
+                    if tag[0].isdigit() and _LAYOUT.search(line):
+                        continue
                     found[tag] = Line(path, line, own=not tag[0].isdigit() and "// shared" not in line)
     return found
 

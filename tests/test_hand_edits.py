@@ -1,0 +1,132 @@
+"""Edits by hand, one at a time, and then the next export of a real history: how often they meet without a conflict.
+
+`URDFSYNC_REPLAYS=2000` sets the number of exports. The counts are printed; docs/conflicts.md has them.
+"""
+
+from __future__ import annotations
+
+import collections
+import itertools
+import re
+import shutil
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+from pymoca import parser as pymoca
+from support import replay
+from support.hand_edits import EDITS, MARK
+from support.packages import read
+from support.replay import Fresh, Project
+
+from urdfsync.engine.result import Result
+from urdfsync.modelica.parser import parse
+
+STEPS = replay.STEPS or 60
+LARGEST = 60
+"""Links that a robot has at most; larger ones take seconds a step."""
+
+pytestmark = pytest.mark.slow
+
+
+def steps(random: Random) -> Iterator[tuple[bytes, bytes]]:
+    """Exports of the histories that follow each other and differ, in random order, without end."""
+    pairs = [
+        (old, new)
+        for versions in replay.histories().values()
+        for old, new in itertools.pairwise(versions)
+        if old != new and max(old.count(b"<link"), new.count(b"<link")) <= LARGEST
+    ]
+    while True:
+        yield random.choice(pairs)
+
+
+def declared(text: str) -> set[str]:
+    """What a class declares, as another parser reads it."""
+    tree = pymoca.parse(text)
+    assert tree is not None
+    found: set[str] = set()
+    classes = list(tree.classes.values())
+    for one in classes:
+        found.update(one.symbols)
+        classes += one.classes.values()
+    return found
+
+
+def conflicts(result: Result) -> Sequence[tuple[str, str]]:
+    """Why files conflict, and what about."""
+    found = []
+    for one in result.conflict_texts:
+        if one.merge is None or one.rejected:
+            found.append(("refused", one.rejected or "no base"))
+        else:
+            found += [("contradiction", conflict.what) for conflict in one.merge.conflicts[:1]]
+    return found
+
+
+def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> tuple[Result, str, Path] | None:
+    """Build an export, edit a file of the package, and build the next one; None if nothing can be edited so."""
+    if any(read(version).snapshot is None for version in (old, new)):
+        return None
+    base = replay.base_of([old])
+    project, changed = Project(folder, base), Fresh(folder.with_name("fresh"), base)(new)[0]
+    project.configure('on_conflict = "merge"\n')
+    project.save(old)
+    if project.build().failed:
+        return None
+    # an edit that the export does not touch never conflicts; half of them are made in the models of the robot
+    names = [name for name, text in project.files().items() if name.endswith(".mo") and changed.get(name, b"") != text]
+    files = [project.package / name for name in names if not name.endswith("package.mo")]
+    tops = [path for path in files if path.parent == project.package]
+    if not files:
+        return None
+    path = random.choice(tops if tops and random.random() < 0.5 else files)
+    text = path.read_text()
+    edited = EDITS[kind](text, random)
+    if edited is None or edited == text:
+        return None
+    assert not parse(edited).faults, (kind, edited)
+    path.write_text(edited)
+    project.save(new)
+    result = project.build()
+    return None if result.failed else (result, edited, path)
+
+
+def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    random, tally = Random(replay.SEED), collections.Counter[tuple[str, str]]()
+    reasons = collections.Counter[str]()
+    source, number = steps(random), 0
+    with replay.in_haste():
+        while number < STEPS:
+            kind = list(EDITS)[number % len(EDITS)]
+            old, new = next(source)
+            shutil.rmtree(tmp_path / "project", ignore_errors=True)
+            done = trial(tmp_path / "project", old, new, kind, random)
+            if done is None:
+                continue
+            number += 1
+            result, edited, path = done
+            found = conflicts(result)
+            tally[kind, "steps"] += 1
+            tally[kind, found[0][0] if found else "met"] += 1
+            reasons.update(f"{kind}: {why}: {what}" for why, what in found)
+            if not found and path.is_file():
+                check(edited, path.read_text())
+    lines = [
+        f"{kind}: " + ", ".join(f"{what} {count}" for (of, what), count in sorted(tally.items()) if of == kind)
+        for kind in EDITS
+    ]
+    lines += [f"{count} {reason}" for reason, count in reasons.most_common()]
+    with capsys.disabled():
+        print("", *lines, sep="\n")  # noqa: T201
+    refused = sum(count for (_, what), count in tally.items() if what == "refused")
+    assert refused <= 0.02 * STEPS
+
+
+def check(edited: str, merged: str) -> None:
+    """Nothing that was added by hand is lost, and the text is Modelica."""
+    assert not parse(merged).faults
+    names = {name for name in declared(edited) if name.startswith(MARK)}
+    assert names <= declared(merged)
+    assert set(re.findall(r"7171\.5|byHand\.\w+", edited)) <= set(re.findall(r"7171\.5|byHand\.\w+", merged))
