@@ -18,6 +18,7 @@ from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
@@ -46,21 +47,29 @@ def add(commands: arguments.Commands) -> None:
         "with what follows for the whole model and for the files of the package. Nothing is written.",
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
-        "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n\n"
+        "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"
+        "          urdfsync diff --edits modelica/Arm/Links\n\n"
         "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 locked, 130 interrupted",
     )
-    parser.add_argument("source", nargs="?", default="", metavar="SOURCE", help="a source or a robot (default: all)")
-    parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
+    parser.add_argument(
+        "sources", nargs="*", metavar="SOURCE", help="sources or robots, with --edits also outputs (default: all)"
+    )
+    other = parser.add_mutually_exclusive_group()
+    other.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
+    other.add_argument("--edits", action="store_true", help="show what you edited in the packages instead")
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Show what changed in each source."""
+    if args.edits:
+        from urdfsync.commands import edits  # the merge takes a while to load
+
+        return edits.run(args, console)
     folder = config.working_folder()
     nearest = _configuration(args, folder)
-    configuration, robots = comparison.find_sources(args.source, nearest, args.robot or [], args.against, folder)
     found = []
     request = arguments.request(args, console)
-    for one in comparison.compare_sources(robots, args.against, configuration, request, folder):
+    for one in _comparisons(args, nearest, request, folder):
         found.append(one)
         if console.json:
             console.add_robot(_to_json(one))
@@ -74,9 +83,24 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     return code
 
 
+def _comparisons(
+    args: argparse.Namespace, nearest: Config | None, request: BuildOptions, folder: Path
+) -> Iterator[Comparison]:
+    """Compare each source that is named, once; or all. Raises ConfigError for what is none."""
+    sources = [
+        comparison.find_sources(source, nearest, args.robot or [], args.against, folder)
+        for source in dict.fromkeys(args.sources or [""])
+    ]
+    seen = set[tuple[str, Path]]()
+    for configuration, robots in sources:
+        new = [robot for robot in robots if (robot.name, robot.source) not in seen]
+        seen.update((robot.name, robot.source) for robot in new)
+        yield from comparison.compare_sources(new, args.against, configuration, request, folder)
+
+
 def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
     """Return the configuration; None if there is none and none is needed. Raises ConfigError."""
-    named = options.config or options.robot or not options.source
+    named = options.config or options.robot or not options.sources
     if named or any((place / config.FILE_NAME).is_file() for place in (folder, *folder.parents)):
         return arguments.configuration(options)
     if options.against is not None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from urdfsync.modelica.tree import Leaf, Part, Tree
@@ -36,6 +36,10 @@ class Point(NamedTuple):
         return Point(other.x - self.x, other.y - self.y)
 
 
+_NOWHERE = Point(0, 0)
+"""The way to where one is."""
+
+
 class Box(NamedTuple):
     """The place of a component."""
 
@@ -58,21 +62,30 @@ class Box(NamedTuple):
 
 def arrange(mine: Tree, generated: Tree) -> dict[str, str]:
     """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`."""
-    boxes = {part.key: box for part in mine.parts if (box := _box(part))}
-    planned = {part.key: box for part in generated.parts if (box := _box(part))}
+    new = [part for part in generated.parts if not mine.find(part.key)]
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
-    shifts = {key: planned[key].centre.to(boxes[key].centre) for key in planned.keys() & boxes.keys()}
+    shifts, icon_shifts = (_shifts(mine, generated, lines, place) for place in ("transformation", "iconTransformation"))
     found: dict[str, str] = {}
-    for part in generated.parts:
-        if part.key in planned and not mine.find(part.key):
-            shift = _find_shift(part.key, planned, shifts, lines, boxes.values())
-            shifts[part.key], boxes[part.key] = shift, planned[part.key].shifted(shift)
-            found[part.key] = _moved(part, shift)
-    for key, (first, second) in lines.items():
-        line, start, end = generated.find(key), shifts.get(first, Point(0, 0)), shifts.get(second, Point(0, 0))
-        if line and not mine.find(key) and (start, end) != (Point(0, 0), Point(0, 0)):
-            found[key] = _rerouted(line, start, end)
+    for part in new:
+        if part.key in lines:
+            start, end = (shifts.get(one, _NOWHERE) for one in lines[part.key])
+            found[part.key] = _rerouted(part, start, end)
+        else:
+            ways = {"transformation": shifts.get(part.key), "iconTransformation": icon_shifts.get(part.key)}
+            found[part.key] = _moved(part, {place: way for place, way in ways.items() if way})
     return found
+
+
+def _shifts(mine: Tree, generated: Tree, lines: Mapping[str, tuple[str, str]], place: str) -> dict[str, Point]:
+    """Return how far each component is from its generated place, by key; those that `mine` lacks get a free one."""
+    boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
+    planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
+    shifts = {key: planned[key].centre.to(boxes[key].centre) for key in planned.keys() & boxes.keys()}
+    for key in planned:
+        if not mine.find(key):
+            shifts[key] = _find_shift(key, planned, shifts, lines, boxes.values())
+            boxes[key] = planned[key].shifted(shifts[key])
+    return shifts
 
 
 def _find_shift(
@@ -86,9 +99,9 @@ def _find_shift(
     around = [other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts]
     earlier = [other for other in itertools.takewhile(lambda other: other != key, planned) if other in shifts]
     neighbour = next(iter(around), earlier[-1] if earlier else "")
-    wanted = shifts.get(neighbour, Point(0, 0))
-    for x, y in _steps():
-        shift = wanted.shifted(Point(x, y))
+    wanted = shifts.get(neighbour, _NOWHERE)
+    for way in _steps():
+        shift = wanted.shifted(way)
         if not any(planned[key].shifted(shift).touches(box) for box in taken):
             return shift
     return wanted
@@ -127,13 +140,12 @@ def _points(leaf: Leaf | None) -> list[Point]:
     return [Point(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
 
 
-def _box(part: Part) -> Box | None:
-    """The place of a component; None for what has none."""
-    place = ("Placement", "transformation")
-    corners = _points(_find(part, *place, "extent"))
+def _box(part: Part, place: str) -> Box | None:
+    """The place of a component in the diagram or in the icon; None for what has none."""
+    corners = _points(_find(part, "Placement", place, "extent"))
     if len(corners) != 2:
         return None
-    origin = next(iter(_points(_find(part, *place, "origin"))), Point(0, 0))
+    origin = next(iter(_points(_find(part, "Placement", place, "origin"))), _NOWHERE)
     (left, right), (low, high) = (sorted(one) for one in zip(*corners, strict=True))
     return Box(Point(left, low), Point(right, high)).shifted(origin)
 
@@ -151,14 +163,13 @@ def _first(name: str) -> str:
     return re.split(r"[.\[]", name, maxsplit=1)[0]
 
 
-def _moved(part: Part, shift: Point) -> str:
-    place = ("Placement", "transformation")
-    return _with_points(part, _find(part, *place, "origin") or _find(part, *place, "extent"), shift)
-
-
-def _with_points(part: Part, leaf: Leaf | None, shift: Point) -> str:
-    """The text of a part with all points of an annotation so far away."""
-    return _replaced(part, leaf, [point.shifted(shift) for point in _points(leaf)])
+def _moved(part: Part, ways: Mapping[str, Point]) -> str:
+    """The text of a component in other places of the diagram and of the icon."""
+    found = []
+    for place, way in ways.items():
+        leaf = _find(part, "Placement", place, "origin") or _find(part, "Placement", place, "extent")
+        found.append((leaf, [point.shifted(way) for point in _points(leaf)]))
+    return _replaced(part, found)
 
 
 def _rerouted(part: Part, start: Point, end: Point) -> str:
@@ -166,19 +177,20 @@ def _rerouted(part: Part, start: Point, end: Point) -> str:
     leaf = _find(part, "Line", "points")
     points = _points(leaf)
     if start == end or len(points) < 2:
-        return _with_points(part, leaf, start)
+        return _replaced(part, [(leaf, [point.shifted(start) for point in points])])
     first, last = points[0].shifted(start), points[-1].shifted(end)
     middle = (first.x + last.x) / 2
-    bends = [] if first.y == last.y else [Point(middle, first.y), Point(middle, last.y)]
-    return _replaced(part, leaf, [first, *bends, last])
+    bends = [] if first.x == last.x or first.y == last.y else [Point(middle, first.y), Point(middle, last.y)]
+    return _replaced(part, [(leaf, [first, *bends, last])])
 
 
-def _replaced(part: Part, leaf: Leaf | None, points: list[Point]) -> str:
-    """The text of a part with other points in an annotation."""
+def _replaced(part: Part, found: Sequence[tuple[Leaf | None, list[Point]]]) -> str:
+    """The text of a part with other points in annotations."""
     text = part.node.text
-    if leaf is None:
-        return text
-    said = ", ".join(f"{{{point.x:g}, {point.y:g}}}" for point in points)
-    said = f"{{{said}}}" if leaf.text.startswith("{{") or len(points) > 1 else said
-    place = leaf.start - part.node.start
-    return f"{text[:place]}{said}{text[place + len(leaf.text) :]}"
+    known = [(leaf, points) for leaf, points in found if leaf]
+    for leaf, points in sorted(known, key=lambda one: one[0].start, reverse=True):
+        said = ", ".join(f"{{{point.x:g}, {point.y:g}}}" for point in points)
+        said = f"{{{said}}}" if len(points) > 1 else said
+        place = leaf.start - part.node.start
+        text = f"{text[:place]}{said}{text[place + len(leaf.text) :]}"
+    return text

@@ -1,4 +1,4 @@
-"""Contradictions in words."""
+"""Things in a class, and contradictions about them, in words."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ _SILENT = frozenset({"body", "arguments", "annotation", "value", "expression", "
 """Parts that need no name, since what is in them has one."""
 _ROLES = {
     "connect": "equation",
+    "equation": "equation",
     "description": "description",
     "head": "kind and name",
     "name": "name",
@@ -20,29 +21,40 @@ _ROLES = {
 """Parts of an element in words."""
 
 
+def place_of(path: tuple[str, ...]) -> tuple[str, str]:
+    """Return the element that a path of keys leads to, and what of it: ("component `body`", "m")."""
+    names = [key for key in path if key not in _SILENT and key not in _ROLES]
+    kind, _, name = names[0].partition(" ") if names else ("class", "", "")
+    role = _ROLES.get(path[-1], "") if path else ""
+    if path[-1:] == ("expression",) and len(names) == 1:
+        names.append(name)  # the value of a declaration
+    if kind == "connect":
+        kind, name = "", f"connect({name.replace(' ', ', ')})"
+    return f"{kind} `{name}`".lstrip() if name else f"the {kind}", " ".join(filter(None, (".".join(names[1:]), role)))
+
+
 def describe(found: Contradiction) -> str:
     """Say what the sides disagree about: component `body`: you set `m = 99`, the export changes 11.5 to 12.1."""
     if not found.path:
         return ""
-    names = [key for key in found.path if key not in _SILENT and key not in _ROLES]
-    kind, _, name = names[0].partition(" ") if names else ("class", "", "")
-    place = f"{kind} `{name}`" if name else f"the {kind}"
-    inner, role = ".".join(names[1:]), _ROLES.get(found.path[-1], "")
-    what = f"the {role} of `{inner}`" if role and inner else f"the {role}" if role else f"`{inner}`" if inner else "it"
-    base, mine, generated = map(_quoted, (found.base, found.mine, found.generated))
+    element, part = place_of(found.path)
+    is_value = part and found.path[-1] not in _ROLES
+    what = f"`{part}`" if is_value else f"the {part}" if part else "it"
+    base, mine, generated = map(quoted, (found.base, found.mine, found.generated))
     if not found.mine:
         told = f"you removed {what}, the export changes it"
     elif not found.generated:
         told = f"you changed {what}, the export removes it"
     elif not found.base:
         told = f"you added `{mine}`, the export `{generated}`"
-    elif inner and not role:
-        told = f"you set `{inner} = {mine}`, the export changes {base} to {generated}"
+    elif is_value:
+        told = f"you set `{part} = {mine}`, the export changes {base} to {generated}"
     else:
         told = f"you changed {what} to `{mine}`, the export to `{generated}`"
-    return f"{place}: {told}"
+    return f"{element}: {told}"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text in one line, as a sentence can quote it."""
     said = " ".join(text.split())
     return said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}…"

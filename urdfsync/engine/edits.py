@@ -1,0 +1,39 @@
+"""The files of a package that the user has edited, with what urdfsync wrote last."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+
+from urdfsync.config import Config, RobotConfig
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Kind
+from urdfsync.engine.decide import decide_package
+from urdfsync.engine.generation import generate_robot
+from urdfsync.engine.inputs import inspect
+from urdfsync.engine.options import BuildOptions
+
+
+class EditedFile(msgspec.Struct, frozen=True):
+    """A text file that is not as it was written."""
+
+    path: str
+    """Where it is: a path from the configuration's folder, POSIX."""
+    owner: str
+    """Element that it belongs to, in the domain's words."""
+    base: str | None
+    """The generated text that it last took into account; None if that is lost, or if urdfsync never wrote it."""
+    mine: str
+
+
+def find_edited(config: Config, robot: RobotConfig, options: BuildOptions) -> Iterator[EditedFile]:
+    """Yield the edited files of a robot, in the order of their paths. Raises UrdfsyncError."""
+    generation = generate_robot(inspect(config, robot, options))
+    files = generation.inputs.files
+    for action in decide_package(generation).actions:
+        key = action.origin or action.path
+        is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.kind is not Kind.LEAVE
+        if is_text and action.mine not in (None, action.base, action.generated):
+            base = generation.base(key, action.base) if action.base else None
+            yield EditedFile(key, action.owner, base, files.any_text(key))

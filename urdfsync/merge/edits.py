@@ -1,0 +1,71 @@
+"""What somebody changed in a text, by the elements of its class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+
+from urdfsync.merge.words import place_of, quoted
+from urdfsync.modelica.tree import LAYOUT, Node, Tree, comments, read_tree
+
+
+class Edit(msgspec.Struct, frozen=True):
+    """One thing that differs from base; a text is None where it does not exist."""
+
+    element: str
+    """The element, such as "component `body`"."""
+    part: str
+    """What of it, such as `inertial.mass`, "type" or "layout"; empty for all of it."""
+    base: str | None
+    mine: str | None
+
+    @property
+    def told(self) -> str:
+        """What was done, without the element."""
+        what = f"{self.part} " if self.part else ""
+        if self.base is None or self.mine is None:
+            return f"{what}{'added' if self.base is None else 'removed'}"
+        return f"{what}moved" if self.part == "layout" else f"{what}{quoted(self.base)} → {quoted(self.mine)}"
+
+
+def find_edits(base: str, mine: str) -> list[Edit] | None:
+    """Return what differs between two versions of a class; None if one of the texts is no single class.
+
+    Blanks and the order of declarations are no difference. New comments are one, together.
+    """
+    one, two = read_tree(base), read_tree(mine)
+    if not (one and two):
+        return None
+    found = [_edit(path, old, new) for path, old, new in _differences((), one, two)]
+    if comments(base) != comments(mine):
+        found.append(Edit("comments", "", base, mine))
+    return list(dict.fromkeys(found))
+
+
+def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
+    element, part = place_of(tuple(key for key in path if key not in LAYOUT))
+    part = "layout" if not LAYOUT.isdisjoint(path) else part
+    return Edit(element, part, old.text if old else None, new.text if new else None)
+
+
+def _differences(
+    path: tuple[str, ...], old: Node, new: Node
+) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
+    """Yield the innermost things that differ, with the keys around them."""
+    if old.meaning == new.meaning:
+        return
+    if not (isinstance(old, Tree) and isinstance(new, Tree) and old.kind is new.kind) or path[-1:] in [
+        (key,) for key in LAYOUT
+    ]:
+        yield path, old, new
+        return
+    for part in new.parts:
+        before = old.find(part.key)
+        if before:
+            yield from _differences((*path, part.key), before.node, part.node)
+        elif not part.key.startswith("section "):
+            yield (*path, part.key), None, part.node
+    for part in old.parts:
+        if not new.find(part.key) and not part.key.startswith("section "):
+            yield (*path, part.key), part.node, None
