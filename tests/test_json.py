@@ -29,7 +29,7 @@ from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
-BUILD, CHANGED, MISTAKE, DIFF, STATUS, BUILT, CHECK, RESOLVE, INIT, RECORD, LIBRARY = ONE
+BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, RESOLVE, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
@@ -108,6 +108,16 @@ def test_diff(folder: Path, execute: Execute) -> None:
     cli.main(["build"])
     (folder / "arm.urdf").write_text((folder / "arm.urdf").read_text().replace('mass value="2"', 'mass value="2.5"'))
     assert matches(DIFF, printed(execute, folder, "diff", "arm.urdf"))
+
+
+def test_edits(folder: Path, execute: Execute) -> None:
+    inertia = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    (folder / "arm.urdf").write_text(URDF.replace('"tip">', f'"tip"><inertial><mass value="2"/>{inertia}</inertial>'))
+    cli.main(["init", "arm.urdf"])
+    cli.main(["build"])
+    record = folder / "modelica/Arm/Links/TipParameters.mo"
+    record.write_text(record.read_text().replace("mass = 2,", "mass = 2.5,"))
+    assert matches(EDITS, printed(execute, folder, "diff", "--edits"))
 
 
 def test_status(folder: Path, execute: Execute) -> None:
