@@ -97,9 +97,10 @@ def rename_part(text: str, random: Random) -> str | None:
 
 
 def save_again(text: str, _: Random) -> str | None:
-    """The same text with other blanks, as an editor may save it."""
-    lines = (re.sub(r", (?=\S)", ",", line) if '"' not in line else line for line in text.split("\n"))
-    return re.sub(r"\n\n+", "\n", "\n".join(lines))
+    """The same text with other blanks, as an editor may save it; documentation is left alone."""
+    code, mark, documentation = text.partition("Documentation(")
+    lines = (re.sub(r", (?=\S)", ",", line) if '"' not in line else line for line in code.split("\n"))
+    return re.sub(r"\n\n+", "\n", "\n".join(lines)) + mark + documentation
 
 
 EDITS: Mapping[str, Edit] = {

@@ -9,7 +9,7 @@ import msgspec
 
 from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
-from urdfsync.merge.renames import rename
+from urdfsync.merge.renames import find_renamed, rename
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
@@ -94,10 +94,15 @@ def merge_pieces(base: str, mine: str, generated: str, ending: str, *, is_modeli
     return pieces or _merge_by_lines(mine, plain, ending)
 
 
-def _merge_classes(*texts: str) -> list[Piece] | None:
+def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not."""
-    trees = [tree for tree in map(read_tree, texts) if tree]
-    return merge_trees(*trees) if len(trees) == len(texts) else None
+    trees = [read_tree(text) for text in (base, mine, generated)]
+    one, two, three = trees
+    if not (one and two and three):
+        return None
+    if names := find_renamed(one, two, three):
+        one, three = (read_tree(text) for text in rename(base, generated, names))
+    return merge_trees(one, two, three) if one and three else None
 
 
 def _merge_by_lines(mine: str, texts: Sequence[str], ending: str) -> list[Piece]:
