@@ -19,7 +19,20 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_o
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
-_COMMANDS = ("init", "build", "diff", "status", "watch", "check", "resolve", "record", "hook", "merge-file", "library")
+_COMMANDS = (
+    "init",
+    "add",
+    "build",
+    "diff",
+    "status",
+    "watch",
+    "check",
+    "resolve",
+    "record",
+    "hook",
+    "merge-file",
+    "library",
+)
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 

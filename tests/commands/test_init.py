@@ -57,7 +57,7 @@ def test_choices_are_named(execute: Execute, folder: Path) -> None:
 def test_an_existing_file_is_never_overwritten(project: Path, execute: Execute) -> None:
     before = (project / "urdfsync.toml").read_bytes()
     assert execute(*INIT, "ladder.json", code=2).err.startswith(
-        "urdfsync.toml: error: the file exists already; add a table"
+        "urdfsync.toml: error: the file exists already; `urdfsync add SOURCE`"
     )
     assert (project / "urdfsync.toml").read_bytes() == before
 

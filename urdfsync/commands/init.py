@@ -6,7 +6,7 @@ import argparse
 import json
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -74,20 +74,23 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     _refuse_existing(file)
     domain = registry.domain(args.domain)
     guesses, warnings = guess_robots(domain, file.parent, args.sources)
-    _write(file, configuration_text(domain, guesses, merges=args.merge))
+    _refuse_existing(file)
+    write(file, configuration_text(domain, guesses, merges=args.merge))
     console.warnings(warnings)
     if console.json:
         console.write_json("init", Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
     elif not console.quiet:
-        console.print(_lines(file, guesses))
+        console.print([line((shown(file), "bold"), (" written", "")), *guess_lines(guesses)])
     return Exit.IN_STEP
 
 
-def guess_robots(domain: Domain, root: Path, named: Sequence[Path]) -> tuple[list[Guess], list[Diagnostic]]:
+def guess_robots(
+    domain: Domain, root: Path, named: Sequence[Path], taken: Collection[str] = ()
+) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each source that is named, or for each below `root` if none is; with warnings about them.
 
-    A source that is named twice counts once. Raises ConfigError if there is no source, SourceError if one that is named
-    can't be read, or none of those that were found.
+    None gets one of the names of robots and packages that are `taken`. A source that is named twice counts once. Raises
+    ConfigError if there is no source, SourceError if one that is named can't be read, or none of those that were found.
     """
     unique: dict[str, Path] = {}
     for source in named or _search(root, f".{domain.name}"):
@@ -100,7 +103,8 @@ def guess_robots(domain: Domain, root: Path, named: Sequence[Path]) -> tuple[lis
     errors: list[Diagnostic] = []
     for source in unique.values():
         try:
-            guess, found = _guess(domain, source, root, guesses)
+            used = {*taken, *(name for one in guesses for name in (one.name, one.package))}
+            guess, found = _guess(domain, source, root, used)
         except SourceError as error:
             if named:
                 raise
@@ -125,8 +129,8 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
         yield from (Path(parent, name) for name in found)
 
 
-def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> tuple[Guess, Sequence[Diagnostic]]:
-    """A robot for a source, under a name that none of the others has; with warnings. Raises SourceError."""
+def _guess(domain: Domain, source: Path, root: Path, taken: Collection[str]) -> tuple[Guess, Sequence[Diagnostic]]:
+    """A robot for a source, under names that are not taken; with warnings. Raises SourceError."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
@@ -135,7 +139,7 @@ def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> 
     stem = source.name.partition(".")[0][:_LONGEST]
     name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
     name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
-    names = {one for guess in taken for one in (guess.name, guess.package.casefold())}
+    names = set(map(str.casefold, taken))
     counts = ("", *map(str, range(2, len(taken) + 2)))
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
     guess = Guess(name + count, path.as_posix(), package + count, tuple(domain.propose(snapshot)))
@@ -145,10 +149,10 @@ def _guess(domain: Domain, source: Path, root: Path, taken: Sequence[Guess]) -> 
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
     """Return a configuration with comments; `merges` is consent to merge edited files."""
     defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
-    return "\n".join([_HEADER, defaults, *(_table(guess, domain) for guess in guesses)])
+    return "\n".join([_HEADER, defaults, *(robot_table(guess, domain) for guess in guesses)])
 
 
-def _table(guess: Guess, domain: Domain) -> str:
+def robot_table(guess: Guess, domain: Domain) -> str:
     """The table of a robot, with its options: those that are guessed, and the others as comments."""
     lines = [
         f"[robots.{guess.name}]",
@@ -177,9 +181,8 @@ def _assignment(key: str, value: Any) -> str:
     return tomli_w.dumps({key: plain_value}).strip()
 
 
-def _write(file: Path, text: str) -> None:
-    """Write the configuration, as a whole or not at all. Raises ConfigError if that fails, or if it exists by now."""
-    _refuse_existing(file)
+def write(file: Path, text: str) -> None:
+    """Write the configuration, as a whole or not at all. Raises ConfigError if that fails."""
     try:
         put(file, text.encode())
     except OSError as error:
@@ -190,14 +193,14 @@ def _write(file: Path, text: str) -> None:
 
 def _refuse_existing(file: Path) -> None:
     if os.path.lexists(file):
-        hint = "add a table `[robots.NAME]` to it, or name another file with --config"
+        hint = "`urdfsync add SOURCE` adds a robot to it; or name another file with --config"
         raise ConfigError(
             Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint)
         )
 
 
-def _lines(file: Path, guesses: Sequence[Guess]) -> Iterator[StyledLine]:
-    yield line((shown(file), "bold"), (" written", ""))
+def guess_lines(guesses: Sequence[Guess]) -> Iterator[StyledLine]:
+    """Yield what was guessed for each robot, and why."""
     for guess in guesses:
         name, package = (guess.name, "bold"), (guess.package, "bold")
         yield line(("  ", ""), name, (f": {guess.source} becomes package ", ""), package)

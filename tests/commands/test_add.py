@@ -1,0 +1,49 @@
+"""`urdfsync add`: one more robot, and nothing of the configuration is lost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from support.commands import Execute
+from support.files import unchanged
+
+ADD = ("add", "--domain", "rcnetwork")
+
+
+def test_a_robot_joins(project: Path, execute: Execute) -> None:
+    file = project / "urdfsync.toml"
+    before = f"# mine\n{file.read_text().rstrip()}"  # without an end of the last line
+    file.write_text(before)
+    (project / "Ladder.json").write_text((project / "ladder.json").read_text())
+    assert execute(*ADD, "Ladder.json").lines == [
+        "urdfsync.toml extended",
+        "  ladder2: Ladder.json becomes package Ladder2",
+        "    ground = true  guessed: a node is named ground",
+        "Look it over, then run `urdfsync build`.",
+    ]
+    assert file.read_text().startswith(f"{before}\n\n[robots.ladder2]\n")
+    execute("build", "-q")
+    assert (project / "modelica/Ladder2/package.mo").is_file()
+
+
+def test_line_ends_stay(project: Path, execute: Execute) -> None:
+    file = project / "urdfsync.toml"
+    file.write_bytes(file.read_bytes().replace(b"\n", b"\r\n"))
+    (project / "other.json").write_text((project / "ladder.json").read_text())
+    execute(*ADD, "other.json", "-q")
+    assert file.read_bytes().count(b"\n") == file.read_bytes().count(b"\r\n")
+
+
+def test_what_does_not_fit_changes_nothing(project: Path, execute: Execute) -> None:
+    (project / "other.json").write_text((project / "ladder.json").read_text())
+    with unchanged(project):
+        assert "is the source of `ladder` already" in execute(*ADD, "ladder.json", code=2).err
+        assert "nowhere.json" in execute(*ADD, "nowhere.json", code=2).err
+    file = project / "urdfsync.toml"
+    file.write_text('robots = { ladder = { domain = "rcnetwork", source = "ladder.json", package = "Ladder" } }\n')
+    with unchanged(project):
+        assert execute(*ADD, "other.json", code=2).err.startswith("urdfsync.toml")
+
+
+def test_without_a_configuration(folder: Path, execute: Execute) -> None:
+    assert "urdfsync init" in execute("add", "arm.urdf", code=2).err

@@ -1,0 +1,58 @@
+"""`urdfsync add`: adds robots to a configuration that exists."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import msgspec
+
+from urdfsync import config, registry
+from urdfsync.commands import arguments
+from urdfsync.commands.init import guess_lines, guess_robots, robot_table, write
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.engine.result import Exit
+from urdfsync.files import shown
+from urdfsync.output.console import Console, line
+
+
+def add(commands: arguments.Commands) -> None:
+    """Add the command's parser."""
+    parser = arguments.add_command(
+        commands,
+        "add",
+        run,
+        help="add a robot to urdfsync.toml",
+        description="Add a table to urdfsync.toml for each source, with guesses and their reasons. What is there stays "
+        "as it is.",
+        epilog="example: urdfsync add cad/gripper.urdf",
+    )
+    parser.add_argument("sources", nargs="+", type=Path, metavar="SOURCE", help="the sources of the new robots")
+    parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
+
+
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Write the new tables behind all others, and show what was guessed. Raises ConfigError, SourceError."""
+    loaded, domain = arguments.configuration(args), registry.domain(args.domain)
+    taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
+    guesses, warnings = guess_robots(domain, loaded.root, args.sources, taken)
+    known = {robot.source.resolve(): robot.name for robot in loaded.robots}
+    for guess in guesses:
+        if (source := (loaded.root / guess.source).resolve()) in known:
+            message = f"{guess.source} is the source of `{known[source]}` already"
+            hint = "write a table by hand for a second package of one source"
+            raise ConfigError(Diagnostic(Severity.ERROR, "source-in-use", message, shown(loaded.file), hint=hint))
+    text = loaded.file.read_bytes().decode()
+    tables = "".join(f"\n{robot_table(guess, domain)}" for guess in guesses)
+    ending = "\r\n" if "\r\n" in text else "\n"
+    new = f"{text}{'' if text.endswith(chr(10)) else ending}{tables.replace(chr(10), ending)}"
+    plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
+    config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
+    write(loaded.file, new)
+    console.warnings(warnings)
+    if console.json:
+        values = {"config": str(loaded.file), "robots": msgspec.to_builtins(guesses)}
+        console.write_json("add", Exit.IN_STEP, values)
+    elif not console.quiet:
+        console.print([line((shown(loaded.file), "bold"), (" extended", "")), *guess_lines(guesses)])
+    return Exit.IN_STEP
