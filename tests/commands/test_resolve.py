@@ -56,10 +56,22 @@ def test_merge_takes_both(clean: Path, execute: Execute) -> None:
 
 def test_take_replaces_the_edits(contradictory: Path, execute: Execute) -> None:
     execute("build", code=3)
-    assert execute("resolve", MODEL, "--take").lines[0] == "ladder: 4 files written, 2 deleted"
+    lines = execute("resolve", MODEL, "--take").lines
+    assert lines[:2] == ["your edits go:", f"  {MODEL}  network"]
+    assert "ladder: 4 files written, 2 deleted" in lines
     assert MINE not in Path(MODEL).read_text()
     assert FRESH in Path(MODEL).read_text()
     assert execute("build").lines[0] == "ladder: in step, 14 files"
+
+
+def test_take_gives_back_a_file_that_does_not_conflict(project: Path, execute: Execute) -> None:
+    execute("build")
+    before = Path(MODEL).read_text()
+    edit(MODEL, "equation", "  Real mine;\n\nequation")
+    assert "has no conflict" in execute("resolve", MODEL, "--keep", code=2).err
+    lines = ["your edits go:", f"  {MODEL}  network", "    component `mine`: added", "ladder: 1 file written"]
+    assert execute("resolve", MODEL, "--take").lines[:4] == lines
+    assert Path(MODEL).read_text() == before
 
 
 def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, execute: Execute) -> None:

@@ -59,11 +59,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 
 def _show(console: Console, root: Path, robot: str, found: Sequence[EditedFile]) -> None:
-    edits = [find_edits(one.base, one.mine) if one.base is not None else None for one in found]
     if console.json:
         files = [
-            {"path": one.path, "owner": one.owner, "base": one.base is not None, "edits": _values(of)}
-            for one, of in zip(found, edits, strict=True)
+            {"path": one.path, "owner": one.owner, "base": one.base is not None, "edits": _values(one)} for one in found
         ]
         console.add_robot({"name": robot, "failed": False, "files": files})
         return
@@ -71,17 +69,23 @@ def _show(console: Console, root: Path, robot: str, found: Sequence[EditedFile])
         return
     words = f"{counted(len(found), 'file')} edited" if found else "nothing is edited"
     console.print([line((robot, "bold"), (f": {words}", ""))])
-    for one, of in zip(found, edits, strict=True):
-        console.print(_lines(one, of, shown(Path(os.path.normpath(root / one.path))), console.verbose))
+    for one in found:
+        console.print(edit_lines(one, root, console.verbose))
 
 
-def _values(edits: Sequence[Edit] | None) -> list[dict[str, str | None]]:
+def _edits(file: EditedFile) -> list[Edit] | None:
+    return find_edits(file.base, file.mine) if file.base is not None else None
+
+
+def _values(file: EditedFile) -> list[dict[str, str | None]]:
+    edits = _edits(file)
     return [] if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
 
 
-def _lines(file: EditedFile, edits: Sequence[Edit] | None, name: str, verbose: bool) -> Iterator[StyledLine]:
+def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLine]:
     """Yield the lines of one file: each element that is edited, and what of it; with `verbose`, the lines as well."""
-    yield line(("  ", ""), (name, "bold"), (f"  {file.owner}", "dim"))
+    edits = _edits(file)
+    yield line(("  ", ""), (shown(Path(os.path.normpath(root / file.path))), "bold"), (f"  {file.owner}", "dim"))
     if file.base is None:
         yield line(("    what urdfsync wrote last is lost: there is nothing to compare with", "dim"))
         return

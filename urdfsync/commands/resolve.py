@@ -10,12 +10,16 @@ from pathlib import Path
 from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.commands.build import build_and_check
+from urdfsync.commands.edits import edit_lines
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
+from urdfsync.engine.edits import find_edited
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console
+from urdfsync.output.console import Console, line
 from urdfsync.output.results import show_result, show_results
 from urdfsync.state.record import Choice
 
@@ -68,7 +72,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
         targets = [target for target in targets if not any(_problems(target, args.choice))]
     else:
-        targets, unknown = _find_targets(found, args.paths, configuration.root)
+        targets, unknown = _find_targets(found, args.paths, configuration.root, args.choice)
         if unknown:
             failed = [result for result in found if result.failed]
             for result in failed:
@@ -84,17 +88,37 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         concerned = {target.result.robot for target in targets}
     choices = {target.action.path: args.choice for target in targets}
     again = [robot for robot in configuration.robots if robot.name in concerned]
+    if args.choice is Choice.TAKE and not console.json and not console.quiet:
+        _show_losses(configuration, again, targets, arguments.request(args, console, dry=True), console)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
     code = exit_code(show_results(console, build_and_check(configuration, again, request)))
     console.end("resolve", code)
     return code
 
 
-def _find_targets(results: Sequence[Result], typed: Sequence[str], root: Path) -> tuple[list[DisputedFile], list[str]]:
+def _show_losses(
+    configuration: Config,
+    robots: Sequence[RobotConfig],
+    targets: Sequence[DisputedFile],
+    request: BuildOptions,
+    console: Console,
+) -> None:
+    """Show the edits that go with the files that are taken."""
+    taken = {target.action.origin or target.action.path for target in targets}
+    for robot in robots:
+        for file in find_edited(configuration, robot, request):
+            if file.path in taken:
+                lines = edit_lines(file, configuration.root, console.verbose)
+                console.print([line(("your edits go:", "bold red")), *lines])
+
+
+def _find_targets(
+    results: Sequence[Result], typed: Sequence[str], root: Path, choice: Choice
+) -> tuple[list[DisputedFile], list[str]]:
     """The files that paths mean, and the paths that mean none.
 
-    A folder stands for all conflicts below it; a file that does not conflict has to be named itself. A file is known
-    by where the user's is, and by where it is to go.
+    An edited file need not conflict to be taken. A folder stands for all conflicts below it; any other file has to be
+    named itself. A file is known by where the user's is, and by where it is to go.
     """
     by_place: dict[Path, list[DisputedFile]] = {}
     for target in find_conflicts(results):
@@ -102,7 +126,8 @@ def _find_targets(results: Sequence[Result], typed: Sequence[str], root: Path) -
             for place in (file, *file.parents):
                 by_place.setdefault(place, []).append(target)
     for target in (DisputedFile(result, action) for result in results for action in result.actions.decided):
-        if target.action.kind is Kind.ORPHAN or target.is_decided:
+        takes = choice is Choice.TAKE and target.action.kind is Kind.KEEP
+        if target.action.kind is Kind.ORPHAN or target.is_decided or takes:
             for file in _places(target.action, root):
                 by_place.setdefault(file, []).append(target)
     chosen: dict[str, DisputedFile] = {}
