@@ -21,7 +21,7 @@ from support.replay import Files, Fresh, Project
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Kind
-from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.conflicts import MERGES, Conflict
 from urdfsync.engine.result import Result
 from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
@@ -137,8 +137,8 @@ class Episode:
     def options(self, conflict: Conflict) -> Sequence[Choice]:
         if self.is_folder(inside(conflict.origin or conflict.path)):
             return [Choice.KEEP]
-        mergeable = conflict.merge is not None and conflict.merge.text is not None
-        return list(Choice) if mergeable else [Choice.KEEP, Choice.TAKE]
+        merges = [choice for choice in Choice if choice in MERGES and conflict.merged(choice) is not None]
+        return [Choice.KEEP, Choice.TAKE, *merges]
 
     def is_folder(self, path: str) -> bool:
         """Whether the user has made a folder of a class."""
@@ -172,7 +172,7 @@ class Episode:
         for tag, line in edits.tagged(raw).items():
             place = self.origins.get(line.path, line.path)
             found = after.get(tag)
-            if self.choices.get(place) is Choice.TAKE:
+            if self.choices.get(place) in (Choice.TAKE, Choice.MERGE_GENERATED):
                 continue
             if found is None or found.path != place:
                 yield f"lost: {tag} of {line.path} is {'nowhere' if found is None else f'in {found.path}'}"
@@ -188,7 +188,7 @@ class Episode:
                 continue
             action = self.actions.get(path)
             merged = action is not None and action.kind is Kind.MERGE and self.merging
-            if not (merged or path in self.origins or self.choices.get(path) in (Choice.TAKE, Choice.MERGE)):
+            if not (merged or path in self.origins or self.choices.get(path) in {Choice.TAKE, *MERGES}):
                 yield f"{path} was edited, and is changed: {action and action.kind}"
 
     def out_of_step(self, result: Result) -> Iterator[str]:
@@ -255,7 +255,7 @@ class Episode:
             action = self.actions.get(path)
             before, after = self.before.get(path), self.after.get(path)
             if path in conflicts:
-                if choice is not Choice.MERGE or path not in rejected:
+                if choice not in MERGES or path not in rejected:
                     yield f"{path} still conflicts after {choice}"
             elif action is None or action.held:
                 continue

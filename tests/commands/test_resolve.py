@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, ROBOT, configure, edit
+from support.networks import LADDER, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
 from urdfsync.state.lock import build_lock
@@ -74,6 +74,35 @@ def test_take_gives_back_a_file_that_does_not_conflict(project: Path, execute: E
     assert Path(MODEL).read_text() == before
 
 
+@pytest.mark.parametrize(("side", "number"), [("mine", "101"), ("generated", "150")])
+def test_a_side_may_be_preferred_where_both_changed_the_same(
+    project: Path, execute: Execute, side: str, number: str
+) -> None:
+    """What does not contradict is merged either way."""
+    execute("build")
+    edit(RECORD, "100", "101")
+    edit(RECORD, "end R1Parameters", "  Real mine;\nend R1Parameters")
+    resistor(150)
+    assert "Component `R`: you set `R = 101`, the export changes 100 to 150." in execute("build", code=3).words
+    execute("resolve", RECORD, "--merge", "--prefer", side)
+    text = Path(RECORD).read_text()
+    assert f"R = {number} " in text
+    assert "Real mine;" in text
+    execute("build", "--check")
+
+
+def test_a_preferred_side_needs_merge(contradictory: Path, execute: Execute) -> None:
+    assert "--prefer goes with --merge" in execute("resolve", MODEL, "--keep", "--prefer", "mine", code=2).err
+
+
+def test_a_preferred_side_that_mentions_what_is_gone_is_refused(contradictory: Path, execute: Execute) -> None:
+    text = Path(MODEL).read_text()
+    assert "the merge mentions" in execute("resolve", MODEL, "--merge", "--prefer", "mine", code=3).words
+    assert Path(MODEL).read_text() == text
+    execute("resolve", MODEL, "--merge", "--prefer", "generated")
+    assert MINE not in Path(MODEL).read_text()
+
+
 def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory: Path, execute: Execute) -> None:
     mine, elements = Path(MODEL).read_text(), Path(LADDER) / "Elements"
     execute("build", code=3)
@@ -99,7 +128,7 @@ def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradic
         proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
         assert execute("resolve", MODEL, "--merge", code=2).err == (
             f"{Path(MODEL)}: error: it can't be merged: component `elementR2`: you changed it, the export removes it; "
-            f"put what you want of {proposal} into your file, then use --keep [no-merge]\n"
+            "`--prefer mine` or `--prefer generated` says which side counts there [no-merge]\n"
         )
         assert MINE in proposal.read_text()
 

@@ -279,7 +279,7 @@ class Rounds(RuleBasedStateMachine):
     def _nothing_is_lost(
         self, before: Mapping[str, str], recorded: Mapping[str, FileRecord], actions: Collection[Action]
     ) -> None:
-        taken = {a.origin or a.path for a in actions if a.choice is Choice.TAKE and a.writes}
+        taken = {a.origin or a.path for a in actions if a.choice in (Choice.TAKE, Choice.MERGE_GENERATED) and a.writes}
         kept = edits([text for path, text in before.items() if path not in taken])
         assert kept <= edits(self.project.files.values())
         moved = {action.origin for action in actions if action.kind is Kind.MOVE and action.writes}

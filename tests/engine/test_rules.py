@@ -154,7 +154,7 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
     choices = {action.path: choice} if choice else {}
     (result,), texts = resolve([action], {action.path: conflict}, choices, merging)
     text = texts.get(action.path)
-    merged = conflict.merge.text if conflict.merge else None
+    merged = conflict.merged(choice)
     if result.kind is Kind.UPDATE or (result.kind is Kind.MOVE and text is None):
         assert choice is Choice.TAKE
     elif result.kind in (Kind.MERGE, Kind.MOVE):

@@ -115,7 +115,7 @@ PUT = "first put into it what you want of both"
         (
             *(NEW_NAME, Kind.CONFLICT),
             f"Its element has another name now: it is to become {ELBOW}.",
-            f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --take replaces it",
+            f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --merge --prefer mine (or generated) takes",
         ),
         (
             *(rejected(None, FOLDER), Kind.CONFLICT),

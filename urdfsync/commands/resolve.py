@@ -15,6 +15,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
+from urdfsync.engine.conflicts import MERGES
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -49,6 +50,11 @@ def add(commands: arguments.Commands) -> None:
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
+    parser.add_argument(
+        "--prefer",
+        choices=["mine", "generated"],
+        help="with --merge: which side counts where both changed the same",
+    )
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
 
 
@@ -61,18 +67,20 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     listed = ", ".join(names[:_FEW]) + (f" and {len(names) - _FEW} more" if len(names) > _FEW else "")
     wrong = "" if args.all or args.paths else "name files or folders, or use --all"
     wrong = "--all goes without paths" if args.all and args.paths else wrong
+    wrong = "--prefer goes with --merge" if args.prefer and args.choice is not Choice.MERGE else wrong
     wrong = "one of --keep, --take and --merge is needed" if args.choice is None else wrong
     if wrong:
         raise arguments.UsageError(args.parser, wrong, f"in conflict: {listed}" if listed else "nothing is in conflict")
+    choice = Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
     concerned = set()
     if args.all:
         targets = find_conflicts(found)
         concerned = {target.result.robot for target in targets} | {result.robot for result in found if result.failed}
         if not concerned:
             console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
-        targets = [target for target in targets if not any(_problems(target, args.choice))]
+        targets = [target for target in targets if not any(_problems(target, choice))]
     else:
-        targets, unknown = _find_targets(found, args.paths, configuration.root, args.choice)
+        targets, unknown = _find_targets(found, args.paths, configuration.root, choice)
         if unknown:
             failed = [result for result in found if result.failed]
             for result in failed:
@@ -83,12 +91,12 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{named} {have} no conflict", hint=hint)
             console.end("resolve", code, [no_conflict])
             return code
-        if problems := [problem for target in targets for problem in _problems(target, args.choice)]:
+        if problems := [problem for target in targets for problem in _problems(target, choice)]:
             raise UrdfsyncError(*problems)
         concerned = {target.result.robot for target in targets}
-    choices = {target.action.path: args.choice for target in targets}
+    choices = {target.action.path: choice for target in targets}
     again = [robot for robot in configuration.robots if robot.name in concerned]
-    if args.choice is Choice.TAKE and not console.json and not console.quiet:
+    if choice is Choice.TAKE and not console.json and not console.quiet:
         _show_losses(configuration, again, targets, arguments.request(args, console, dry=True), console)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
     code = exit_code(show_results(console, build_and_check(configuration, again, request)))
@@ -151,14 +159,18 @@ def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
     if choice is Choice.TAKE and not target.replaceable:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
-    elif choice is Choice.MERGE and target.action.kind is Kind.ORPHAN:
+    elif choice in MERGES and target.action.kind is Kind.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
-    elif choice is Choice.MERGE and not target.merges:
+    elif choice in MERGES and not target.offers(choice):
         message = f"it can't be merged: {describe(target)}"
         hint = "use --keep or --take" if target.replaceable else "use --keep"
-        if merge := saved_texts(target).get("merge"):
+        if target.offers(Choice.MERGE_MINE):
+            hint = "`--prefer mine` or `--prefer generated` says which side counts there"
+        elif merge := saved_texts(target).get("merge"):
             hint = f"put what you want of {shown_path(target.result, merge)} into your file, then use --keep"
     else:
         return
-    yield Diagnostic(Severity.ERROR, f"no-{choice}", message, target.shown, hint=hint)
+    yield Diagnostic(
+        Severity.ERROR, "no-merge" if choice in MERGES else f"no-{choice}", message, target.shown, hint=hint
+    )

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
 
+MERGES = frozenset({Choice.MERGE, Choice.MERGE_MINE, Choice.MERGE_GENERATED})
+"""Choices to take both sides' changes."""
+
+
 class Conflict(msgspec.Struct, frozen=True):
     """One text file in conflict: the three texts as they are, line endings included."""
 
@@ -34,6 +38,13 @@ class Conflict(msgspec.Struct, frozen=True):
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
+
+    def merged(self, choice: Choice | None) -> str | None:
+        """Return the merged text that a choice asks for; None if there is none."""
+        if self.merge is None:
+            return None
+        preferred = {Choice.MERGE_MINE: self.merge.with_mine, Choice.MERGE_GENERATED: self.merge.with_generated}
+        return preferred.get(choice, self.merge.text) if choice else self.merge.text
 
 
 def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]]:
@@ -65,7 +76,7 @@ def find_conflict(
     first = merges[0] if merges else None
     rejected = f"the merge {first.flaw}" if first and first.flaw else ""
     if first and any(other.text != first.text for other in merges):
-        first = msgspec.structs.replace(first, text=None)
+        first = first.rejected
         rejected = "two branches recorded different texts as its base, and each gives another merge"
     base = bases[0] if bases else None
     return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, rejected)
@@ -97,7 +108,7 @@ def _outcome(
     action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
 ) -> tuple[Kind, Choice | None, str | None]:
     """Return what happens to a file, the choice that counts, and the text that it gets if that is not the generated."""
-    merged = conflict.merge.text if conflict and conflict.merge else None
+    merged = conflict.merged(choice) if conflict else None
     if action.kind is Kind.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
             return Kind.DELETE, choice, None
@@ -115,6 +126,6 @@ def _outcome(
         return Kind.KEEP, choice, None
     if choice is Choice.TAKE and action.replaceable:
         return Kind.UPDATE, choice, None
-    if merged is not None and (choice is Choice.MERGE or merging):
+    if merged is not None and (choice in MERGES or merging):
         return Kind.MERGE, choice, merged
     return action.kind, choice, None

@@ -158,10 +158,9 @@ def _find_vanished(
     sound = dict(conflicts)
     for key in found.in_package.keys() & merged.keys():
         conflict, use = sound[key], found.in_package[key][0]
-        if conflict.merge and conflict.merge.text == merged[key] != conflict.mine:
+        if conflict.merge and conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
             reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
-            rejected = msgspec.structs.replace(conflict.merge, text=None)
-            sound[key] = msgspec.structs.replace(conflict, merge=rejected, rejected=reason)
+            sound[key] = msgspec.structs.replace(conflict, merge=conflict.merge.rejected, rejected=reason)
     return sound, tuple(vanished.warnings(generation, found))
 
 

@@ -39,6 +39,15 @@ class Merge(msgspec.Struct, frozen=True):
     conflicts: tuple[ConflictingLines, ...]
     flaw: str = ""
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
+    with_mine: str | None = None
+    """The merged text with the user's side of each contradiction; None if that can't be right."""
+    with_generated: str | None = None
+    """The merged text with the generated side of each contradiction; None if that can't be right."""
+
+    @property
+    def rejected(self) -> Merge:
+        """The same merge, for reading only."""
+        return msgspec.structs.replace(self, text=None, with_mine=None, with_generated=None)
 
 
 def merge(
@@ -57,9 +66,20 @@ def merge(
     pieces = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
     texts = base, mine, generated
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
-    merged = with_markers(pieces, ending)
-    flaw = find_flaw(merged, (mine, generated)) if is_modelica and not conflicts and merged != mine else ""
-    return Merge(None if conflicts or flaw else merged, merged, conflicts, flaw)
+    merged, sides = with_markers(pieces, ending), (mine, generated)
+    if not conflicts:
+        flaw = find_flaw(merged, sides) if is_modelica and merged != mine else ""
+        text = None if flaw else merged
+        return Merge(text, merged, conflicts, flaw, text, text)
+    preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
+    sound = [text if not is_modelica or not find_flaw(text, sides) else None for text in preferred]
+    return Merge(None, merged, conflicts, "", sound[0], sound[1])
+
+
+def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
+    """The text with one side of each contradiction."""
+    texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
+    return "".join(texts)
 
 
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:

@@ -53,8 +53,11 @@ class DisputedFile(msgspec.Struct, frozen=True):
     @property
     def merges(self) -> bool:
         """Whether `--merge` settles it, as far as that is known."""
-        merge = self.texts.merge if self.texts else None
-        return self.is_decided or (merge is not None and merge.text is not None)
+        return self.offers(Choice.MERGE)
+
+    def offers(self, choice: Choice) -> bool:
+        """Whether a choice to merge settles it, as far as that is known."""
+        return self.is_decided or (self.texts is not None and self.texts.merged(choice) is not None)
 
     @property
     def replaceable(self) -> bool:
@@ -156,6 +159,10 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     choices = [keep]
     if target.merges:
         choices.insert(0, "--merge takes both sides' changes")
+    elif target.offers(Choice.MERGE_MINE):
+        choices.insert(
+            1, "--merge --prefer mine (or generated) takes both sides' changes, and one side where they contradict"
+        )
     if target.replaceable:
         choices.append("--take replaces it by the generated one")
     typed = f"./{name}" if name.startswith("-") else name

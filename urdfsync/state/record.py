@@ -28,6 +28,10 @@ class Choice(enum.StrEnum):
     """The generated text replaces the user's file."""
     MERGE = "merge"
     """Both sides' changes, if they merge cleanly."""
+    MERGE_MINE = "merge-mine"
+    """Both sides' changes; where they contradict each other, the user's."""
+    MERGE_GENERATED = "merge-generated"
+    """Both sides' changes; where they contradict each other, the generated ones."""
 
 
 class FileRecord(msgspec.Struct, frozen=True):
