@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
@@ -52,11 +53,18 @@ def merge(
     if names:
         base, mine = rename(base, mine, names)
     plain = [text.replace("\r\n", "\n") for text in (base, mine, generated)]
-    if plain[1] in (plain[0], plain[2]):
-        return Merge(generated, generated, ()) if plain[1] == plain[0] != plain[2] else Merge(mine, mine, ())
-    pieces = _merge_classes(base, mine, generated) if is_modelica and plain[0] != plain[2] else None
-    pieces = pieces or _merge_by_lines(mine, plain, ending)
-    texts = base, mine, generated
+    is_mixed = "\r\n" in mine and mine.count("\r\n") < mine.count("\n")
+    if plain[2] in (plain[0], plain[1]):
+        return Merge(mine, mine, ())
+    if plain[1] == plain[0] and not is_mixed:
+        return Merge(generated, generated, ())
+    texts = (base, mine, generated) if is_mixed else plain
+    pieces = _merge_classes(*texts) if is_modelica else None
+    if pieces and not is_mixed:
+        pieces = [piece.replace("\n", ending) if isinstance(piece, str) else piece for piece in pieces]
+    elif not pieces:
+        pieces = _merge_by_lines(mine, plain, ending)
+        texts = plain
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
     merged = _with_markers(pieces, ending)
     flaw = find_flaw(merged, (mine, generated)) if is_modelica and not conflicts and merged != mine else ""
@@ -100,6 +108,9 @@ def _with_markers(pieces: Sequence[Piece], ending: str) -> str:
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
+        if isinstance(piece, Contradiction) and not piece.path:  # whole lines
+            result += _shown([piece], ending)
+            continue
         *rows, rest = piece.split("\n") if isinstance(piece, str) else [piece]
         for part in rows:
             result += _shown([*row, f"{part}\n"], ending)
@@ -115,10 +126,25 @@ def _shown(row: Sequence[Piece], ending: str) -> list[str]:
     found: list[str] = []
     sides = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated")
     for marker, side in sides:
-        text = "".join(piece if isinstance(piece, str) else getattr(piece, side) for piece in row)
-        text = text.removesuffix("\n").removesuffix("\r")
+        text = _version(row, side).removesuffix("\n").removesuffix("\r")
         found.append(f"{marker}{ending}{text.replace(chr(13), '').replace(chr(10), ending)}{ending if text else ''}")
     return [*found, f">>>>>>> generated{ending}"]
+
+
+def _version(row: Sequence[Piece], side: str) -> str:
+    """One line as a side has it; without the comma of what this side does not have."""
+    text, lacks = "", False
+    for piece in row:
+        if not isinstance(piece, str):
+            said: str = getattr(piece, side)
+            lacks = not said
+        elif lacks and piece.lstrip().startswith(","):
+            text, said = text.rstrip(" "), piece.lstrip()[1:]
+        else:
+            said = piece
+            text = re.sub(r",\s*$", "", text) if lacks and piece[:1] in (")", "}") else text
+        text += said
+    return text if text.strip() else ""
 
 
 def find_flaw(text: str, sides: Sequence[str]) -> str:
