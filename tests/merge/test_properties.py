@@ -17,6 +17,7 @@ from support.printer import STYLES, Style, resaved
 from support.statements import KINDS, Editor, statements
 
 from urdfsync.merge import merge
+from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 
 ROOT = Path(__file__).parents[2]
@@ -89,6 +90,30 @@ def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> Non
     before, left, right, after = map(said, (base, ours, theirs, found.text))
     one_side = (left.keys() | right.keys()) - before.keys()
     assert after.keys() == said(swapped.text).keys() == (left.keys() & right.keys()) | one_side
+    assert merge(base, found.text, theirs, is_modelica=True).text == found.text
+
+
+def commented(text: str, random: Random) -> str:
+    """The text with comments of the user's between any two words."""
+    tokens, _ = lex(text)
+    for number, token in enumerate(
+        sorted(random.sample(tokens[5:], min(len(tokens) - 5, 12)), key=lambda one: -one.start)
+    ):
+        note = random.choice(["/* mine{} */", " /* mine{} */ ", "// mine{}\n", "\n  // mine{}\n  ", " // mine{}\r\n"])
+        text = f"{text[: token.start]}{note.format(number)}{text[token.start :]}"
+    return text
+
+
+@often(60)
+@given(random=seeds, kinds=edits)
+def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> None:
+    base = random.choice(simple_files())
+    ours, theirs = commented(base, random), edited(base, Editor("new", random), kinds)
+    found = merge(base, ours, theirs, is_modelica=True)
+    assert found.text is not None, (found.conflicts, found.flaw)
+    assert [tag for tag in tags(found.text) if tag.startswith("mine")] == tags(ours)
+    assert said(found.text) == said(theirs)
+    assert parse(found.text).faults == []
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
 
 
