@@ -332,6 +332,9 @@ BODIES = {
     "the same number": ("  B b(m = 1);\n", "  B b(m = 2.0);\n", "  B b(m = 2);\n", "  B b(m = 2.0);\n"),
     "rounding beside an edit": ("  B b(m = 11.5, v = {1, 2});\n", "  B b(m = 99, v = {1, 3});\n",
         "  B b(m = 11.50000001, v = {1, 2.0000001});\n", "  B b(m = 99, v = {1, 3});\n"),
+    "rounding by the user": (
+        "  B b(m = 11.5); // 1\n", "  B b(m = 11.50000001); // 1\n", "  B b(m = 12); // 1\n", "  B b(m = 12); // 1\n",
+    ),
     "what the user has already": (
         "  B b(m = 1);\n", "  B b(m = 2, x = 3) \"d\"; // m\n", "  B b(x = 3, m = 2.0) \"d\";\n",
         "  B b(m = 2, x = 3) \"d\"; // m\n",

@@ -5,7 +5,7 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 - What one side added, removed or changed is done; what both added stays, the user's first.
 - Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
 - Nothing else of the user's text changes: his comments, blanks and order stay.
-- Blanks, comments and the order of declarations are no change. Neither is rounding, where the user changed something.
+- Blanks, comments and the order of declarations are no change. Neither is rounding, where the other side changed it.
 - Layout is the user's in a class where he changed some of it.
 """
 
@@ -301,7 +301,8 @@ def _set_apart(tree: Tree, items: Sequence[_Item]) -> None:
     first = re.findall(r"\s*", tree.parts[0].before)[0] if tree.parts else ""
     for number, item in enumerate(items):
         if item.key not in known:
-            item.before = first if not number else item.before or " " if usual is None else usual
+            like_others = item.before or " " if usual is None else usual
+            item.before = like_others if number else first
             item.after = behind
         elif not number and item.before.isspace():
             item.before = first
