@@ -148,12 +148,24 @@ def test_a_merge_that_is_no_model_is_rejected_with_the_reason(project: Path) -> 
     merging()
     run()
     whole = f"{LADDER}/Ladder.mo"
-    edit(whole, "equation", "  Elements.R1 elementR9;\n\nequation")
+    edit(whole, "equation", "  Elements.R1 elementR9, mine;\n\nequation")
     rename("R2", "R9")
     (found,) = run().conflict_texts
     assert (found.path, found.merge is not None) == (whole, True)
     assert found.merge is None or found.merge.text is None
     assert "elementR9" in found.rejected
+
+
+def test_two_things_with_one_name_are_a_contradiction_that_names_it(project: Path) -> None:
+    merging()
+    run()
+    whole = f"{LADDER}/Ladder.mo"
+    edit(whole, "equation", "  Elements.R1 elementR9;\n\nequation")
+    rename("R2", "R9")
+    (found,) = run().conflict_texts
+    assert found.merge is not None
+    assert (found.path, found.rejected, found.merge.text) == (whole, "", None)
+    assert found.merge.conflicts[0].what.startswith("component `elementR9`: you added `Elements.R1 elementR9;`")
 
 
 def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import random
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from urdfsync.merge.tokens import tokens
 
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Declared, Extends, Modifier, Name, declared
@@ -239,7 +239,7 @@ def damaged(rng: random.Random, text: str, other: str) -> str:
         place, size = rng.randrange(len(lines) + 1), rng.randint(1, 4)
         some, start = lines[place : place + size], rng.randrange(len(pool))
         lines[place : place + size] = rng.choice([[], 2 * some, some + pool[start : start + size], some[::-1]])
-    parts = tokens("".join(lines)) or [""]
+    parts = re.findall(r"\s+|\w+|.", "".join(lines)) or [""]
     for _ in range(rng.randint(0, 2)):
         one, two = rng.randrange(len(parts)), rng.randrange(len(parts))
         parts[one], parts[two] = rng.choice([("", parts[two]), (parts[two], parts[two]), (parts[two], parts[one])])

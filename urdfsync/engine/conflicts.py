@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
 
-MERGES = frozenset({Choice.MERGE, Choice.MERGE_MINE, Choice.MERGE_GENERATED})
+PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
+"""Choices to take both sides' changes, and one side's where they contradict each other."""
+MERGES = PREFERENCES | {Choice.MERGE}
 """Choices to take both sides' changes."""
 
 
@@ -41,10 +43,9 @@ class Conflict(msgspec.Struct, frozen=True):
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""
-        if self.merge is None:
-            return None
-        preferred = {Choice.MERGE_MINE: self.merge.with_mine, Choice.MERGE_GENERATED: self.merge.with_generated}
-        return preferred.get(choice, self.merge.text) if choice else self.merge.text
+        if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
+            return self.merge.text if self.merge else None
+        return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
 
 
 def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]]:

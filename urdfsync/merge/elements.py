@@ -5,13 +5,14 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 - What one side added, removed or changed is done; what both added stays, the user's first.
 - Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
 - Nothing else of the user's text changes: his comments, blanks and order stay.
-- Blanks, comments and the order of declarations are no change. Neither is rounding, where the user changed something.
+- Blanks, comments and the order of declarations are no change. Neither is rounding, where the other side changed it.
 - Layout is the user's in a class where he changed some of it.
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
@@ -19,7 +20,8 @@ import msgspec
 
 from urdfsync.merge.layout import arrange
 from urdfsync.merge.lines import merge_whole_lines
-from urdfsync.modelica.tree import LAYOUT, Kind, Leaf, Node, Part, Tree, comments
+from urdfsync.merge.pairs import pair
+from urdfsync.modelica.tree import LAYOUT, Kind, Leaf, Node, Part, Tree, as_sum, comments, words_of
 
 ROUNDING = 1e-6
 """Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
@@ -69,6 +71,8 @@ def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node
     """Merge a thing that both sides have."""
     if (base and base.meaning == generated.meaning) or mine.meaning == generated.meaning:
         return [mine.text]
+    if any(isinstance(node, Tree) and node.kind is Kind.SUM for node in (base, mine, generated)):
+        base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
     if (path[-1:] and path[-1] in LAYOUT and (keeps_layout or not base)) or (not base and mine.bare == generated.bare):
         return [mine.text]
     if isinstance(mine, Tree) and isinstance(generated, Tree) and mine.kind is generated.kind:
@@ -76,14 +80,15 @@ def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node
             return _merge_parts(path, base, mine, generated, keeps_layout)
         if not base and mine.kind is not Kind.SLOTS:
             return _merge_parts(path, None, mine, generated, keeps_layout)
-    if base and base.meaning == mine.meaning:
+    is_same = base is not None and (base.meaning == mine.meaning or _is_rounding(base, mine))
+    if base and all("\n" in node.text for node in (base, mine, generated)):
+        text = merge_whole_lines(base.text, mine.text, generated.text)
+        if text is not None and (not is_same or words_of(text) == generated.meaning):
+            return [text]
+    if base and is_same:
         return [generated.text, *(f" {note}" for note in _new_comments(mine.text, base.text))]
     if _is_rounding(mine, generated) or (base and _is_rounding(base, generated)):
         return [mine.text]
-    if base and all("\n" in node.text for node in (base, mine, generated)):
-        text = merge_whole_lines(base.text, mine.text, generated.text)
-        if text is not None:
-            return [text]
     return [_contradiction(path, base, mine, generated, mine)]
 
 
@@ -116,6 +121,11 @@ def _new_comments(mine: str, base: str) -> list[str]:
     return [f"{note}\n" if note.startswith("//") else note for note in comments(mine) if note not in old]
 
 
+def _runs_on(blanks: str) -> bool:
+    """Whether what follows these blanks and comments would be in a comment."""
+    return re.fullmatch(r"(?s)(?:/\*.*?\*/|//[^\n]*\n|[^/])*//[^\n]*", blanks) is not None
+
+
 class _Item(msgspec.Struct):
     """A part of the merged text."""
 
@@ -124,6 +134,7 @@ class _Item(msgspec.Struct):
     before: str
     pieces: list[Piece]
     after: str = ""
+    remark: str = ""
     is_users: bool = False
     """Whether the user alone has it."""
 
@@ -134,9 +145,12 @@ def _merge_parts(
     """Merge things that consist of others."""
     if mine.kind is Kind.BODY:
         keeps_layout = base is not None and _has_moved(base, mine)
+        if base:
+            base, mine, generated = pair(base, mine, generated)
     items: list[_Item] = []
+    moved: dict[str, _Item] = {}
     notes = ""  # the user's comments in what goes, for the next item
-    for part, section in zip(mine.parts, _sections(mine), strict=True):
+    for part in mine.parts:
         old, new, here = base and base.find(part.key), generated.find(part.key), (*path, part.key)
         pieces: list[Piece] = [part.node.text]
         if new:
@@ -151,18 +165,26 @@ def _merge_parts(
             pieces = _merge(here, old.node, part.node, nothing, keeps_layout=keeps_layout)
         elif old:
             pieces = [_contradiction(here, old.node, part.node, None, part.node)]
-        items.append(_Item(part.key, section, notes + part.before, pieces, part.after, not (old or new)))
+        section = mine.sections.get(part.key, "")
+        item = _Item(part.key, section, notes + part.before, pieces, part.after, part.remark, not (old or new))
         notes = ""
+        if base and new and base.sections.get(part.key, "") == section != generated.sections.get(part.key, ""):
+            moved[part.key] = item  # such as from `public` to `protected`
+        else:
+            items.append(item)
     arranged = arrange(mine, generated) if mine.kind is Kind.BODY and keeps_layout else {}
-    for number, (part, section) in enumerate(zip(generated.parts, _sections(generated), strict=True)):
-        old = base and base.find(part.key)
-        if mine.find(part.key) or (old and _is_settled(part, old)):
+    for number, part in enumerate(generated.parts):
+        old, section = base and base.find(part.key), generated.sections.get(part.key, "")
+        if part.key in moved:
+            item = msgspec.structs.replace(moved[part.key], section=section)
+        elif mine.find(part.key) or (old and _is_settled(part, old)):
             continue
-        pieces = [arranged.get(part.key, part.node.text)]
-        if old:
-            pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
-        before = part.before if number or mine.kind is not Kind.LIST else ""
-        item = _Item(part.key, section, before, pieces, part.after)
+        else:
+            pieces = [arranged.get(part.key, part.node.text)]
+            if old:
+                pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
+            before = part.before if number or mine.kind is not Kind.LIST else ""
+            item = _Item(part.key, section, before, pieces, part.after, part.remark)
         _insert(items, item, number, generated, mine)
     return _text_of(mine, items, notes)
 
@@ -170,16 +192,6 @@ def _merge_parts(
 def _is_settled(part: Part, old: Part) -> bool:
     """Whether the user removed what the export did not change."""
     return part.key.startswith("section ") or part.node.bare == old.node.bare
-
-
-def _sections(tree: Tree) -> list[str]:
-    """The section in which each part of a body stands."""
-    section, found = "section public", []
-    for part in tree.parts:
-        if part.key.startswith("section "):
-            section = part.key.rpartition(" ")[0]
-        found.append(part.key if part.key == "annotation" else section)
-    return found if tree.kind is Kind.BODY else [""] * len(tree.parts)
 
 
 def _has_moved(base: Tree, mine: Tree) -> bool:
@@ -197,10 +209,9 @@ def _layout(node: Node) -> list[object]:
 
 def _remaining_notes(part: Part, old: Part) -> str:
     """The user's comments at a thing that goes, each with the blanks before it."""
-    had = comments(old.before + old.node.text + old.after)
-    indent = part.before.rpartition("\n")[2] if "\n" in part.before else " "
-    lead = f"\n{indent}" if "\n" in part.before else " "
-    found = [note for note in comments(f"{part.before}{part.node.text}{part.after}") if note not in had]
+    had = comments(f"{old.before}{old.node.text}{old.after}{old.remark}")
+    lead = re.findall(r"\n[ \t]*|\Z", part.before)[0] or " "
+    found = [note for note in comments(f"{part.before}{part.node.text}{part.after}{part.remark}") if note not in had]
     return "".join(f"{lead}{note}" for note in found)
 
 
@@ -245,16 +256,28 @@ def _text_of(tree: Tree, items: Sequence[_Item], notes: str) -> list[Piece]:
     if tree.kind in (Kind.LIST, Kind.ARRAY, Kind.SUM):
         _set_apart(tree, kept)
     found: list[Piece] = [tree.opening]
+    blanks = ""
     for number, item in enumerate(kept):
-        is_last = number == len(kept) - 1
-        found += [item.before, *item.pieces, item.after, "" if is_last else tree.separator]
-    return [*found, _ended(notes, tree.closing), tree.closing]
+        _go_on(found, blanks + item.before)
+        found += item.pieces
+        blanks = item.after
+        if tree.separator and number < len(kept) - 1:
+            _go_on(found, blanks)
+            found.append(tree.separator)
+            blanks = ""
+        blanks += item.remark
+    has_bracket = tree.kind in (Kind.LIST, Kind.ARRAY)
+    _go_on(found, blanks + notes + (tree.closing[:-1] if has_bracket else ""))
+    found.append(tree.closing[-1:] if has_bracket else tree.closing)
+    return [piece for piece in found if piece]
 
 
-def _ended(notes: str, following: str) -> str:
-    """Comments such that what follows does not run into them."""
-    runs_in = notes.rpartition("\n")[2].lstrip().startswith("//") and following.strip(" \t")[:1] not in ("", "\r", "\n")
-    return f"{notes}\n" if runs_in else notes
+def _go_on(found: list[Piece], blanks: str) -> None:
+    """Add blanks and comments; what follows does not run into them, nor they into the line before."""
+    last = found[-1] if found else ""
+    if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
+        found[-1] = last[:-1]  # the end of a comment
+    found.append(f"{blanks}\n" if _runs_on(blanks) else blanks)
 
 
 def _is_empty_section(tree: Tree, items: Sequence[_Item], number: int) -> bool:
@@ -272,18 +295,19 @@ def _is_empty_section(tree: Tree, items: Sequence[_Item], number: int) -> bool:
 def _set_apart(tree: Tree, items: Sequence[_Item]) -> None:
     """Give items of a list the blanks that this list has between its items."""
     known = {part.key for part in tree.parts}
-    usual = next((part.before for part in tree.parts[1:] if part.before.isspace()), "")
+    usual = next((part.before for part in tree.parts[1:] if not part.before.strip()), None)
     between = (part.after for part in tree.parts[:-1] if part.after.isspace())
     behind = next(between, "" if tree.separator == "," else " ")
-    first = tree.parts[0].before if tree.parts else ""
+    first = re.findall(r"\s*", tree.parts[0].before)[0] if tree.parts else ""
     for number, item in enumerate(items):
         if item.key not in known:
-            item.before = (usual or item.before or " ") if number else first
+            like_others = item.before or " " if usual is None else usual
+            item.before = like_others if number else first
             item.after = behind
         elif not number and item.before.isspace():
             item.before = first
-        elif number and not item.before:
-            item.before = usual or " "
+        elif number and item.key == tree.parts[0].key and not item.before[:1].isspace():
+            item.before = (" " if usual is None else usual) + item.before
         if number < len(items) - 1 and not item.after:
             item.after = behind
     if items and (not items[-1].after or items[-1].after.isspace()):

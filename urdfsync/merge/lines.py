@@ -46,16 +46,18 @@ def merge_lines(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
 
 
 def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
-    """Merge texts; None if there is a conflict."""
-    lines = split_lines(mine)
+    """Merge texts; None if there is a conflict. Kinds of line endings are no difference."""
+    written, new = split_lines(mine), split_lines(generated)
     result: list[str] = []
     place = 0
-    for (_, ours, _), text in merge_lines(split_lines(base), lines, split_lines(generated)):
+    for (_, ours, theirs), text in merge_lines(
+        *(split_lines(one.replace("\r\n", "\n")) for one in (base, mine, generated))
+    ):
         if text is None:
             return None
-        result += [*lines[place : ours.start], text]
+        result += [*written[place : ours.start], *new[theirs.start : theirs.stop]]
         place = ours.stop
-    return "".join([*result, *lines[place:]])
+    return "".join([*result, *written[place:]])
 
 
 def find_changes(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[ChangedLines]:

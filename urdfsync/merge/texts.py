@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
@@ -40,9 +41,9 @@ class Merge(msgspec.Struct, frozen=True):
     flaw: str = ""
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
-    """The merged text with the user's side of each contradiction; None if that can't be right."""
+    """The merged text with the user's side of each contradiction; None without one, or if it can't be right."""
     with_generated: str | None = None
-    """The merged text with the generated side of each contradiction; None if that can't be right."""
+    """The merged text with the generated side of each contradiction; None without one, or if it can't be right."""
 
     @property
     def rejected(self) -> Merge:
@@ -59,18 +60,15 @@ def merge(
     `mine`. With `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side
     has.
     """
-    ending = _ending(mine)
-    base, generated = _with_ending(base, ending), _with_ending(generated, ending)
     if names:
         base, mine = rename(base, mine, names)
-    pieces = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
-    texts = base, mine, generated
+    ending = _ending(mine)
+    pieces, texts = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
     merged, sides = with_markers(pieces, ending), (mine, generated)
     if not conflicts:
         flaw = find_flaw(merged, sides) if is_modelica and merged != mine else ""
-        text = None if flaw else merged
-        return Merge(text, merged, conflicts, flaw, text, text)
+        return Merge(None if flaw else merged, merged, conflicts, flaw)
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
     sound = [text if not is_modelica or not find_flaw(text, sides) else None for text in preferred]
     return Merge(None, merged, conflicts, "", sound[0], sound[1])
@@ -85,15 +83,16 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
     """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
     ending = _ending(mine)
-    base, other = _with_ending(base, ending), _with_ending(other, ending)
-    pieces = merge_pieces(base, mine, other, ending, is_modelica=True)
+    pieces, _ = merge_pieces(base, mine, other, ending, is_modelica=True)
     merged = with_markers(pieces, ending, markers)
-    conflicts = sum(isinstance(piece, Contradiction) for piece in pieces)
-    if not conflicts and find_flaw(merged, (mine, other)):
-        pieces = merge_pieces(base, mine, other, ending, is_modelica=False)
+    if not _conflict_count(pieces) and find_flaw(merged, (mine, other)):
+        pieces, _ = merge_pieces(base, mine, other, ending, is_modelica=False)
         merged = with_markers(pieces, ending, markers)
-        conflicts = sum(isinstance(piece, Contradiction) for piece in pieces)
-    return merged, conflicts
+    return merged, _conflict_count(pieces)
+
+
+def _conflict_count(pieces: Sequence[Piece]) -> int:
+    return sum(isinstance(piece, Contradiction) for piece in pieces)
 
 
 def _ending(text: str) -> str:
@@ -105,13 +104,25 @@ def _with_ending(text: str, ending: str) -> str:
     return text.replace("\r\n", "\n").replace("\n", ending)
 
 
-def merge_pieces(base: str, mine: str, generated: str, ending: str, *, is_modelica: bool) -> list[Piece]:
-    """Return the merged text in pieces; `ending` is that of the lines of `base` and `generated`."""
-    one, two, three = plain = [text.replace("\r\n", "\n") for text in (base, mine, generated)]
-    if two in (one, three):
-        return [generated if two == one != three else mine]
-    pieces = _merge_classes(base, mine, generated) if is_modelica and one != three else None
-    return pieces or _merge_by_lines(mine, plain, ending)
+def merge_pieces(
+    base: str, mine: str, generated: str, ending: str, *, is_modelica: bool
+) -> tuple[list[Piece], Sequence[str]]:
+    """Return the merged text in pieces, and the texts that were merged; new lines get the `ending`."""
+    base, generated = _with_ending(base, ending), _with_ending(generated, ending)
+    written = base, mine, generated
+    one, two, three = plain = [text.replace("\r\n", "\n") for text in written]
+    is_mixed = "\r\n" in mine and mine.count("\r\n") < mine.count("\n")
+    if three in (one, two):
+        return [mine], written
+    if one == two and not is_mixed:
+        return [generated], written
+    texts = written if is_mixed else plain
+    pieces = _merge_classes(*texts) if is_modelica else None
+    if pieces is None:
+        return _merge_by_lines(mine, plain, ending), plain
+    if is_mixed:
+        return pieces, texts
+    return [piece.replace("\n", ending) if isinstance(piece, str) else piece for piece in pieces], texts
 
 
 def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
@@ -156,6 +167,9 @@ def with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[s
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
+        if isinstance(piece, Contradiction) and not piece.path:  # whole lines
+            result += _shown([piece], ending, markers)
+            continue
         *rows, rest = piece.split("\n") if isinstance(piece, str) else [piece]
         for part in rows:
             result += _shown([*row, f"{part}\n"], ending, markers)
@@ -170,10 +184,26 @@ def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]
         return [piece for piece in row if isinstance(piece, str)]
     found: list[str] = []
     for marker, side in markers:
-        text = "".join(piece if isinstance(piece, str) else getattr(piece, side) for piece in row) if side else ""
+        text = _version(row, side) if side else ""
         text = text.replace("\r\n", "\n").removesuffix("\n").replace("\n", ending)
         found.append(f"{marker}{ending}{text}{ending if text else ''}")
     return found
+
+
+def _version(row: Sequence[Piece], side: str) -> str:
+    """One line as a side has it; without the comma of what this side does not have."""
+    text, lacks = "", False
+    for piece in row:
+        if not isinstance(piece, str):
+            said: str = getattr(piece, side)
+            lacks = not said
+        elif lacks and piece.lstrip().startswith(","):
+            text, said = text.rstrip(" "), piece.lstrip()[1:]
+        else:
+            said = piece
+            text = re.sub(r",\s*$", "", text) if lacks and piece[:1] in (")", "}") else text
+        text += said
+    return text if text.strip() else ""
 
 
 def find_flaw(text: str, sides: Sequence[str]) -> str:

@@ -6,7 +6,7 @@ from urdfsync.merge.elements import Contradiction
 
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""
-_SILENT = frozenset({"body", "arguments", "annotation", "value", "expression", "constraint"})
+_SILENT = frozenset("body arguments annotation value expression constraint definition import components".split())
 """Parts that need no name, since what is in them has one."""
 _ROLES = {
     "connect": "equation",
@@ -30,7 +30,9 @@ def place_of(path: tuple[str, ...]) -> tuple[str, str]:
         names.append(name)  # the value of a declaration
     if kind == "connect":
         kind, name = "", f"connect({name.replace(' ', ', ')})"
-    return f"{kind} `{name}`".lstrip() if name else f"the {kind}", " ".join(filter(None, (".".join(names[1:]), role)))
+    return f"{kind} `{quoted(name)}`".lstrip() if name else f"the {kind}", " ".join(
+        filter(None, (".".join(names[1:]), role))
+    )
 
 
 def describe(found: Contradiction) -> str:
@@ -46,7 +48,9 @@ def describe(found: Contradiction) -> str:
     elif not found.generated:
         told = f"you changed {what}, the export removes it"
     elif not found.base:
-        told = f"you added `{mine}`, the export `{generated}`"
+        is_named = part.endswith(found.path[-1])  # the texts begin with its name
+        lead = part.removesuffix(found.path[-1]) if is_named else f"{part} " if part else ""
+        told = f"you added `{lead}{mine}`, the export `{lead}{generated}`"
     elif is_value:
         told = f"you set `{part} = {mine}`, the export changes {base} to {generated}"
     else:

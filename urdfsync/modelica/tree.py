@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
 from typing import TypeAlias
@@ -27,13 +27,15 @@ from urdfsync.modelica.parser import (
     Parser,
     parse,
 )
-from urdfsync.modelica.syntax import Class, Name
+from urdfsync.modelica.syntax import Name
 
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
 """Annotations that say where something stands in a diagram, and what it looks like."""
 
-_REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*[^\n]*?\*/)(?=\s*\n)")
+_REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
+
+_INITIAL = "initial equation "
 
 Words: TypeAlias = tuple[str | float, ...]
 """What a text says: its tokens, numbers by their value, without blanks and comments."""
@@ -93,7 +95,7 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
         """The tree as it was read, every byte."""
         last = len(self.parts) - 1
         inner = (
-            f"{part.before}{part.node.text}{part.after}{self.separator if number < last else ''}"
+            f"{part.before}{part.node.text}{part.after}{self.separator if number < last else ''}{part.remark}"
             for number, part in enumerate(self.parts)
         )
         return "".join((self.opening, *inner, self.closing))
@@ -101,17 +103,33 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
     @cached_property
     def meaning(self) -> object:
         """Equal for trees that say the same: the order in which things are declared means nothing."""
-        return self._meaning([(part.key, part.node.meaning) for part in self.parts])
+        return self._meaning([(part, part.node.meaning) for part in self.parts])
 
     @cached_property
     def bare(self) -> object:
         """Equal for trees that say the same, but for the layout of the diagram."""
-        found = ((part.key, part.node) for part in self.parts if not (self.kind is Kind.LIST and part.key in LAYOUT))
-        return self._meaning([(key, node.bare) for key, node in found if not (key == "annotation" and is_empty(node))])
+        found = (part for part in self.parts if not (self.kind is Kind.LIST and part.key in LAYOUT))
+        return self._meaning(
+            [(part, part.node.bare) for part in found if not (part.key == "annotation" and is_empty(part.node))]
+        )
 
-    def _meaning(self, parts: list[tuple[str, object]]) -> object:
-        ordered = parts if self.kind is Kind.ARRAY else sorted(parts, key=lambda part: part[0])
-        return self.kind, tuple(part for part in ordered if not part[0].startswith("section "))
+    def _meaning(self, parts: list[tuple[Part, object]]) -> object:
+        said = [
+            (part.key, self.sections.get(part.key, ""), meaning)
+            for part, meaning in parts
+            if not part.key.startswith("section ")
+        ]
+        return self.kind, tuple(said if self.kind is Kind.ARRAY else sorted(said, key=lambda one: one[0]))
+
+    @cached_property
+    def sections(self) -> dict[str, str]:
+        """The section of each part of a body by its key: `section public` unless something else is said."""
+        section, found = "section public", dict[str, str]()
+        for part in self.parts if self.kind is Kind.BODY else ():
+            if part.key.startswith("section "):
+                section = part.key.rpartition(" ")[0]
+            found[part.key] = part.key if part.key == "annotation" else section
+        return found
 
     def find(self, key: str) -> Part | None:
         """The part with this key."""
@@ -140,7 +158,9 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     """Blanks and comments before it."""
     node: Node
     after: str = ""
-    """Blanks and comments between it and the separator; in a body, a comment that ends its line."""
+    """Blanks and comments between it and the separator."""
+    remark: str = ""
+    """A comment behind it, and behind the separator if there is one, that ends the line."""
 
 
 def is_empty(node: Node) -> bool:
@@ -163,6 +183,45 @@ def read_tree(text: str) -> Tree | None:
         return None
     found = _Reader(text).file()
     return None if found.has_twins else found
+
+
+def tell_apart(*trees: Tree) -> tuple[Tree, ...]:
+    """Name equations by all that they say, in all versions of a body, if one of them has several for one variable."""
+    counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
+    several = {name for names in counts for name, count in names.items() if name and count > 1}
+    return tuple(
+        msgspec.structs.replace(tree, parts=tuple(_told_apart(tree.parts, several))) if several else tree
+        for tree in trees
+    )
+
+
+def _variable(part: Part) -> str:
+    """What names an equation if it is the only one for its variable; empty for anything else."""
+    is_equation = isinstance(part.node, Tree) and part.node.find("equation")
+    return part.key.partition(" = ")[0] if is_equation else ""
+
+
+def _told_apart(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
+    for part in parts:
+        if _variable(part) in variables and isinstance(part.node, Tree) and isinstance(part.node.parts[0].node, Leaf):
+            kind = _INITIAL if part.key.startswith(_INITIAL) else ""
+            part = msgspec.structs.replace(part, key=f"{kind}equation {_said(part.node.parts[0].node.words)}")
+        yield part
+
+
+def as_sum(node: Node) -> Node:
+    """Make a sum with one term of an expression that is nothing but a name; return others as they are."""
+    if not isinstance(node, Leaf) or any(
+        isinstance(word, float) or not (is_name(word) or word == ".") for word in node.words
+    ):
+        return node
+    return Tree(Kind.SUM, _numbered([Part("", "", node)]), node.start)
+
+
+def words_of(text: str) -> Words:
+    """What a text says."""
+    tokens, _ = lex(text)
+    return _words(tokens[:-1])
 
 
 def _words(tokens: Sequence[Token]) -> Words:
@@ -221,6 +280,20 @@ class _Reader(Parser):
         read()
         return [self._leaf(key, start)] if self.at > start else []
 
+    def _separated(self, part: Part, separator: str) -> Part:
+        """A thing with the separator and the comment behind it, if they are there."""
+        after = ""
+        if self.word == separator:
+            after = self._blanks()
+            self._take()
+        return msgspec.structs.replace(part, after=after, remark=self._remark())
+
+    def _remark(self) -> str:
+        found = _REMARK.match(self._text, self._end)
+        remark = found[0].rstrip("\r") if found else ""
+        self._end += len(remark)
+        return remark
+
     def _slots(self, key: str, parts: Sequence[Part]) -> Part:
         """A thing with the roles that were read; what stands before the first stands before the thing."""
         first, *rest = parts
@@ -236,11 +309,7 @@ class _Reader(Parser):
         opening = self._text[start : self._end]
         parts: list[Part] = []
         while self.word not in (")", "}"):
-            part = read()
-            if self.word == ",":
-                part = msgspec.structs.replace(part, after=self._blanks())
-                self._take()
-            parts.append(part)
+            parts.append(self._separated(read(), ","))
         closing = self._blanks() + self._take()
         if kind is Kind.LIST and len({part.key for part in parts}) < len(parts):  # such as `choice`
             self._end = end
@@ -298,10 +367,7 @@ class _Reader(Parser):
                 depth += (self.word in ("(", "[", "{")) - (self.word in (")", "]", "}"))
                 self._step()
             part = self._leaf("", start)
-            if self.at < stop:
-                part = msgspec.structs.replace(part, after=self._blanks())
-                self._take()
-            parts.append(part)
+            parts.append(self._separated(part, "+") if self.at < stop else part)
         return Part(key, before, Tree(Kind.SUM, _numbered(parts), place))
 
     # --- modifiers ------------------------------------------------------------------------------------------------
@@ -369,8 +435,7 @@ class _Reader(Parser):
         is_extension = bool(self._accept("extends"))
         self.name = self._identifier()
         if not is_extension and self._accept("="):
-            self._short_class(Class(Name((self.name,), 0), kind))
-            return [self._leaf("definition", start)]
+            return [self._leaf("head", start), *self._short_parts()]
         head = [self._leaf("head", start), *(self._modifiers() if is_extension else ())]
         head += self._slot("description", self._description)
         name, body = self.name, self._body()
@@ -379,6 +444,19 @@ class _Reader(Parser):
         self._step()
         self.name = name
         return [*head, body, self._leaf("end", end)]
+
+    def _short_parts(self) -> list[Part]:
+        """What stands behind the equals sign of a short class."""
+        if self.word not in ("enumeration", "der"):
+            return [*self._slot("type", self._kind), *self._modifiers(), *self._note()]
+        start = self.at
+        self._step()
+        depth = 1
+        self._step()
+        while depth:
+            depth += (self.word == "(") - (self.word == ")")
+            self._step()
+        return [self._leaf("definition", start), *self._note()]
 
     def _body(self) -> Part:
         place, section, count = self._end, "public", Counter[str]()
@@ -402,12 +480,9 @@ class _Reader(Parser):
                 part = self._leaf(f"statements of {section} {count[section]}", start)
             else:
                 part = self._equation_part(section)
-            remark = _REMARK.match(self._text, self._end)
-            if remark:
-                part = msgspec.structs.replace(part, after=remark[0].rstrip("\r"))
-                self._end += len(part.after)
-            parts.append(part)
-        return Part("body", "", Tree(Kind.BODY, tuple(_told_apart(parts)), place))
+            parts.append(msgspec.structs.replace(part, remark=self._remark()))
+        (tree,) = tell_apart(Tree(Kind.BODY, tuple(parts), place))
+        return Part("body", "", tree)
 
     def _begins_section(self) -> bool:
         return self.word in SECTIONS or (self.word == "initial" and self.following in ("equation", "algorithm"))
@@ -415,8 +490,9 @@ class _Reader(Parser):
     def _declaration(self) -> Part:
         start = self.at
         if self._accept("import"):
+            alias = f"import {self.word}" if self.following == "=" else ""
             self._import()
-            key, parts = _said(_words(self.tokens[start : self.at])), [self._leaf("import", start)]
+            key, parts = alias or _said(_words(self.tokens[start : self.at])), [self._leaf("import", start)]
         elif self._accept("external"):
             self._external()
             key, parts = "external", [self._leaf("external", start)]
@@ -474,15 +550,6 @@ class _Reader(Parser):
             named = left if is_alone and self.at > start + len(left) else self.tokens[start : self.at]
             key, parts = f"equation {_said(_words(named))}", [self._leaf("equation", start)]
         return self._slots(f"{kind}{key}", [*parts, *self._note(), *self._slot(";", self._step)])
-
-
-def _told_apart(parts: Sequence[Part]) -> Iterator[Part]:
-    """Name equations by all that they say if several have the same left side."""
-    keys = Counter(part.key for part in parts)
-    for part in parts:
-        if keys[part.key] > 1 and isinstance(part.node, Tree) and part.node.find("equation"):
-            part = msgspec.structs.replace(part, key=f"equation {part.node.parts[0].node.meaning}")
-        yield part
 
 
 def _connected(tokens: Sequence[Token]) -> Iterator[str]:

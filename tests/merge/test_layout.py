@@ -1,0 +1,110 @@
+"""Layout belongs to the user once he has moved anything in a diagram; new things get a place in it."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from urdfsync.merge import merge
+
+
+def placed(name: str, x: int, y: int, *, origin: bool = False) -> str:
+    extent = "{{-10, -10}, {10, 10}}" if origin else f"{{{{{x - 10}, {y - 10}}}, {{{x + 10}, {y + 10}}}}}"
+    at = f", origin={{{x}, {y}}}" if origin else ""
+    return f"  B {name} annotation (Placement(transformation(extent={extent}{at})));\n"
+
+
+def line(one: str, other: str, *points: tuple[int, int]) -> str:
+    through = ", ".join(f"{{{x}, {y}}}" for x, y in points)
+    return f"  connect({one}, {other}) annotation (Line(points={{{through}}}));\n"
+
+
+def model(components: str, lines: str = "", annotation: str = "") -> str:
+    return f"model A\n{components}equation\n{lines}{annotation}end A;\n"
+
+
+def merged(base: str, mine: str, generated: str) -> str:
+    found = merge(base, mine, generated, is_modelica=True)
+    assert found.text is not None, (found.conflicts, found.flaw)
+    return found.text
+
+
+A, B, A_B = placed("a", 0, 0), placed("b", 50, 0), line("a.f", "b.f", (10, 0), (40, 0))
+BASE = model(A + B, A_B)
+MOVED_B, BENT = placed("b", 50, 60), line("a.f", "b.f", (10, 0), (25, 0), (25, 60), (40, 60))
+MOVED = model(A + MOVED_B, BENT)
+EXPORT = model(
+    placed("a", 0, 20) + placed("b", 50, 20) + placed("c", 100, 20),
+    line("a.f", "b.f", (10, 20), (40, 20)) + line("b.f", "c.f", (60, 20), (90, 20)),
+)
+
+
+def test_without_a_move_the_generated_layout_is_taken() -> None:
+    mine = BASE.replace("B a ", "B a(x = 1) ")
+    assert merged(BASE, mine, EXPORT) == EXPORT.replace("B a ", "B a(x = 1) ")
+
+
+def test_what_is_there_stays_where_the_user_put_it_and_the_new_goes_along() -> None:
+    """The new part keeps its way from its neighbour, and its line starts where the neighbour is."""
+    assert merged(BASE, MOVED, EXPORT) == model(
+        A + MOVED_B + placed("c", 100, 60), BENT + line("b.f", "c.f", (60, 60), (90, 60))
+    )
+
+
+MOVES = {
+    "line": ("{40, 0}}", "{30, 5}, {40, 0}}"),
+    "diagram": ("{1, 1}", "{9, 9}"),
+    "no place any more": (" annotation (Placement(transformation(extent={{40, -10}, {60, 10}})))", ""),
+}
+
+
+@pytest.mark.parametrize(("old", "new"), MOVES.values(), ids=MOVES)
+def test_any_change_of_the_layout_makes_it_the_users(old: str, new: str) -> None:
+    diagram = "  annotation (Diagram(coordinateSystem(extent={{0, 0}, {1, 1}})));\n"
+    base, export = BASE.replace("end A", f"{diagram}end A"), EXPORT.replace("end A", f"{diagram}end A")
+    mine = base.replace(old, new)
+    text = merged(base, mine, export.replace("{1, 1}", "{7, 7}"))
+    assert set(mine.splitlines()) <= set(text.splitlines())
+    assert "B c" in text
+
+
+def test_a_new_part_gets_a_free_place() -> None:
+    """Where it would stand the user has put something: it stands below."""
+    mine = model(A + placed("b", 100, 0), line("a.f", "b.f", (10, 0), (90, 0)))
+    export = model(A + B + placed("c", 50, 0), A_B + line("a.f", "c.f", (10, 0), (40, 0)))
+    assert merged(BASE, mine, export) == model(
+        A + placed("b", 100, 0) + placed("c", 50, 0),
+        line("a.f", "b.f", (10, 0), (90, 0)) + line("a.f", "c.f", (10, 0), (40, 0)),
+    )
+    mine = mine.replace("equation", placed("m", 50, 0) + "equation")
+    text = merged(BASE, mine, export)
+    assert placed("c", 50, -20) in text
+    assert line("a.f", "c.f", (10, 0), (25, 0), (25, -20), (40, -20)) in text
+
+
+def test_a_place_with_an_origin_is_moved_by_it() -> None:
+    export = EXPORT.replace(placed("c", 100, 20), placed("c", 100, 20, origin=True))
+    assert placed("c", 100, 60, origin=True) in merged(BASE, MOVED, export)
+
+
+def test_new_parts_do_not_lie_on_each_other() -> None:
+    parts = "".join(placed(f"n{number}", 100, 20) for number in range(30))
+    text = merged(BASE, MOVED, EXPORT.replace(placed("c", 100, 20), parts).replace("c.f", "n0.f"))
+    places = re.findall(r"B n\d+ .*extent=(.*)\)\)\);", text)
+    assert len(set(places)) == 30
+
+
+def test_a_part_without_a_place_needs_none() -> None:
+    export = BASE.replace("equation\n", "  Real x;\nequation\n  x = 1;\n")
+    assert merged(BASE, MOVED, export) == MOVED.replace("equation\n", "  Real x;\nequation\n  x = 1;\n")
+
+
+def test_what_the_export_removes_goes_also_if_it_was_moved() -> None:
+    assert merged(BASE, MOVED, model(A)) == "model A\n" + A + "end A;\n"
+
+
+def test_icons_stay_and_other_annotations_do_not() -> None:
+    icon = '  annotation (Icon(graphics={{Line(points={{{{0, 0}}, {{{0}, 1}}}})}}), Documentation(info="{1}"));\n'
+    base, mine, export = (model(A, A_B, icon.format(*values)) for values in (("1", "a"), ("2", "a"), ("3", "b")))
+    assert merged(base, mine, export) == model(A, A_B, icon.format("2", "b"))

@@ -1,0 +1,53 @@
+"""Contradictions in words; `test_elements` has more of them."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfsync.merge.elements import Contradiction
+from urdfsync.merge.words import describe
+
+PATHS = {
+    ("body", "component body", "arguments", "m", "value", "expression"): (
+        ("11.5", "99", "12.1"), "component `body`: you set `m = 99`, the export changes 11.5 to 12.1",
+    ),
+    ("body", "component body", "type"): (
+        ("A", "B", "C"), "component `body`: you changed the type to `B`, the export to `C`",
+    ),
+    ("body", "component body"): (
+        ("B b;", "", "B b = 1;"), "component `body`: you removed it, the export changes it",
+    ),
+    ("body", "component body", "arguments", "m"): (
+        ("m = 1", "m = 2", ""), "component `body`: you changed `m`, the export removes it",
+    ),
+    ("body", "component body", "value"): (
+        ("", "= 1", "= 2"), "component `body`: you added `= 1`, the export `= 2`",
+    ),
+    ("body", "component body", "arguments", "origin", "arguments", "xyz", "value"): (
+        ("", "= 1", "= 2"), "component `body`: you added `origin.xyz = 1`, the export `origin.xyz = 2`",
+    ),
+    ("body", "component body", "arguments", "origin", "arguments", "xyz"): (
+        ("", "xyz = 1", "xyz = 2"), "component `body`: you added `origin.xyz = 1`, the export `origin.xyz = 2`",
+    ),
+    ("body", "equation a + b = c", "equation"): (
+        ("a + b = c", "a = c", "b\n  = c"),
+        "equation `a + b = c`: you changed the equation to `a = c`, the export to `b = c`",
+    ),
+    ("head",): (
+        ("model A", "block A", "record A"),
+        "the class: you changed the kind and name to `block A`, the export to `record A`",
+    ),
+    (): (("1", "2", "3"), ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_words(path: tuple[str, ...]) -> None:
+    (base, mine, generated), expected = PATHS[path]
+    assert describe(Contradiction(path, base, mine, generated, (0, 0, 0))) == expected
+
+
+def test_long_texts_are_cut() -> None:
+    found = describe(Contradiction(("body", f"equation {'a + ' * 40}", "equation"), "a", "b" * 99, "c", (0, 0, 0)))
+    assert len(found) < 200
+    assert found.count("…") == 2
