@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import importlib.util
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import jinja2
 import pytest
 
+from urdfsync import render
 from urdfsync.render import Renderer
 
 
@@ -72,3 +75,64 @@ def test_a_step_that_cannot_be_interrupted_ends_with_the_process(tmp_path: Path,
 def test_a_text_leaves_no_timer(tmp_path: Path) -> None:
     assert rendered(tmp_path, "<< 1 >>") == "1"
     assert signal.getitimer(signal.ITIMER_VIRTUAL) == (0.0, 0.0)
+
+
+@pytest.fixture
+def compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of this test for compiled code, where no template is yet."""
+    monkeypatch.setattr(sys, "pycache_prefix", str(tmp_path / "compiled"))
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    folder = Path(importlib.util.cache_from_source(render.__file__)).parent
+    folder.mkdir(parents=True)
+    return folder
+
+
+def rendered_as_shipped(folder: Path) -> str:
+    return Renderer([folder], is_trusted=True).render("t.jinja", {"x": 1})
+
+
+def test_a_template_of_an_installed_package_is_compiled_once_for_each_of_its_texts(
+    tmp_path: Path, compiled: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for text in ("a << x >>", "b << x >>"):
+        (tmp_path / "t.jinja").write_text(text)
+        first = rendered_as_shipped(tmp_path)
+        assert first == text.replace("<< x >>", "1")
+        with monkeypatch.context() as without_compiler:
+            without_compiler.setattr(jinja2.Environment, "compile", None)
+            assert rendered_as_shipped(tmp_path) == first
+    assert len(list(compiled.iterdir())) == 1, "the new one takes the place of the old one"
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda whole: b"",
+        lambda whole: whole[:20],
+        lambda whole: whole[:-1],
+        lambda whole: bytes(len(whole)),
+        lambda whole: whole[:32] + whole[32:].replace(b"right", b"wrong"),
+    ],
+)
+def test_damaged_code_of_a_template_is_made_again(
+    tmp_path: Path, compiled: Path, damage: Callable[[bytes], bytes]
+) -> None:
+    (tmp_path / "t.jinja").write_text("right")
+    rendered_as_shipped(tmp_path)
+    (file,) = compiled.iterdir()
+    whole = file.read_bytes()
+    file.write_bytes(damage(whole))
+    assert rendered_as_shipped(tmp_path) == "right"
+    assert file.read_bytes() == whole
+
+
+def test_code_of_a_template_is_not_kept_for_strangers_templates_nor_where_python_keeps_none(
+    tmp_path: Path, compiled: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rendered(tmp_path, "a")
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    rendered_as_shipped(tmp_path)
+    assert not list(compiled.iterdir())
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    compiled.rmdir()
+    assert rendered_as_shipped(tmp_path) == "a"

@@ -110,10 +110,6 @@ class Import(msgspec.Struct, frozen=True):
     """`Domain.converter` at the time of the import; None for an older copy, which was not made from these bytes."""
     facts: Mapping[str, Any]
 
-    def __hash__(self) -> int:
-        """Return a hash of what the facts follow from: they themselves are plain data, which has none."""
-        return hash((self.target, self.source_hash, self.target_hash, self.converter))
-
 
 class ChangeKind(enum.StrEnum):
     """What happened to a value or an element."""

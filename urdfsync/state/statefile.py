@@ -49,6 +49,7 @@ _FACTS: Mapping[str, Any] = {
     "renewed": tuple[str, Import],
 }
 """The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
+_DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
 _SUM = "sum "
 """Begins the line with the hash of all others. Where git has united two states, it does not fit."""
 _HEADINGS = ("package", "class", "folder", "domain", "revision", "templates")
@@ -146,7 +147,7 @@ def _parse(content: str) -> tuple[str, Any]:
         if not path or not (sha256 == _USERS or _HASH.fullmatch(sha256)):
             raise ValueError("no hash and path")
         return word, (path, sha256)
-    return word, msgspec.json.decode(rest, type=_FACTS[word])
+    return word, _DECODERS[word].decode(rest)
 
 
 def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:

@@ -44,6 +44,10 @@ class Connectors(msgspec.Struct, frozen=True):
     couplings: dict[str, str]
     """Of joints that follow another one."""
 
+    def __hash__(self) -> int:
+        """Return a hash of the elements that have connectors."""
+        return hash((*self.frames, *self.drives))
+
 
 def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     """Return the names for a robot.

@@ -93,8 +93,11 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     need no change before others. What must give way gets `_link` or `_joint`, then a number.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
+    folded, taken = {one.lower() for one in spelled.values()}, {name.lower() for name in taken}
+    if len(folded) == len(spelled) and folded.isdisjoint(taken) and not any(map(is_reserved, folded)):
+        return {key: Identifier(one) for key, one in spelled.items()}  # as nearly always: nobody gives way
     keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
-    used = {name.lower() for name in taken}
+    used = set(taken)
     result: dict[Key, Identifier] = {}
     for key in keys:
         if _is_free(spelled[key], used):

@@ -12,7 +12,6 @@ one block of a diff; every number is there, defaults too, so that a change of a 
 
 from __future__ import annotations
 
-import json
 import operator
 from collections.abc import Mapping
 from typing import Any
@@ -36,7 +35,7 @@ def to_snapshot(robot: Robot) -> Snapshot:
 
 def _plain(element: Link | Joint) -> Mapping[str, Any]:
     """Return an element as plain data but for its name."""
-    data: dict[str, Any] = json.loads(msgspec.json.encode(element, order="sorted"), object_hook=_without_none)
+    data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
     if not data.get("actuated", True):
         del data["actuated"]
@@ -44,7 +43,16 @@ def _plain(element: Link | Joint) -> Mapping[str, Any]:
 
 
 def _without_none(data: dict[str, Any]) -> dict[str, Any]:
-    return {key: item for key, item in data.items() if item is not None} if None in data.values() else data
+    """Return a struct's data without fields that are None; lists are of numbers, or of structs."""
+    found: dict[str, Any] = {}
+    for key, item in data.items():
+        if isinstance(item, dict):
+            found[key] = _without_none(item)
+        elif item and isinstance(item, list) and isinstance(item[0], dict):
+            found[key] = [_without_none(one) for one in item]
+        elif item is not None:
+            found[key] = item
+    return found
 
 
 def from_snapshot(snapshot: Snapshot) -> Robot:

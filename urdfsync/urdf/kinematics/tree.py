@@ -25,6 +25,10 @@ class KinematicTree(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     names: Mapping[Key, Identifier]
 
+    def __hash__(self) -> int:
+        """Return a hash of the elements; their names have none."""
+        return hash((self.links, self.joints))
+
     @classmethod
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
         """Return the tree of a robot that passed all checks; `taken` names are not given to any element.
