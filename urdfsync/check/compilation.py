@@ -88,7 +88,7 @@ class Compilation:
             if physics:
                 result.gaps = (f"poses and efforts were not compared: `--tool {self._options.compiler}` only compiles",)
             else:
-                result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
+                result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
             self._compile_all()
         result.compiled = tuple(sorted(result.compiled, key=lambda one: self._package.models.index(one.model)))
 
@@ -107,7 +107,9 @@ class Compilation:
         result.notes, result.reference = experiment.notes, experiment.reference
         result.unchecked += experiment.unchecked
         if package.on_disk and not package.in_step:
-            result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
+            result.unchecked += (
+                "the effect of your edits was not measured: the package is not in step with its source",
+            )
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
         probe, models = experiment.probe, self._model_jobs(1)
@@ -134,7 +136,7 @@ class Compilation:
                 result.add(said)
             edited, faults = self._series(done["edited"])
             if faults:  # no fault of an edited package
-                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+                result.gaps += (f"the effect of your edits was not measured: {faults[0].message}",)
             if edited is None or moved is None:
                 return
             alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
@@ -172,7 +174,7 @@ class Compilation:
         except UrdfsyncError as error:
             self._result.add(error.diagnostics)
         except process.BrokenProcessError as error:
-            message, hint = f"the reference broke down: {error}", "check without `--physics`"
+            message, hint = f"the reference crashed: {error}", "check without `--physics`"
             self._result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
         else:
             if isinstance(found, Experiment):

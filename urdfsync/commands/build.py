@@ -20,7 +20,7 @@ from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
 
 _NEXT_COMMANDS = {
-    "library": "says how they find the library UrdfSync",
+    "library": "prints how these tools find the library UrdfSync",
     "watch": "builds whenever a source changes",
     "check": "compiles the package",
 }
@@ -48,7 +48,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument(
         "--explain",
         action="store_true",
-        help="list all changes, each file that is not just unchanged, what happens to it and why",
+        help="list all changes, and what happens to each file and why; unchanged files only with -v",
     )
 
 

@@ -253,7 +253,7 @@ def _plan(
 def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
     if result.failed or result.conflicts:
         return CommitFault(files, "out-of-step", summary(result), result=result)
-    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
+    what = "its recorded state is out of date" if result.in_step else summary(result)
     return CommitFault(files, "out-of-step", f"out of step: {what}", step, paths, result)
 
 

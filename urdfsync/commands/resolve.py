@@ -31,7 +31,8 @@ def add(commands: arguments.Commands) -> None:
         run,
         "--robot --wait --trust",
         help="settle conflicts between your edits and what is generated",
-        description="Settle conflicts between your edits and what is generated. What waited for that is then built.",
+        description="Settle conflicts between your edits and what is generated. "
+        "Then the files that waited for that are written.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
         f"--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge\n\n{arguments.CODES}",
     )

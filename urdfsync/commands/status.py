@@ -158,7 +158,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     elif changes:
         yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
     if not (is_in_step(result) or result.failed):
-        yield line((f"  a build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
+        yield line((f"  next build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
