@@ -296,18 +296,19 @@ def edit_effects(
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
     """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
+    path = f"{model.replace('.', '/')}.mo"
+    users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
         # without the name of the model, since the models around it lack as many, which need not be said again
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
-        path = f"{model.replace('.', '/')}.mo"
-        is_users = path in package.texts and path not in package.owners
-        return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+        return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
     complaints = compiler.complaints(problem)
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
-    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
+    placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
+    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
     return list(found)[:_MOST_DIAGNOSTICS]
 
 
