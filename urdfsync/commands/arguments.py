@@ -14,7 +14,10 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
-CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
+CODES = (
+    "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
+    "4 another build is running, 130 interrupted"
+)
 
 
 class UsageError(UrdfsyncError):
@@ -49,7 +52,7 @@ def count(text: str) -> int:
 _SHARED: Mapping[str, dict[str, Any]] = {
     "robots": {"nargs": "*", "metavar": "ROBOT", "help": "robots of urdfsync.toml (default: all)"},
     "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
-    "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (60)"},
+    "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, too",

@@ -42,7 +42,9 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument(
-        "--merge", action="store_true", help="merge what is new into files that you edited, where both fit together"
+        "--merge",
+        action="store_true",
+        help="merge changes into files that you edited, unless they contradict your edits",
     )
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument(

@@ -43,9 +43,11 @@ def add(commands: arguments.Commands) -> None:
     option("--tool", dest="compiler", choices=tools, default=default.compiler, help=compiler)
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
-    seconds = f"seconds for a robot ({default.timeout:g})"
+    seconds = f"seconds for a robot (default: {default.timeout:g})"
     option("--timeout", type=_amount, metavar="S", default=default.timeout, help=seconds)
-    option("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
+    option(
+        "--memory", type=_amount, metavar="GB", help="memory for all robots together (default: most of what is free)"
+    )
 
 
 def _amount(text: str) -> float:

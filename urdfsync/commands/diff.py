@@ -47,7 +47,7 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n\n"
-        "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 locked, 130 interrupted",
+        "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 another build is running, 130 interrupted",
     )
     parser.add_argument("source", nargs="?", default="", metavar="SOURCE", help="a source or a robot (default: all)")
     parser.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")

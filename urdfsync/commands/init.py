@@ -65,7 +65,9 @@ def add(commands: arguments.Commands) -> None:
         "sources", nargs="*", type=Path, metavar="SOURCE", help="URDF files (default: all below this folder)"
     )
     parser.add_argument(
-        "--merge", action="store_true", help="let builds merge what is new into files that you edited, where both fit"
+        "--merge",
+        action="store_true",
+        help="let builds merge changes into files that you edited, unless they contradict your edits",
     )
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 

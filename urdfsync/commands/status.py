@@ -72,7 +72,7 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 no conflict, whether in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
+        "exit codes: 0 no conflict, in step or not; 2 error, 3 conflict, 4 another build is running, 130 interrupted",
     )
 
 
