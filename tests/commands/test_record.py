@@ -147,7 +147,7 @@ def test_a_faulty_source_is_told_with_its_line(folder: Path, execute: Execute) -
 def test_a_robot_without_tables_is_written_with_a_warning(execute: Execute) -> None:
     said = execute("record", BUOY)
     assert "jointTree" not in said.out
-    assert "floating_buoy.urdf:25: warning: the generic robot has no floating joints" in said.err
+    assert "floating_buoy.urdf:25: warning: joint 'drift' is floating; the generic robot has no such joints" in said.err
 
 
 def test_a_domain_without_a_record_says_so(rc_domain: None, execute: Execute) -> None:

@@ -76,7 +76,7 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     found = execute("status", code=2)
     assert found.lines == ["ladder: in step, 14 files"]
     assert "the source no.json does not exist" in found.errors[0]
-    assert found.errors[1] == "other: 1 error, so nothing can be said of its files"
+    assert found.errors[1] == "other: 1 error, so its files were not compared"
     assert [robot["failed"] for robot in execute("status", "--json", code=2).json["robots"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 

@@ -175,7 +175,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 def summary(result: Result) -> str:
     """How a package stands, as the rest of a line that names the robot."""
     if result.failed:
-        return f"{error_count(result.diagnostics)}, so nothing can be said of its files"
+        return f"{error_count(result.diagnostics)}, so its files were not compared"
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
     head = f"{'in' if is_in_step(result) else 'out of'} step, {counted(counts.total(), 'file')}"
