@@ -72,7 +72,7 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
         "    You edited it, and its generated text changed too. The changes fit together: --merge takes both.",
         "",
-        "    -- lines 1 to 6: your edit and generated",
+        "    -- lines 1 to 6: your edit, and generated text changed",
         "               1  within Arm;",
         "               2  model Elbow",
         "    base       3    Real a = 1;",

@@ -29,7 +29,7 @@ def add(commands: arguments.Commands) -> None:
         description="Bring what changed from BASE to OTHER into MINE, with the arguments and exit codes of "
         "git merge-file. Classes of Modelica merge by their elements, other texts by lines. What both changed is put "
         "between markers.",
-        epilog="as git's merge driver: urdfsync merge-file --marker-size %L %A %O %B\n\n"
+        epilog="as git's merge driver: urdfsync merge-file --marker-size %L -L ours -L base -L theirs %A %O %B\n\n"
         "exit codes: 0 merged, 1 to 127 conflicts, 255 error",
     )
     for name, words in (

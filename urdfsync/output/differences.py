@@ -115,7 +115,9 @@ def _title(hunk: Hunk, conflict: Conflict, console: Console) -> StyledLine:
     first, last = min(numbers, default=0), max(numbers, default=0)
     where = f"lines {first} to {last}" if last > first else f"line {first}" if first else "empty"
     sides = {line.version for line in hunk.lines} - {"", "base"}
-    what = "your edit" if sides == {"mine"} else "generated" if sides == {"generated"} else "your edit and generated"
+    what = {"mine": "your edit", "generated": "generated text changed"}.get(
+        "".join(sides), "your edit, and generated text changed"
+    )
     if hunk.clash or conflict.base is None:
         what = "the sides contradict each other" if hunk.clash else "different"
     rule = "──" if has_marks(console.file) else "--"
