@@ -127,7 +127,7 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
     assert kinds(result) == {"Elements/R1.mo": Kind.KEEP, "Elements/C2Parameters.mo": Kind.UPDATE}
     assert said(result) == [
         "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
-        "what urdfsync recorded of it goes with the new name [renamed-robot]"
+        "its recorded state goes on under the new name [renamed-robot]"
     ]
     states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
     assert states == {"filter.state"}

@@ -26,7 +26,7 @@ NEXT = [
     "",
     "What to do next:",
     f"  open {Path('modelica/Ladder/package.mo')} in OMEdit or Dymola",
-    "  urdfsync library  says how they find the library UrdfSync",
+    "  urdfsync library  prints how these tools find the library UrdfSync",
     "  urdfsync watch    builds whenever a source changes",
     "  urdfsync check    compiles the package",
 ]
@@ -68,7 +68,7 @@ def test_explain_names_each_file_on_one_line(edited: Path, execute: Execute) -> 
     assert lines[0] == "ladder: 1 to restore, 1 kept because you edited it"
     folder = Path("modelica/Ladder")
     assert f"  keep       {folder / 'Ladder.mo'}  you edited it; there is nothing new for it" in lines
-    assert f"  restore    {folder / 'Elements' / 'R1.mo'}  it was deleted; written again" in lines
+    assert f"  restore    {folder / 'Elements' / 'R1.mo'}  you deleted it" in lines
     assert lines[-1] == "  12 unchanged files; --verbose names each"
     assert len(lines) == 4
     assert len(execute("build", "--explain", "--verbose", "--dry-run").lines) == 15

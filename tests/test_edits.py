@@ -61,7 +61,7 @@ def assert_rejected_again_and_again(name: str) -> None:
     """A build finds one conflict, whose merge mentions a name that is gone, and so does the next one."""
     for _ in range(2):
         (found,) = run().conflict_texts
-        assert found.rejected.startswith(f"the merge mentions `{name}`, which the package has no more")
+        assert found.rejected.startswith(f"the merge mentions `{name}`, which is no longer in the package")
 
 
 def conflicts(**request: Any) -> list[str]:
@@ -346,7 +346,7 @@ def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, s
 # Names that the package has no more
 
 POWER = "  Real power = v*i;\n"
-GONE = "is used here, but the package has no `C1` any more; adapt your text to what the package is now"
+GONE = "is used here, but the package has no `C1` any more; change or remove this use: nothing has taken its place"
 USER = {
     "MyLadder.mo": """\
 within;
@@ -394,7 +394,7 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
         assert found.merge is not None
         assert found.merge.text is None
         line = found.merge.proposal.split("\n").index("  Real power = elementC1.v*elementC1.i;") + 1
-        assert found.rejected == f"the merge mentions `elementC1`, which the package has no more (line {line})"
+        assert found.rejected == f"the merge mentions `elementC1`, which is no longer in the package (line {line})"
 
 
 def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(project: Path) -> None:
@@ -430,7 +430,7 @@ def test_a_merge_that_mentions_what_the_user_gives_up_is_a_conflict(project: Pat
     (found,) = run().conflict_texts
     assert not found.rejected
     (found,) = run(choices={C1: Choice.TAKE, found.path: Choice.MERGE}).conflict_texts
-    assert found.rejected.startswith("the merge mentions `C1`, which the package has no more")
+    assert found.rejected.startswith("the merge mentions `C1`, which is no longer in the package")
     assert Path(C1).exists(), "nothing goes while something waits"
 
 
@@ -544,8 +544,8 @@ def test_a_record_that_a_model_of_the_users_needs_stays_as_long_as_it_does(proje
 @pytest.mark.parametrize(
     ("path", "old", "new", "words"),
     [
-        ("ladder.json", '"C1"', '"Tank"', "no `C1` any more; it is `Tank` now"),
-        ("urdfsync.toml", '"Ladder"', '"Rungs"', "no `Ladder` any more; it is `Rungs` now; also in line 4"),
+        ("ladder.json", '"C1"', '"Tank"', "no `C1` any more; use `Tank` instead"),
+        ("urdfsync.toml", '"Ladder"', '"Rungs"', "no `Ladder` any more; use `Rungs` instead; also in line 4"),
     ],
 )
 def test_uses_of_what_has_another_name_get_the_new_one(

@@ -49,7 +49,7 @@ def internal_error(error: Exception, what: str = "") -> Diagnostic:
     message = f"{what}{type(error).__name__} in {place}: {error}".rstrip(": ")
     if isinstance(error, MemoryError):
         message = f"{what}there is not enough memory"
-    hint = "this is a mistake in urdfsync: please report it"
+    hint = "this is a bug in urdfsync: please report it"
     return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
 
 

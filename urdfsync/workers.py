@@ -100,7 +100,7 @@ def _connect(address: str) -> Any:
     try:
         return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        message = f"no Dask scheduler answers at `{address}`: {error or 'time is up'}"
+        message = f"no Dask scheduler answers at `{address}`: {error or 'no answer in time'}"
         hint = "start one with `dask scheduler`, or go without `--executor`"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
 

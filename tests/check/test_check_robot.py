@@ -167,7 +167,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
     assert second.status(strict=True) is CheckStatus.RIGHT
-    assert first.unchecked == second.unchecked == ("poses and efforts were not compared: `--physics` does that",)
+    assert first.unchecked == second.unchecked == ("poses and efforts were not compared; `--physics` compares them",)
     check(fresh=True)
     assert len(compiler.models) == 6
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
@@ -265,7 +265,7 @@ def test_nothing_is_compiled_that_does_not_parse(arm: Path) -> None:
         ("syntax", "modelica/Arm/Joints/Elbow.mo", 3),
     ]
     assert result.compiled == ()
-    assert result.gaps == ("nothing was compiled, since the files are not in order",)
+    assert result.gaps == ("nothing was compiled, since files have errors",)
 
 
 def test_a_source_with_errors_is_told(arm: Path) -> None:
@@ -336,7 +336,7 @@ def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, with
     (line,) = lines(result)
     assert "error: robot: Arm has no `sholder`; did you mean `shoulder.frame_b`?" in line
     assert line.endswith("the file was edited by hand")
-    assert result.gaps == ("nothing was compiled, since names in the package mean nothing",)
+    assert result.gaps == ("nothing was compiled, since names in the package do not exist",)
 
 
 def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: Path, without_library: None) -> None:

@@ -78,6 +78,13 @@ def test_a_class_of_the_users_is_unbalanced_in_its_own_file() -> None:
     ]
 
 
+def test_a_complaint_without_a_place_about_a_class_of_the_users_is_in_its_own_file() -> None:
+    """With a package that waits for conflicts, the folder said nothing."""
+    edits = {"Tools/Own.mo": "model Own\n  Real z;\nend Own;\n"}
+    (found,) = explained("flatten failed: every component needs a root (MLS §9.4)", edits, model="Tools.Own")
+    assert found.startswith("Tools/Own.mo: error: every component needs a root")
+
+
 # --- complaints with a place ------------------------------------------------------------------------------------------
 
 

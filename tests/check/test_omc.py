@@ -91,7 +91,7 @@ def test_texts_survive_being_quoted(texts: list[str]) -> None:
     ("true\n", "false\n", "false"),
     ("true\n", "refuse", "OMC error occurred"),
     ('false\n"Error: text"\n', BALANCED, "Error: text"),
-    ('""\n""\n', BALANCED, "it can't be loaded, and does not say why"),
+    ('""\n""\n', BALANCED, "OpenModelica can't load it and gives no reason"),
     ("refuse", BALANCED, "OMC error occurred"),
 ])  # fmt: skip
 def test_every_answer_but_success_is_a_problem_of_its_task(

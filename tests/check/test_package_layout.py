@@ -182,7 +182,7 @@ def test_of_a_folder_that_can_be_no_package_one_thing_is_said(name: str) -> None
 def test_the_order_names_what_is_there_once() -> None:
     names = arm.text(ORDER).split()
     listed = [name for name in names if name != "Turret"] + ["Elbow", "Turet", "Wheel"]
-    lacks = "`Turret` is not named; add it where it belongs: tools put it last, or warn"
+    lacks = "`Turret` is not named; add a line for it: without one, tools put it last, or warn"
     last = len(listed)
     assert findings({ORDER: "\n".join(listed)}) == [
         f"{ORDER}: warning: {lacks} [order-lacks]",

@@ -47,9 +47,9 @@ def test_an_error_and_an_end_before_the_end_are_told(deed: str, kind: type[Excep
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
 @pytest.mark.parametrize(("deed", "code", "words", "hint"), [
-    ("abort", "compiler-crashed", r"broke down at Plant.Bad: signal 6 (SIGABRT): last words", "report it"),
-    ("kill", "compiler-crashed", "broke down at Plant.Bad: signal 9 (SIGKILL)", "want of memory"),
-    ("leave", "compiler-crashed", "broke down at Plant.Bad: exit code 0", "report it"),
+    ("abort", "compiler-crashed", r"crashed at Plant.Bad: signal 6 (SIGABRT): last words", "report it"),
+    ("kill", "compiler-crashed", "crashed at Plant.Bad: signal 9 (SIGKILL)", "out of memory"),
+    ("leave", "compiler-crashed", "crashed at Plant.Bad: exit code 0", "report it"),
     ("import", "no-compiler", "the compiler does not start: no such wheel", "install it"),
 ])  # fmt: skip
 def test_a_compiler_that_breaks_down_is_one_line(

@@ -57,11 +57,14 @@ EDITED = msgspec.structs.replace(
     ),
 )
 INCOMPLETE = msgspec.structs.replace(
-    RIGHT, robot="welder", notes=(), gaps=("what edits do was not measured: `robot.hand.body.m` is not declared",)
+    RIGHT,
+    robot="welder",
+    notes=(),
+    gaps=("the effect of your edits was not measured: `robot.hand.body.m` is not declared",),
 )
 WRONG = msgspec.structs.replace(RIGHT, robot="picker", notes=(), deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
 FAILED = CheckResult(
-    "cart", "Cart", gaps=("nothing was compiled, since the files are not in order",), diagnostics=(BROKEN,), seconds=0.9
+    "cart", "Cart", gaps=("nothing was compiled, since files have errors",), diagnostics=(BROKEN,), seconds=0.9
 )
 ABSENT = msgspec.structs.replace(RIGHT, robot="new", notes=(), built=False, in_step=False)
 STALE = msgspec.structs.replace(ABSENT, robot="hoist", built=True)
@@ -99,9 +102,9 @@ def test_lines_are_as_on_the_page(capsys: Capture, monkeypatch: pytest.MonkeyPat
         f"new: not built{rest}",
         "  there is no package yet, so what `urdfsync build` would write was checked",
         f"hoist: out of step{rest}",
-        "  the package is not what a build would leave; run `urdfsync build`",
+        "  the package is out of step; run `urdfsync build`",
         f"lift: out of step{rest}",
-        "  your edits and what is new contradict each other; settle that with `urdfsync resolve`",
+        "  files are in conflict; settle that with `urdfsync resolve`",
         "not checked: limits are not compared (arm, loader and 5 more)",
         "for the comparison: inertias were made up for 3 links (arm)",
         "8 robots: 2 right, 1 incomplete, 2 out of step, 1 not built, 1 differs, 1 failed",
@@ -210,7 +213,7 @@ def test_any_number_can_be_told(difference: float, value: float, quantity: Quant
     show_results(Console(verbose=True), [result], strict=False)
 
 
-GAP = "what edits do was not measured: the robot can't be simulated"
+GAP = "the effect of your edits was not measured: the robot can't be simulated"
 
 
 @pytest.mark.parametrize(("facts", "strict", "word"), [

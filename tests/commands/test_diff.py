@@ -85,7 +85,7 @@ def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute) -
                 "  R2",
                 "    ohm  220.5 → 330 Ω  +49.7 %",
                 "",
-                "A build: 1 file to write",
+                "Next build: 1 file to write",
                 f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
             ],
         )
@@ -233,8 +233,11 @@ def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; it has ladder"),
-        (["step.csv"], "step.csv was never built: it is no robot's source; add a robot for it, or name the version"),
+        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; its robots are ladder"),
+        (
+            ["step.csv"],
+            "step.csv was never built: it is not the source of a robot; add a robot for it, or name the version",
+        ),
         (["ladder.json", "--robot", "othr"], "no robot `othr` in the configuration"),
         (["step.csv", "--robot", "ladder"], "'step.csv' is not the source of `ladder`"),
     ],
@@ -252,7 +255,7 @@ def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
 def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:
     shutil.copy(project / "ladder.json", project / "copy.json")
     configure(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
-    assert "one file can't be the older version of 2 sources" in refused(execute, "--against", "step.csv")
+    assert "--against names one file, but 2 sources are compared" in refused(execute, "--against", "step.csv")
 
 
 def test_what_is_not_modelled_gives_the_same_package(arm: Path, execute: Execute) -> None:

@@ -76,7 +76,7 @@ def test_errors_have_the_exit_code_that_git_knows(folder: Path, execute: Execute
 @NEEDS_GIT
 def test_git_merges_with_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     repository, model = Repository(folder, monkeypatch), folder / "Arm.mo"
-    command = f"'{sys.executable}' -m urdfsync merge-file --marker-size %L %A %O %B"
+    command = f"'{sys.executable}' -m urdfsync merge-file --marker-size %L -L ours -L base -L theirs %A %O %B"
     repository.git("config", "merge.urdfsync.driver", command)
     (folder / ".gitattributes").write_text("*.mo merge=urdfsync\n")
     for branch, text in (("base", BASE), ("export", OTHER), ("edited", MINE)):

@@ -125,7 +125,7 @@ def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
         (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name a file that is"),
         ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: it can't be written: No such file or directory; check"),
         ([TWIG, "-o", "."], ".: error: a folder is in its place; name a file [output-in-the-way]"),
-        ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose a name with a capital first"),
+        ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose one that begins with a capital"),
         ([TWIG, "--within", "Plant.end"], "error: 'Plant.end' can't be a package; name one like Plant.Robots"),
         ([TWIG, "--within", "Modelica"], "error: 'Modelica' can't be a package; name one like Plant.Robots"),
         ([TWIG, "--domain", "urfd"], "error: "),
@@ -147,7 +147,7 @@ def test_a_faulty_source_is_told_with_its_line(folder: Path, execute: Execute) -
 def test_a_robot_without_tables_is_written_with_a_warning(execute: Execute) -> None:
     said = execute("record", BUOY)
     assert "jointTree" not in said.out
-    assert "floating_buoy.urdf:25: warning: the generic robot has no floating joints" in said.err
+    assert "floating_buoy.urdf:25: warning: joint 'drift' is floating; the generic robot has no such joints" in said.err
 
 
 def test_a_domain_without_a_record_says_so(rc_domain: None, execute: Execute) -> None:

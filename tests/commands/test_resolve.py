@@ -265,7 +265,7 @@ def test_a_build_says_what_can_be_done_about_orphans(orphan: Path, execute: Exec
     more("R4")
     *_, place, _, advice = execute("build").lines
     assert place == f"  orphan     {orphan.relative_to(Path.cwd())}  no longer generated, but you edited it; kept"
-    assert advice == "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
+    assert advice == "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 
 
 def classes() -> set[str]:

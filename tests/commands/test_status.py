@@ -27,7 +27,7 @@ def built(project: Path, execute: Execute) -> Path:
 
 def test_never_built(project: Path, execute: Execute) -> None:
     with unchanged(project):
-        assert execute("status").lines == ["ladder: not built yet", "  a build: 14 files to write"]
+        assert execute("status").lines == ["ladder: not built yet", "  next build: 14 files to write"]
         assert len(execute("status", "--verbose").lines) == 2 + 14
 
 
@@ -41,9 +41,9 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
         assert execute("status").lines == [
             "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
             "  1 parameter change in the source",
-            "  a build: 1 file to write, 1 to restore",
+            "  next build: 1 file to write, 1 to restore",
             "  edited     modelica/Ladder/Ladder.mo",
-            "  missing    modelica/Ladder/Elements/C1.mo  it was deleted; written again",
+            "  missing    modelica/Ladder/Elements/C1.mo  you deleted it",
             "  stale      modelica/Ladder/Elements/R2Parameters.mo  its generated text changed",
         ]
         everything = execute("status", "--verbose").lines
@@ -76,7 +76,7 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     found = execute("status", code=2)
     assert found.lines == ["ladder: in step, 14 files"]
     assert "the source no.json does not exist" in found.errors[0]
-    assert found.errors[1] == "other: 1 error, so nothing can be said of its files"
+    assert found.errors[1] == "other: 1 error, so its files were not compared"
     assert [robot["failed"] for robot in execute("status", "--json", code=2).json["robots"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
@@ -166,18 +166,18 @@ def test_a_conflict_in_a_package_that_was_never_built() -> None:
     ("kinds", "changes", "words"),
     [
         ([Kind.UNCHANGED, Kind.KEEP], None, []),
-        ([Kind.DELETE, Kind.DELETE], None, ["a build: 2 to delete"]),
+        ([Kind.DELETE, Kind.DELETE], None, ["next build: 2 to delete"]),
         (
             [Kind.UPDATE, Kind.CREATE, Kind.DELETE],
             changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
-            ["1 structural and 2 parameter changes in the source", "a build: 2 files to write, 1 to delete"],
+            ["1 structural and 2 parameter changes in the source", "next build: 2 files to write, 1 to delete"],
         ),
         ([Kind.UNCHANGED], changed(ChangeClass.UNMODELLED), ["1 unmodelled change in the source"]),
         ([Kind.UNCHANGED], changed(ChangeClass.PARAMETER, noise=True), ["1 parameter change in the source (rounding)"]),
         (
             [Kind.UPDATE],
             Changes(generator=True),
-            ["a template, an option or urdfsync itself changed", "a build: 1 file to write"],
+            ["a template, an option or urdfsync itself changed", "next build: 1 file to write"],
         ),
     ],
 )
@@ -190,5 +190,5 @@ def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
     found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
-    assert shown[2] == "  a build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
+    assert shown[2] == "  next build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
     assert sum("waits until the conflicts are resolved" in line for line in shown) == 2

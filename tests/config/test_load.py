@@ -166,7 +166,7 @@ def test_mistakes_are_one_line_each(text: str, message: str) -> None:
 def test_packages_that_would_hide_what_models_refer_to(package: str) -> None:
     (message,) = failures(robot('class = "Robot1"', package=package))
     assert message.startswith("urdfsync.toml:3: error: `package`: `")
-    assert "has a use for the name; choose another name, for example `" in message
+    assert "is reserved by Modelica, Windows or urdfsync; choose another name, for example `" in message
     proposed = message.rpartition("example `")[2].partition("`")[0]
     assert parse(robot(package=proposed)).robots
 

@@ -88,12 +88,12 @@ def test_a_content_that_the_clone_lacks(repository: Path) -> None:
     for place in (repository / ".git/objects").glob("??/*"):
         if b"two\n" in zlib.decompress(place.read_bytes()):
             place.unlink()
-    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or give --against a file"):
+    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or use --against FILE"):
         Revision(repository, "HEAD").read(repository / "cad/arm.urdf")
 
 
 def test_a_repository_of_another_user(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     error = pygit2.GitError(f"repository path '{repository}' is not owned by current user")
     monkeypatch.setattr(pygit2, "Repository", mock.Mock(side_effect=error))
-    with pytest.raises(SourceError, match=r"the repository can't be read: .* is not owned by current user; put that"):
+    with pytest.raises(SourceError, match=r"the repository can't be read: .* is not owned by current user; repair it"):
         Revision(repository, "HEAD")

@@ -76,7 +76,7 @@ def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, te
     place = f"own/element/model.mo.jinja:{line}" if line else "own/element/model.mo.jinja"
     assert message.startswith(f"{place}: error: ")
     assert words in message
-    assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+    assert message.endswith("; correct the template, or delete it to use that of urdfsync [template]")
 
 
 def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
@@ -119,7 +119,7 @@ def test_a_text_that_is_no_modelica_is_an_error_at_the_line_of_the_template(
     message = failure()
     assert message.startswith(f"{MODEL}:{line}: error: the text for `Elements/C1.mo` is wrong: ")
     assert words in message
-    assert message.endswith("; correct the template, or delete it to get that of urdfsync [template]")
+    assert message.endswith("; correct the template, or delete it to use that of urdfsync [template]")
     assert contents(Path()) == before
 
 

@@ -72,7 +72,7 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
         "    You edited it, and its generated text changed too. The changes fit together: --merge takes both.",
         "",
-        "    -- lines 1 to 6: your edit and what is new",
+        "    -- lines 1 to 6: your edit, and generated text changed",
         "               1  within Arm;",
         "               2  model Elbow",
         "    base       3    Real a = 1;",
@@ -104,17 +104,17 @@ PUT = "first put into it what you want of both"
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.UNOWNED),
-            "urdfsync did not write the file that is there. Without a base, nothing tells who changed what.",
+            "urdfsync did not write the file that is there. There is no base, so nothing can be merged.",
             f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.CONFLICT),
-            f"{CHANGED} What urdfsync wrote last is lost: without it, nothing tells who changed what.",
+            f"{CHANGED} The base, which is what urdfsync wrote last, is lost, so nothing can be merged.",
             "mine 3 Real a = 1; // measured generated 3 Real a = 1;",
         ),
         (
             *(NEW_NAME, Kind.CONFLICT),
-            f"Its element has another name now: it is to become {ELBOW}.",
+            f"Its element was renamed: it will be moved to {ELBOW}.",
             f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --merge --prefer",
         ),
         (
@@ -141,7 +141,7 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
     assert seen_of(Actions([action])) == [
         "",
         f"  conflict   {path}  package://arm/hand.stl",
-        f"    {CHANGED} It is no text that could be merged.",
+        f"    {CHANGED} It is not a text, so it can't be merged.",
         f"    urdfsync resolve {path} --keep",
         "    --keep leaves your file as it is; --take replaces it by the generated one",
     ]

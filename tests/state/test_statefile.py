@@ -80,10 +80,10 @@ def test_where_the_files_of_two_folders_are_is_not_known() -> None:
 
 BROKEN = {
     "<<<<<<< ours": "unresolved merge markers",
-    "files 3": "this is no state of urdfsync",
-    "revision true": "this is no state of urdfsync: expected `int`, got `bool`",
-    'model ["links"]': "this is no state of urdfsync",
-    f"file {A[:9]}  Arm.mo": "this is no state of urdfsync: no hash and path",
+    "files 3": "this is not a state file of urdfsync",
+    "revision true": "this is not a state file of urdfsync: expected `int`, got `bool`",
+    'model ["links"]': "this is not a state file of urdfsync",
+    f"file {A[:9]}  Arm.mo": "this is not a state file of urdfsync: no hash and path",
     f"file {A}  ../Arm.mo": "the recorded path '../Arm.mo' does not belong to the package `Plant.Arm`",
     f"file {A}  .git/config.mo": "does not belong to the package",
     f"file {A}  package.order": "does not belong to the package",

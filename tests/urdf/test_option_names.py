@@ -24,7 +24,7 @@ CART = urdfs.robot(
     urdfs.joint("latch", "continuous", "base", "bolt", inside=[urdfs.mimic("lift")]),
     urdfs.joint("fly", "floating", "base", "kite"),
 )
-DRIVEN = "joint with one axis that follows no other"
+DRIVEN = "revolute, continuous or prismatic joint without <mimic>"
 WITH_DRIVE = CART.replace("</robot>", f"{TRANSMISSION}</robot>")
 
 

@@ -61,17 +61,16 @@ RODS = urdfs.robot(
 )
 """All the mass is on an axis, as exporters write it; it turns about another one."""
 NOTHING = (
-    "moves nothing that has an inertia about its axis and is not behind another joint on this axis, so the generic "
+    "moves no inertia about its axis, or only one that is behind another joint on the same axis, so the generic "
     "robot can move it by position only; give the link right behind it an <inertial>, or make it a fixed joint"
 )
 WARNINGS = [
-    (PLANAR, RECORD, "6: warning: the generic robot has no planar joints, so there are no tables for it: joint "
-     "'glide'; write it as two prismatic joints and a continuous one, or use the package approach"),
-    (PLANAR, BOTH, "6: warning: the generic robot has no planar joints"),
-    (FREE_INSIDE, RECORD, "6: warning: the generic robot has no floating joints, so there are no tables for it: joint "
-     "'drift'; write it as three prismatic joints and three continuous ones, leave it out with a "
-     "root link that has no other joint and let the base float (`base = \"floating\"` in a project), or use the "
-     "package approach"),
+    (PLANAR, RECORD, "6: warning: joint 'glide' is planar; the generic robot has no such joints, so the record has "
+     "no tables; write it as two prismatic joints and a continuous one, or use the package approach"),
+    (PLANAR, BOTH, "6: warning: joint 'glide' is planar; the generic robot has no such joints"),
+    (FREE_INSIDE, RECORD, "6: warning: joint 'drift' is floating; the generic robot has no such joints, so the record "
+     "has no tables; write it as three prismatic joints and three continuous ones, or use the package approach; if the "
+     "root link has no other joint, remove both and set `base = \"floating\"` in a project"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "

@@ -109,7 +109,7 @@ SAID: dict[str, Case] = {
     "what was known of a package took no time": ((KNOWN,), [f"{TIME}arm  checked: compiles"]),
     "what could not be checked is a warning": (
         (events.CheckDone("arm", Checked.INCOMPLETE, 0.0, (LACKING,)),),
-        [f"{TIME}arm  not checked completely", "! warning: there is no compiler; install it [no-compiler]"],
+        [f"{TIME}arm  checked in part", "! warning: there is no compiler; install it [no-compiler]"],
     ),
     "warnings are told when they are new, wherever they are now": (
         (built(diagnostics=(ODD,)), built(diagnostics=(MOVED,)), built(diagnostics=(MOVED, OTHER))),
@@ -205,7 +205,7 @@ def test_quiet_leaves_errors_and_conflicts() -> None:
     assert told(*noise, built(recovered=True), RIGHT, events.Stopping("SIGTERM"), quiet=True) == []
     assert told(failed(ODD, BROKEN), WRONG, RIGHT, WRONG, quiet=True) == [*IS_BROKEN, *IS_WRONG, *IS_WRONG]
     lines = told(CONFLICT, CONFLICT, quiet=True)
-    assert lines[:2] == [f"{TIME}arm  1 conflict", f"  conflict   {ELBOW}  it is no text that could be merged"]
+    assert lines[:2] == [f"{TIME}arm  1 conflict", f"  conflict   {ELBOW}  it is not a text, so it can't be merged"]
     assert lines.count(lines[0]) == 1
 
 

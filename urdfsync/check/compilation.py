@@ -88,7 +88,7 @@ class Compilation:
             if physics:
                 result.gaps = (f"poses and efforts were not compared: `--tool {self._options.compiler}` only compiles",)
             else:
-                result.unchecked += ("poses and efforts were not compared: `--physics` does that",)
+                result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
             self._compile_all()
         result.compiled = tuple(sorted(result.compiled, key=lambda one: self._package.models.index(one.model)))
 
@@ -107,7 +107,9 @@ class Compilation:
         result.notes, result.reference = experiment.notes, experiment.reference
         result.unchecked += experiment.unchecked
         if package.on_disk and not package.in_step:
-            result.unchecked += ("what edits do was not measured: the package is not in step with its source",)
+            result.unchecked += (
+                "the effect of your edits was not measured: the package is not in step with its source",
+            )
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
         probe, models = experiment.probe, self._model_jobs(1)
@@ -134,7 +136,7 @@ class Compilation:
                 result.add(said)
             edited, faults = self._series(done["edited"])
             if faults:  # no fault of an edited package
-                result.gaps += (f"what edits do was not measured: {faults[0].message}",)
+                result.gaps += (f"the effect of your edits was not measured: {faults[0].message}",)
             if edited is None or moved is None:
                 return
             alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
@@ -172,7 +174,7 @@ class Compilation:
         except UrdfsyncError as error:
             self._result.add(error.diagnostics)
         except process.BrokenProcessError as error:
-            message, hint = f"the reference broke down: {error}", "check without `--physics`"
+            message, hint = f"the reference crashed: {error}", "check without `--physics`"
             self._result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
         else:
             if isinstance(found, Experiment):
@@ -294,18 +296,19 @@ def edit_effects(
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
     """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
+    path = f"{model.replace('.', '/')}.mo"
+    users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
         # without the name of the model, since the models around it lack as many, which need not be said again
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
-        path = f"{model.replace('.', '/')}.mo"
-        is_users = path in package.texts and path not in package.owners
-        return [_diagnostic(Complaint(message, str(package.folder / path) if is_users else ""), package, "unbalanced")]
+        return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
     complaints = compiler.complaints(problem)
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
-    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in own or complaints)
+    placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
+    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
     return list(found)[:_MOST_DIAGNOSTICS]
 
 

@@ -109,12 +109,12 @@ def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.
                 used += one.memory_info().rss
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
-            message = f"{limits.owner}: it was not done after {limits.seconds:g} s"
+            message = f"{limits.owner} takes more than {limits.seconds:g} s"
             hint = "allow more with `urdfsync check --timeout`"
             raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-time", message, hint=hint))
         if used > limits.memory:
-            message = f"{limits.owner}: it takes more than the {limits.memory / 1e9:.2g} GB that it may"
-            hint = "allow more with `urdfsync check --memory`, as far as this machine has it"
+            message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
+            hint = "allow more with `urdfsync check --memory`, if this machine has more"
             raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-memory", message, hint=hint))
 
 

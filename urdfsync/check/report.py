@@ -33,7 +33,7 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
-_ADVICE = "; whatever you edited: look at `templates` of your own, else please report it as a bug, with the source"
+_ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 
 
@@ -57,10 +57,10 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     if not result.built:
         said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
     elif result.conflicting:
-        told = "your edits and what is new contradict each other; settle that with `urdfsync resolve`"
+        told = "files are in conflict; settle that with `urdfsync resolve`"
         said.append((told, "yellow"))
     elif not result.in_step:
-        said.append(("the package is not what a build would leave; run `urdfsync build`", "yellow"))
+        said.append(("the package is out of step; run `urdfsync build`", "yellow"))
     if verbose:
         for model in result.compiled:
             size = f"{model.unknowns:,} equations = unknowns, {counted(model.states, 'state')}"

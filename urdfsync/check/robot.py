@@ -89,7 +89,7 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
         files = listed([shown(path) for path in sorted(package.users_files)])
         result.unchecked = (f"{files} outside of the package: names were checked, but nothing there was compiled",)
     if any(one.severity is Severity.ERROR for one in found):
-        return "the files are not in order"
+        return "files have errors"
     own, others = texts.check_names(package, needed.standard)
     result.add([*own, *others])
-    return "names in the package mean nothing" if any(one.severity is Severity.ERROR for one in own) else ""
+    return "names in the package do not exist" if any(one.severity is Severity.ERROR for one in own) else ""

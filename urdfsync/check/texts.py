@@ -140,7 +140,7 @@ def _check_order(
     names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
     lacking = sorted(present.difference(names))
     for name in lacking:
-        hint = "add it where it belongs: tools put it last, or warn"
+        hint = "add a line for it: without one, tools put it last, or warn"
         yield package.diagnostic(_WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint)
     lines: dict[str, int] = {}
     for number, name in enumerate(names, start=1):

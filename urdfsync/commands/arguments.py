@@ -14,7 +14,10 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
-CODES = "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, 4 locked, 130 interrupted"
+CODES = (
+    "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
+    "4 another build is running, 130 interrupted"
+)
 
 
 class UsageError(UrdfsyncError):
@@ -42,14 +45,14 @@ Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 def count(text: str) -> int:
     """A number of processes or robots."""
     if not text.isascii() or not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of anything; give 1 or more")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of 1 or more")
     return int(text)
 
 
 _SHARED: Mapping[str, dict[str, Any]] = {
     "robots": {"nargs": "*", "metavar": "ROBOT", "help": "robots of urdfsync.toml (default: all)"},
     "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
-    "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (60)"},
+    "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, too",
@@ -59,7 +62,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--executor": {
         "default": "",
         "metavar": "ADDRESS",
-        "help": "have workers of a Dask scheduler do the work (tcp://HOST:PORT); it has to be one that you trust",
+        "help": "let the workers of a Dask scheduler that you trust do the work (tcp://HOST:PORT)",
     },
 }
 """Arguments and options that more than one command takes."""
@@ -77,9 +80,7 @@ def add_command(
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
     group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
-    group.add_argument(
-        "-v", "--verbose", action="store_true", help="all warnings, and files that are not just unchanged"
-    )
+    group.add_argument("-v", "--verbose", action="store_true", help="all warnings and changes, and the files concerned")
     return parser
 
 

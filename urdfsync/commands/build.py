@@ -20,7 +20,7 @@ from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
 
 _NEXT_COMMANDS = {
-    "library": "says how they find the library UrdfSync",
+    "library": "prints how these tools find the library UrdfSync",
     "watch": "builds whenever a source changes",
     "check": "compiles the package",
 }
@@ -42,13 +42,15 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument(
-        "--merge", action="store_true", help="merge what is new into files that you edited, where both fit together"
+        "--merge",
+        action="store_true",
+        help="merge changes into files that you edited, unless they contradict your edits",
     )
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
     parser.add_argument(
         "--explain",
         action="store_true",
-        help="list all changes, each file that is not just unchanged, what happens to it and why",
+        help="list all changes, and what happens to each file and why; unchanged files only with -v",
     )
 
 

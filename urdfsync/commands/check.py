@@ -31,7 +31,7 @@ def add(commands: arguments.Commands) -> None:
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
-        "the same source. Nothing is written. What your edits change is told, and is no fault.",
+        "the same source. Nothing is written. What your edits change is reported, and is no error.",
         epilog="examples: urdfsync check arm --physics\n"
         "          urdfsync check --physics --strict --timeout 60 --json\n\n"
         "exit codes: 0 right, 1 differs, out of step or not built, 2 error, 130 interrupted",
@@ -39,13 +39,15 @@ def add(commands: arguments.Commands) -> None:
     option, default = parser.add_argument, CheckOptions()
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
-    tools, compiler = tuple(COMPILERS), "what compiles (rumoca); omc: OpenModelica"
+    tools, compiler = tuple(COMPILERS), "the compiler: rumoca (default), or omc for OpenModelica"
     option("--tool", dest="compiler", choices=tools, default=default.compiler, help=compiler)
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
-    seconds = f"seconds for a robot ({default.timeout:g})"
+    seconds = f"seconds for a robot (default: {default.timeout:g})"
     option("--timeout", type=_amount, metavar="S", default=default.timeout, help=seconds)
-    option("--memory", type=_amount, metavar="GB", help="memory for all together (default: what is free)")
+    option(
+        "--memory", type=_amount, metavar="GB", help="memory for all robots together (default: most of what is free)"
+    )
 
 
 def _amount(text: str) -> float:

@@ -49,7 +49,7 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"
         "          urdfsync diff --edits modelica/Arm/Links\n\n"
-        "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 locked, 130 interrupted",
+        "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 another build is running, 130 interrupted",
     )
     parser.add_argument(
         "sources", nargs="*", metavar="SOURCE", help="sources or robots, with --edits also outputs (default: all)"
@@ -137,7 +137,7 @@ def _summary(found: Comparison) -> str:
     since = f"since {'the last build' if found.against is None else found.against}"
     changes = found.result.changes
     if changes is None:
-        return f"nothing changed {since}{'' if found.in_step else ', but files are not as they should be'}"
+        return f"nothing changed {since}{'' if found.in_step else ', but files are out of step'}"
     what = change_classes(changes) if changes.changes else generator_change(changes)
     return f"{what} {since}{', only by rounding' if changes.noise else ''}"
 
@@ -181,7 +181,7 @@ def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
     actions = [action for action in result.actions if action.kind not in _SILENT]
     if found.in_step or not actions:
         return
-    heading = f"A build: {build_summary(result)}"
+    heading = f"Next build: {build_summary(result)}"
     if found.against is not None:
         kinds = Counter(action.kind for action in result.actions)
         parts = [f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind]]

@@ -63,8 +63,10 @@ def add(commands: arguments.Commands) -> None:
         "--wait --jobs",
         help="build or check what is being committed; for hooks of git",
         description="Build or check the robots that a commit touches, and make sure that all of it is staged. "
-        "Concerns all configurations that git tracks. The index is never touched.",
-        epilog=f"example: urdfsync hook check\n\n{arguments.CODES}",
+        "All configurations that git tracks are looked at. The index is never written.",
+        epilog="example: urdfsync hook check\n\n"
+        "exit codes: 0 passes, 1 out of step or not staged, 2 error, 3 conflict, "
+        "4 another build is running, 130 interrupted",
     )
     modes, configs = "build brings packages in step, check writes nothing", f"only these, instead of all {FILE_NAME}"
     parser.add_argument("mode", choices=("build", "check"), help=modes)
@@ -253,7 +255,7 @@ def _plan(
 def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
     if result.failed or result.conflicts:
         return CommitFault(files, "out-of-step", summary(result), result=result)
-    what = "what urdfsync recorded of it is out of date" if result.in_step else summary(result)
+    what = "its recorded state is out of date" if result.in_step else summary(result)
     return CommitFault(files, "out-of-step", f"out of step: {what}", step, paths, result)
 
 

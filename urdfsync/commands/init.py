@@ -26,7 +26,7 @@ from urdfsync.output.console import Console, StyledLine, line
 
 _HEADER = """\
 # Robots that urdfsync keeps in step with their Modelica packages.
-# Paths count from this file's folder. `urdfsync build` builds all of them.
+# Paths are relative to this file's folder. `urdfsync build` builds all of them.
 """
 _DEFAULTS = """\
 # Settings for all robots; a robot's own table wins.
@@ -35,8 +35,8 @@ output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
 # on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
 {on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
-# package_paths = []  # folders that hold packages, where sources refer to files in them
-# templates = "templates"  # a folder with templates that replace single ones of urdfsync
+# package_paths = []  # folders in which `package://` is looked for
+# templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
 """
 _LONGEST = 80
 """A longer stem is cut: robots and packages become names of files."""
@@ -61,11 +61,15 @@ def add(commands: arguments.Commands) -> None:
         description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
-    parser.add_argument("sources", nargs="*", type=Path, metavar="SOURCE", help="default: all below this folder")
     parser.add_argument(
-        "--merge", action="store_true", help="let builds merge what is new into files that you edited, where both fit"
+        "sources", nargs="*", type=Path, metavar="SOURCE", help="URDF files (default: all below this folder)"
     )
-    parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
+    parser.add_argument(
+        "--merge",
+        action="store_true",
+        help="let builds merge changes into files that you edited, unless they contradict your edits",
+    )
+    parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -110,8 +114,8 @@ def guess_robots(
                 raise
             errors += error.diagnostics
             first = next(one for one in error.diagnostics if one.severity is Severity.ERROR)
-            hint = f"put it right and add it, or run `urdfsync init {shown(source)}`"
-            message = f"{first.message}; passed over"
+            hint = f"correct it and add it, or run `urdfsync init {shown(source)}`"
+            message = f"{first.message}; left out"
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)

@@ -29,10 +29,14 @@ def add(commands: arguments.Commands) -> None:
         description="Bring what changed from BASE to OTHER into MINE, with the arguments and exit codes of "
         "git merge-file. Classes of Modelica merge by their elements, other texts by lines. What both changed is put "
         "between markers.",
-        epilog="as git's merge driver: urdfsync merge-file --marker-size %L %A %O %B\n\n"
+        epilog="as git's merge driver: urdfsync merge-file --marker-size %L -L ours -L base -L theirs %A %O %B\n\n"
         "exit codes: 0 merged, 1 to 127 conflicts, 255 error",
     )
-    for name, words in (("mine", "the file that is written"), ("base", "what both come from"), ("other", "the other")):
+    for name, words in (
+        ("mine", "your version; the result is written to it"),
+        ("base", "the common ancestor"),
+        ("other", "the other version"),
+    ):
         parser.add_argument(name, metavar=name.upper(), type=Path, help=words)
     parser.add_argument("-p", "--stdout", action="store_true", help="print the result, leave MINE as it is")
     parser.add_argument("-L", dest="labels", metavar="LABEL", action="append", help="names of MINE, BASE and OTHER")

@@ -32,8 +32,9 @@ def add(commands: arguments.Commands) -> None:
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
-        "are not imported. To keep a record in step with its source, build it in a project; do so, too, for a robot "
-        "whose base floats: how high it stands is found there.",
+        "are not imported. For a record that follows its source, and for a robot whose base floats, use "
+        '`approach = ["record"]` in a project: only there is the height computed that it stands at.'
+        "",
         epilog="examples: urdfsync record robot.urdf\n"
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant\n\n"
         "exit codes: 0 written, or there already; 2 error, 130 interrupted",
@@ -42,10 +43,14 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
     parser.add_argument("--force", action="store_true", help="replace a FILE that holds something else")
     parser.add_argument(
-        "--class", dest="class_", default="", metavar="NAME", help="default: as FILE, or after the source"
+        "--class",
+        dest="class_",
+        default="",
+        metavar="NAME",
+        help="name of the record (default: that of FILE, or of SOURCE)",
     )
     parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
-    parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the source is (default: %(default)s)")
+    parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -110,7 +115,7 @@ def _target(args: argparse.Namespace, file: Path | None) -> Target:
     """The class: the chosen one, else that of the file if its name can be a class, else one after the source."""
     name, within = args.class_, args.within
     if name and not is_class_name(name):
-        hint = "choose a name with a capital first that neither Modelica nor urdfsync has a use for"
+        hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
         raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{name!r} can't be a class", hint=hint))
     if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
         message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"

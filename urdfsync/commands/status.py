@@ -72,7 +72,7 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 no conflict, whether in step or not; 2 error, 3 conflict, 4 locked, 130 interrupted",
+        "exit codes: 0 no conflict, in step or not; 2 error, 3 conflict, 4 another build is running, 130 interrupted",
     )
 
 
@@ -158,7 +158,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     elif changes:
         yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
     if not (is_in_step(result) or result.failed):
-        yield line((f"  a build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
+        yield line((f"  next build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
@@ -175,7 +175,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 def summary(result: Result) -> str:
     """How a package stands, as the rest of a line that names the robot."""
     if result.failed:
-        return f"{error_count(result.diagnostics)}, so nothing can be said of its files"
+        return f"{error_count(result.diagnostics)}, so its files were not compared"
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
     head = f"{'in' if is_in_step(result) else 'out of'} step, {counted(counts.total(), 'file')}"

@@ -42,7 +42,7 @@ def add(commands: arguments.Commands) -> None:
         epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
     )
     for name, unit, default, words in _TIMES:
-        words = f"{words} ({default})"
+        words = f"{words} (default: {default})"
         parser.add_argument(f"--{name}", type=_duration, metavar=unit, default=default, help=words)
     command = "shell command to run after a build that changed files"
     parser.add_argument(

@@ -37,11 +37,11 @@ def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
     for index, part in enumerate(parts):
         in_own_library = part == LIBRARY and index == 0 and len(parts) > 1  # whether it exists is known at the build
         if not may_be_package(part) and not in_own_library:
-            message = f"`package`: `{part}` can't be a package: Modelica, Windows or urdfsync has a use for the name"
+            message = f"`package`: `{part}` can't be a package: the name is reserved by Modelica, Windows or urdfsync"
             found.append(("package", message, _example(part)))
     name = model_class(package, chosen)
     if not found and not is_class_name(name):
-        hint = "set `class` to a name with a capital first that neither Modelica nor urdfsync has a use for"
+        hint = "set `class` to a name that begins with a capital and is not reserved by Modelica or urdfsync"
         found.append(("class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint))
     return found
 

@@ -87,7 +87,7 @@ class Config(msgspec.Struct, frozen=True):
         for name in names:
             if name not in known:
                 near = nearest(name, known)
-                hint = f"did you mean `{near}`?" if near else f"it has {', '.join(known)}"
+                hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
         return tuple(robot for robot in self.robots if not names or robot.name in names)

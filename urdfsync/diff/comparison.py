@@ -97,12 +97,12 @@ def find_sources(
         using = using or [robot for robot in config.robots if robot.name == source and not is_file]
         if not (using or is_file):
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            hint = f"it has {', '.join(robot.name for robot in config.robots)}"
+            hint = f"its robots are {', '.join(robot.name for robot in config.robots)}"
             raise _config_error("no-source", message, hint=hint)
         if not (using or names):
             if against is not None:
                 return None, [_robot_of_file(path)]
-            message = f"{path.name} was never built: it is no robot's source"
+            message = f"{path.name} was never built: it is not the source of a robot"
             hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
             raise _config_error("no-robot", message, config.file, hint)
         chosen = tuple(robot for robot in using if robot in chosen)
@@ -110,7 +110,7 @@ def find_sources(
             message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
             raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
     if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
-        message = f"one file can't be the older version of {len(chosen)} sources"
+        message = f"--against names one file, but {len(chosen)} sources are compared"
         raise _config_error("one-file", message, hint="name the source to compare it with")
     return config, chosen
 
@@ -161,7 +161,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
     last, found = inputs.last, result.changes
-    missing = "" if last else "what was built last is not known any more" if inputs.record else "never built"
+    missing = "" if last else "the record of the last build is lost" if inputs.record else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and found is not None and (found.changes or found.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.content, shown(robot.source))

@@ -38,7 +38,7 @@ class Revision:
             found = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
             repository = pygit2.Repository(found) if found else None
         except (pygit2.GitError, KeyError) as problem:  # such as that of another user
-            hint = "put that right, or give --against a file"
+            hint = "repair it, or use --against FILE"
             raise _error("git", f"the repository can't be read: {problem}", hint=hint) from None
         if repository is None or repository.workdir is None:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
@@ -86,7 +86,7 @@ class Revision:
                 if isinstance(entry, pygit2.Blob):
                     found[file] = entry.data
             except (pygit2.GitError, KeyError) as problem:
-                message, hint = f"git does not have its content: {problem}", "fetch it, or give --against a file"
+                message, hint = f"git does not have its content: {problem}", "fetch it, or use --against FILE"
                 raise _error("git", message, self.label(file), hint) from None
         return found
 

@@ -48,20 +48,20 @@ USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.CONFLIC
 _REASONS = {
     Kind.UNCHANGED: "nothing to do",
     Kind.CREATE: "new",
-    Kind.RESTORE: "it was deleted; written again",
-    Kind.ADOPT: "it already is what would be written",
+    Kind.RESTORE: "you deleted it",
+    Kind.ADOPT: "it already equals the generated text",
     Kind.UPDATE: "its generated text changed",
     Kind.KEEP: "you edited it; there is nothing new for it",
     Kind.CONFLICT: "you edited it, and its generated text changed too",
     Kind.UNOWNED: "urdfsync did not write the file that is there",
     Kind.DELETE: "no longer generated",
     Kind.ORPHAN: "no longer generated, but you edited it; kept",
-    Kind.NEEDED: "no longer generated, but something of yours needs it; kept",
+    Kind.NEEDED: "no longer generated, but your files need it; kept",
     Kind.FORGET: "no longer generated, and already gone",
     Kind.INCLUDED: "you edited it, and it already has what is new",
     Kind.MERGE: "your edits and what is new, merged",
-    Kind.MOVE: "its element has another name; your edits move with it",
-    Kind.LEAVE: "its element has another name; your edits go to its new file",
+    Kind.MOVE: "its element was renamed; your edits move here",
+    Kind.LEAVE: "its element was renamed; your edits move to its new file",
 }
 
 

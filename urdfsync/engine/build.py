@@ -118,8 +118,8 @@ class _Builder:
             if not not_done:
                 return told
             saved, first = not_done[0], told
-        message = "it changes all the time while urdfsync builds"
-        hint = "close what writes to it, then build again"
+        message = "it keeps changing during the build"
+        hint = "close the program that writes it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:

@@ -78,7 +78,7 @@ def find_conflict(
     rejected = f"the merge {first.flaw}" if first and first.flaw else ""
     if first and any(other.text != first.text for other in merges):
         first = first.rejected
-        rejected = "two branches recorded different texts as its base, and each gives another merge"
+        rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
     return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, rejected)
 

@@ -159,7 +159,7 @@ def _find_vanished(
     for key in found.in_package.keys() & merged.keys():
         conflict, use = sound[key], found.in_package[key][0]
         if conflict.merge and conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
-            reason = f"the merge mentions `{use.part}`, which the package has no more (line {use.line})"
+            reason = f"the merge mentions `{use.part}`, which is no longer in the package (line {use.line})"
             sound[key] = msgspec.structs.replace(conflict, merge=conflict.merge.rejected, rejected=reason)
     return sound, tuple(vanished.warnings(generation, found))
 

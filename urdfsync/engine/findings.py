@@ -26,9 +26,9 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
     inputs, actions = generation.inputs, decision.actions
     found = [*generation.diagnostics, *inputs.parents.diagnostics, *decision.diagnostics]
     if inputs.former_name:
-        message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; what urdfsync recorded of it goes"
+        message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
-        found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} with the new name", *place))
+        found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
     if decision.is_complete:
         found += _lost_connectors(generation)
@@ -49,7 +49,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         return
     message = f"the package moved from {shown(old)} to {shown(new)}"
     if not is_inside:
-        message, hint = f"{message}, and the old folder is none of urdfsync's any more", "delete it by hand"
+        message, hint = f"{message}, but urdfsync may not delete files in the old folder", "delete it by hand"
     else:
         named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
         message += f"; these files are not deleted, since urdfsync did not write them: {', '.join(named)}"

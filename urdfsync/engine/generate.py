@@ -133,9 +133,9 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
     else:
         return normalised(content)
     if isinstance(problem, RecursionError):
-        reason = "it includes or calls itself without end"
+        reason = "it includes or calls itself endlessly"
     elif isinstance(problem, MemoryError):
-        reason = "it needs more memory than it may take"
+        reason = "it needs more memory than its limit"
     else:
         reason = str(problem).rstrip(".") or type(problem).__name__
     message = f"the template can't be rendered for `{artifact.path}`: {reason}"
@@ -175,7 +175,7 @@ def _template_error(folders: Sequence[Path], template: str, file: str, line: int
     """The error at a line of a file in a template folder; without a file, of the template itself."""
     file = file or next((str(one / template) for one in folders if (one / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
-    hint = "correct the template, or delete it to get that of urdfsync" if is_own else "install urdfsync again"
+    hint = "correct the template, or delete it to use that of urdfsync" if is_own else "install urdfsync again"
     file = shown(Path(file)) if Path(file).is_absolute() else file
     return ConfigError(Diagnostic(Severity.ERROR, "template", message, file, line, hint=hint))
 

@@ -131,7 +131,7 @@ def _import(
         return _not_found([dependency], source, dependency.line), False
     if isinstance(found, OSError):
         message = f"{_named([dependency])} can't be read: {found.strerror}"
-        return unreadable(message, f"put a {noun} in its place that can be"), False
+        return unreadable(message, f"replace it by a {noun} that can be read"), False
     path, content = found
     sha256 = digest(content)
     record, copy, copied = recorded.find(dependency.key)
@@ -190,7 +190,7 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
     facts = _needed(dependency, record)
     if facts is None:
-        message = f"{trouble.message}, and not all is recorded of its imported copy that is needed"
+        message = f"{trouble.message}, and the record of its imported copy is incomplete"
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     written = copied if copied in recorded.bases.get(record.target, ()) else record.target_hash

@@ -188,7 +188,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     content = source.read_source(config, robot)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
-        message = f"a newer urdfsync built robot `{robot.name}`; this one would undo its improvements"
+        message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"
         file = shown(store.path(robot.name))
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
     written = _find_written(store, files, {folder, record.folder if record else folder})

@@ -77,7 +77,7 @@ class Pool:
             self._futures[robot.name] = self._workers.submit(plan_in_worker, self._config, robot, options)
 
     def _result(self, robot: RobotConfig) -> Plan:
-        message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps for want of memory"
+        message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps because memory ran out"
         lost = OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
         future = self._futures.pop(robot.name, None)
         if future is None:  # its place in the queue was lost with a worker

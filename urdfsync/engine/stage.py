@@ -102,8 +102,8 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
     if action.role is Role.IMPORT:
         content = generation.imported.contents.get(generation.inputs.path(key))
         if content is None:
-            message, file = "it can't be written: the file it is made from is not here", shown(files.path(key))
-            hint = "bring that back, or put the copy back that was there"
+            message, file = "it can't be written: the file that it is imported from is missing", shown(files.path(key))
+            hint = "restore that file, or the imported copy"
             raise OutputError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint))
         return content
     generated = generation.content(key)

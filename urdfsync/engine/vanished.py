@@ -145,12 +145,12 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
 def _hint(generation: Generation, part: str, new_name: str) -> str:
     inputs = generation.inputs
     if new_name:
-        return f"it is `{new_name}` now"
+        return f"use `{new_name}` instead"
     paths = (inputs.old_path(key) for key in inputs.recorded_files if class_of(key) == part)
     options = (inputs.domain.option_for(path, inputs.old_target, inputs.robot.options) for path in paths)
     if option := next(filter(None, options), ""):
         return f"`{option}` in the configuration brings it back"
-    return "adapt your text to what the package is now"
+    return "change or remove this use: nothing has taken its place"
 
 
 def _renamed_identifiers(generation: Generation) -> dict[str, str]:

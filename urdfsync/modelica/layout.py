@@ -31,7 +31,7 @@ def check_class_file(text: str, path: PurePosixPath, name: str) -> tuple[StoredT
     if found.is_broken:  # only the first place is told, since others may follow from it
         breaking = [fault for fault in found.faults if not fault.is_repetition]
         first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
-        hint = "correct it first: more places in the file may look wrong because of it" if found.faults[1:] else ""
+        hint = "correct it first: other errors in the file may follow from it" if found.faults[1:] else ""
         say(Severity.ERROR, "syntax", f"the file {first.reason}", first.line, hint)
         return None, said
     for fault in found.faults:

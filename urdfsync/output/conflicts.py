@@ -78,11 +78,11 @@ def describe(target: DisputedFile) -> str:
     """How the sides stand to each other, as a clause."""
     texts = target.texts
     if texts is None:
-        return "it is no text that could be merged"
+        return "it is not a text, so it can't be merged"
     if texts.merge is None:
         is_unowned = target.action.kind is Kind.UNOWNED
-        lost = "without a base" if is_unowned else "what urdfsync wrote last is lost: without it"
-        return texts.rejected or f"{lost}, nothing tells who changed what"
+        lost = "there is no base" if is_unowned else "the base, which is what urdfsync wrote last, is lost"
+        return texts.rejected or f"{lost}, so nothing can be merged"
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
@@ -139,7 +139,7 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
     if action.origin:
-        story += f" Its element has another name now: it is to become {shown_path(result, action.path)}."
+        story += f" Its element was renamed: it will be moved to {shown_path(result, action.path)}."
     yield from _paragraph(story, "", screen)
     if target.texts:
         from urdfsync.output.differences import difference_lines  # only a conflict needs it

@@ -115,9 +115,11 @@ def _title(hunk: Hunk, conflict: Conflict, console: Console) -> StyledLine:
     first, last = min(numbers, default=0), max(numbers, default=0)
     where = f"lines {first} to {last}" if last > first else f"line {first}" if first else "empty"
     sides = {line.version for line in hunk.lines} - {"", "base"}
-    what = "your edit" if sides == {"mine"} else "new" if sides == {"generated"} else "your edit and what is new"
+    what = {"mine": "your edit", "generated": "generated text changed"}.get(
+        "".join(sides), "your edit, and generated text changed"
+    )
     if hunk.clash or conflict.base is None:
-        what = "the sides contradict each other" if hunk.clash else "not the same"
+        what = "the sides contradict each other" if hunk.clash else "different"
     rule = "──" if has_marks(console.file) else "--"
     return line((f"    {rule} {where}: ", "dim"), (what, "bold red" if hunk.clash else ""))
 
@@ -127,7 +129,7 @@ def _rows(one: Line, console: Console, digits: int) -> Iterator[StyledLine]:
     gutter = f"    {one.version:<9}  {one.number or '':>{digits}}  "
     room = max(_NARROW, console.width - len(gutter)) if console.is_terminal else _PIPE
     most = room * _ROWS if one.version and console.is_terminal else room
-    end = "" if one.text.endswith("\n") else "  (no end of line)"
+    end = "" if one.text.endswith("\n") else "  (no newline at end of file)"
     same, words = len(_shown(one.text[: one.same])), _shown(one.text.removesuffix("\n")) + end
     if len(words) > most:
         start = max(0, min(same - _LEAD, len(words) - most + 1))

@@ -37,7 +37,7 @@ def error_count(diagnostics: Sequence[Diagnostic]) -> str:
 def summary(result: Result) -> str:
     """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
     if result.failed:
-        end = "the next build finishes or undoes what was begun" if result.unfinished else "nothing was changed"
+        end = "the next build finishes it" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
     parts = action_counts(result)
     if result.in_step:
@@ -52,7 +52,7 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
     """What the check after a build said, as the rest of a line that names the robot."""
     return {
         Checked.RIGHT: "checked: compiles",
-        Checked.INCOMPLETE: "not checked completely",
+        Checked.INCOMPLETE: "checked in part",
         Checked.WRONG: f"checked: {error_count(diagnostics)}",
     }[checked]
 
@@ -77,7 +77,7 @@ _ACTION_PHRASES = {
     Kind.UPDATE: ("{n} file{s} to write", "{n} file{s} written"),
     Kind.RESTORE: ("{n} to restore", "{n} restored because you deleted {them}"),
     Kind.DELETE: ("{n} to delete", "{n} deleted"),
-    Kind.ADOPT: ("{n} already as wanted",) * 2,
+    Kind.ADOPT: ("{n} already equal to the generated text",) * 2,
     Kind.MERGE: ("{n} to merge with your edits", "{n} merged with your edits"),
     Kind.MOVE: ("{n} to move with your edits", "{n} moved with your edits"),
     Kind.INCLUDED: ("{n} that you edited already {have} what is new",) * 2,

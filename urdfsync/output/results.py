@@ -27,7 +27,7 @@ _STYLES = {
     **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), "bold red"),
 }
 _ALWAYS_LISTED = (Kind.ORPHAN, Kind.NEEDED)
-_ORPHANS = "  `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
+_ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
 """So many changes of a model are shown at most, without --verbose."""
 

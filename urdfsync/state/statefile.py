@@ -215,7 +215,7 @@ def _what_is_wrong(content: str, error: Exception) -> str:
     if re.match(r"[<>=|]{7}", content):
         return "unresolved merge markers"
     reason = "" if isinstance(error, KeyError) else f": {str(error)[:1].lower()}{str(error)[1:]}"
-    return f"this is no state of urdfsync{reason}"
+    return f"this is not a state file of urdfsync{reason}"
 
 
 def _broken(file: str, line: int, message: str) -> StateError:

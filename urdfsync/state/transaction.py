@@ -125,8 +125,8 @@ class Transactions:
                     found = Diagnostic(Severity.NOTE, "recovered", message), *found
             elif build is None and planned.is_interrupted(self._state_folder):
                 file_operations.remove(self._planned)
-                message = "an interrupted build was none of this very folder, or can't be read; nothing was done of it"
-                hint = f"look at files called .*{TEMPORARY} in packages: they may hold what somebody saved meanwhile"
+                message = "an interrupted build belongs to another folder or can't be read; it is ignored"
+                hint = f"look for files .*{TEMPORARY} in packages: they may hold what you saved during that build"
                 found = (Diagnostic(Severity.WARNING, "unknown-build", message, shown(self._planned), hint=hint),)
         except OSError as error:
             raise UnfinishedError(self._unfinished(error)) from error
@@ -188,7 +188,7 @@ class Transactions:
         folders = sorted({target.folder for target in targets})
         file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
         found = []
-        message = "it was saved in the instant in which a build wrote it; the other text is kept as"
+        message = "it was saved while a build replaced it; the other text is kept as"
         left = _temporary_files(folders)
         for target in targets if left else ():
             for kept in target.clear(left):
@@ -222,8 +222,8 @@ class Transactions:
 
     def _unfinished(self, error: OSError) -> Diagnostic:
         place = Path(error.filename) if isinstance(error.filename, str) else self._state_folder
-        message = f"an interrupted build can't be brought to an end: {error.strerror or error}"
-        return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="repair that, then build again")
+        message = f"an interrupted build can't be finished: {error.strerror or error}"
+        return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="correct that, then build again")
 
     def _targets(self, build: PlannedBuild) -> list[_Target]:
         """The files to change. Raises OutputError for one outside of the outputs, and for a link on the way."""

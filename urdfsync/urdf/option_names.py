@@ -17,6 +17,8 @@ from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
 
+_DRIVABLE = "revolute, continuous or prismatic joint without <mimic>"
+
 
 def check_options(
     links: Collection[str], joints: Sequence[Joint], options: Options
@@ -30,7 +32,7 @@ def check_options(
     drivable = [joint.name for joint in joints if can_be_driven(joint)]
     for option, given, known, kind, code in (
         ("frames", options.frames, links, "link", "frame-of-no-link"),
-        ("driven", options.driven, drivable, "joint with one axis that follows no other", "drive-of-no-joint"),
+        ("driven", options.driven, drivable, _DRIVABLE, "drive-of-no-joint"),
     ):
         for name, count in Counter(given if isinstance(given, tuple) else ()).items():
             if count > 1:

@@ -14,8 +14,8 @@ from urdfsync.urdf.robot import MOTION_KINDS
 
 _HINTS = {
     "planar": "write it as two prismatic joints and a continuous one, or use the package approach",
-    "floating": "write it as three prismatic joints and three continuous ones, leave it out with a root link that "
-    'has no other joint and let the base float (`base = "floating"` in a project), or use the package approach',
+    "floating": "write it as three prismatic joints and three continuous ones, or use the package approach; if the "
+    'root link has no other joint, remove both and set `base = "floating"` in a project',
 }
 
 
@@ -48,7 +48,9 @@ def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> It
 
     unfit = obstacles(tree.joints)
     for joint in unfit:
-        message = f"the generic robot has no {joint.type} joints, so there are no tables for it: joint '{joint.name}'"
+        message = (
+            f"joint '{joint.name}' is {joint.type}; the generic robot has no such joints, so the record has no tables"
+        )
         yield warning(f"{joint.type}-not-generic", message, _HINTS[joint.type], f"joint {joint.name}")
     if unfit:
         return
@@ -62,8 +64,8 @@ def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> It
     behind = set[str]()  # links behind a joint that was named: what moves them is not named, too
     for joint in tree.joints:
         if joint.name in found and joint.parent not in behind:
-            message = f"joint '{joint.name}' moves nothing that has an inertia about its axis and is not behind "
-            message += "another joint on this axis, so the generic robot can move it by position only"
+            message = f"joint '{joint.name}' moves no inertia about its axis, or only one that is behind "
+            message += "another joint on the same axis, so the generic robot can move it by position only"
             hint = "give the link right behind it an <inertial>, or make it a fixed joint"
             yield warning("moves-no-mass", message, hint, f"joint {joint.name}")
         if joint.name in found or joint.parent in behind:

@@ -74,7 +74,7 @@ _ERRORS = {
     "unknown-mimic": "add the joint, or correct its name",
     "mimic-cycle": "one joint of the cycle must move by itself",
     "mimic-type": "only revolute, continuous and prismatic joints mimic and are mimicked",
-    "second-reader-differs": "please report this file: one of both reads it wrongly",
+    "second-reader-differs": "please report this file: urdfsync or yourdfpy reads it wrongly",
 }
 _WARNINGS = {
     # the file
@@ -109,7 +109,7 @@ _WARNINGS = {
     "inertia-triangle": "export the inertia again; simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
 }
-_NOTES = {"second-reader-failed": "the strict reading alone counts"}
+_NOTES = {"second-reader-failed": "only the reading of urdfsync counts"}
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {
     code: (severity, advice)

@@ -131,7 +131,7 @@ class Daemon:
             lock.acquire()
         except LockedError:
             message = f"{lock.holder()} watches this configuration already"
-            hint = "leave the work to it, or end it first"
+            hint = "use that one, or stop it first"
             found = Diagnostic(Severity.ERROR, "watched", message, shown(self._options.file.absolute()), hint=hint)
             raise LockedError(found) from None
 
@@ -322,7 +322,7 @@ class Daemon:
             return False
         source = watched.files[str(watched.robot.source)].sha256
         if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
-            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone, so it is watched a little longer"
+            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone: waiting for the exporter"
             self._listener(events.Waiting(watched.name, reason))
             watched.state = Unsettled(now + self._options.recheck_shrunk, watched.hashes, shrunk=source)
             return False

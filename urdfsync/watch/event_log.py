@@ -32,7 +32,7 @@ _PLAIN: dict[type[events.Event], str] = {
     events.Unchanged: "as before",
     events.Building: "building",
     events.Checking: "checking",
-    events.Running: "command begins",
+    events.Running: "command started",
     events.Ran: "command ended with {0.code}",
     events.Paused: "paused: {0.reason}",
     events.Resumed: "building again",

@@ -103,5 +103,5 @@ class Observer(events.FileSystemEventHandler):
 def _not_watched(error: Exception, what: str, place: str) -> Diagnostic:
     hint = _HINTS.get(getattr(error, "errno", None) or 0, "use --poll")
     reason = getattr(error, "strerror", None) or error
-    message = f"{what} can't be watched, so it is looked at every now and then: {reason}"
+    message = f"{what} can't be watched, so its files are read at intervals: {reason}"
     return Diagnostic(Severity.WARNING, "not-watched", message, place, hint=hint)

@@ -58,8 +58,8 @@ def run_job(name: str, job: CompileJob, cache: UserCache, limits: Limits) -> lis
             raise CompilerError(_missing(compiler, f"{compiler.TITLE} does not start: {error}")) from None
         except BrokenProcessError as error:
             task = job.tasks[min(len(error.results), len(job.tasks) - 1)].title
-            message = f"{compiler.TITLE} broke down at {task}: {error}"
-            killed = "most likely the system for want of memory: check fewer robots at a time"
+            message = f"{compiler.TITLE} crashed at {task}: {error}"
+            killed = "probably the system was out of memory: check fewer robots at a time (--jobs)"
             hint = killed if error.was_killed else compiler.REPORT
             raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint)) from error
 

@@ -94,7 +94,7 @@ def _load(ask: Callable[[str], str], call: str) -> str:
     answer = ask(f"{call}; getErrorString()")
     if answer.lstrip().startswith("true"):
         return ""
-    return "\n".join(filter(None, map(str.strip, strings(answer)))) or "it can't be loaded, and does not say why"
+    return "\n".join(filter(None, map(str.strip, strings(answer)))) or "OpenModelica can't load it and gives no reason"
 
 
 def _compile(ask: Callable[[str], str], task: CompileTask) -> CompileResult:

@@ -57,7 +57,7 @@ def read(content: bytes, file: str) -> PinocchioRobot:
         model = pin.buildModelFromXML(content.decode("utf-8-sig"), pin.JointModelFreeFlyer(), unused)
     except (ValueError, RuntimeError) as error:
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
-        hint = "correct the file, or compare it without physics"
+        hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
     return PinocchioRobot(model, followers)
 
