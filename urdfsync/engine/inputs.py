@@ -155,9 +155,10 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         found = dict(self.record.imports) if self.record else {}
         for key, one in self.record.open.imports.items() if self.record and self.record.open else ():
             found[key] = (*found.get(key, ()), one)
+        files, folder = self.files, self.old_folder  # not `self`, which would hold itself then
         return imports.Recorded(
             found,
-            copy=lambda target: self.files.read(self.old_key(target)),
+            copy=lambda target: files.read(f"{folder}/{target}"),
             bases={path: hashes for path, hashes in bases.items() if path.startswith(RESOURCES)},
             moved=self.has_moved,
         )

@@ -98,6 +98,8 @@ def parse(content: bytes) -> Document:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as found:
         error = found
+    # else they hold the parser, which holds them, and all elements stay until Python looks for cycles
+    parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
     if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
         line = text.count("\n", 0, marker.start()) + 1
         raise ParseError("merge-conflict", "the file has merge conflict markers", line)
