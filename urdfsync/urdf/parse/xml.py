@@ -98,7 +98,7 @@ def parse(content: bytes) -> Document:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as found:
         error = found
-    # else they hold the parser and are held by it, and all elements stay until Python looks for cycles, which takes 0.3 s
+    # else they hold the parser, which holds them, and all elements stay until Python looks for cycles
     parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
     if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
         line = text.count("\n", 0, marker.start()) + 1
