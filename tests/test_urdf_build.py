@@ -59,7 +59,7 @@ def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(
     (arm / "urdfsync.toml").write_text(floating)
     (error,) = run(arm).diagnostics
     assert (error.severity, error.code) == (Severity.ERROR, "lost-state")
-    assert error.message.endswith("and the record of its imported copy is incomplete")
+    assert error.message.endswith("the record of its imported copy is incomplete")
     (arm / "away").rename(meshes)
     run(arm)
     assert '"hull"' in (arm / ".urdfsync/robots/arm.state").read_text()

@@ -124,7 +124,7 @@ def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
             assert new is not None
             is_renamed = ("link", link) in DOMAIN.renames(old, new)
             assert (f"use `{component(content, 'links', now)}` instead" in found_one) == is_renamed
-            assert ("adapt your text" in found_one) != is_renamed
+            assert ("change or remove this use" in found_one) != is_renamed
             link = now
             file.write_text(text_of(content, history.joint, link))
             assert warnings(project.build()) == []

@@ -133,7 +133,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
     else:
         return normalised(content)
     if isinstance(problem, RecursionError):
-        reason = "it includes or calls itself endlessly"
+        reason = "it includes or calls itself without end"
     elif isinstance(problem, MemoryError):
         reason = "it needs more memory than its limit"
     else:
