@@ -330,6 +330,19 @@ def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> Non
     assert package.edits == ("Joints/ElbowParameters.mo",)
 
 
+def test_a_model_whose_new_name_waits_is_not_the_users(arm: Path) -> None:
+    """The package on disk has the old names until the conflict is resolved."""
+    replace(arm / "Arm.mo", "shoulder(", "shoulder(fixedStart = true, ")
+    replace(arm / "Joints" / "Elbow.mo", "model Elbow", "// looked at\nmodel Elbow")
+    source = Path("arm.urdf")
+    source.write_text(source.read_text().replace('"elbow"', '"hinge"').replace('name="shoulder"', 'name="lift"'))
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    package = read_package(loaded, loaded.robots[0], BuildOptions(dry=True))
+    assert package.conflicting
+    assert "Joints/Elbow.mo" in package.written
+    assert package.files.models_not_in(package.generated.keys() | package.written) == []
+
+
 def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:
     replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
     result = check()

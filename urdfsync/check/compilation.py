@@ -69,7 +69,7 @@ class Compilation:
         self._package, self._options, self._result, self._limits = package, options, result, limits
         self._folder, self._needed = folder, needed
         self._compiler = compilers.COMPILERS[options.compiler]
-        self._users_models = package.files.models_not_in(package.generated)
+        self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
 
     def run(self, texts: Iterable[bytes]) -> None:
         """Compile the package, and compare it if that is wanted: 20 s for a six-axis arm, minutes for a humanoid.

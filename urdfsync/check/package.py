@@ -9,7 +9,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -17,6 +17,7 @@ import msgspec
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
+from urdfsync.engine.actions import Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
@@ -83,6 +84,8 @@ class CheckedPackage(msgspec.Struct):
     """Whether it is out of step because edits and new texts contradict each other."""
     generated: Mapping[str, bytes]
     """The files of the package as it is generated, by their path below it."""
+    written: frozenset[str]
+    """The files that urdfsync wrote, by their path below it; with those of elements whose new names wait."""
     files: PackageTexts
     """What is checked: the package on disk, or what a build would write."""
     around: Mapping[str, bytes]
@@ -122,12 +125,19 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
+        written=frozenset(_written(robot.folder, config.root, built.actions)),
         files=PackageTexts(robot.target.package, robot.folder, texts, rendering.owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,
         edits=tuple(edits),
     )
+
+
+def _written(folder: Path, root: Path, actions: Iterable[Action]) -> Iterator[str]:
+    """Where the files of a build are, and where they go: paths below the package."""
+    keys = (key for action in actions for key in (action.path, action.origin) if key)
+    return (Path(os.path.relpath(root / key, folder)).as_posix() for key in keys)
 
 
 def _words(text: bytes) -> list[str]:
