@@ -134,7 +134,8 @@ def test_svg(execute: Execute, project: Path) -> None:
 )
 def test_bad_usage(arguments: list[str], execute: Execute) -> None:
     """Options are spelled out, too."""
-    assert execute(*arguments, code=2).err.startswith("usage: urdfsync")
+    usage = "usage: urdfsync build" if arguments[:1] == ["build"] else "usage: urdfsync"
+    assert execute(*arguments, code=2).err.startswith(usage)
 
 
 def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -79,7 +79,9 @@ def _main(given: list[str]) -> int:
     command = next((argument for argument in given if argument in _COMMANDS), "")
     console = Console(as_json="--json" in given)
     try:
-        args = _parser(given).parse_args(given)
+        args, unknown = _parser(given).parse_known_args(given)
+        if unknown:  # argparse would show the usage without the command's options
+            args.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
         console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
         return int(args.run(args, console))
     except SystemExit as stop:  # --help and --version
