@@ -121,8 +121,8 @@ def _outcome(
         return Kind.UPDATE, choice, None
     if action.kind not in CONFLICTS:
         return action.kind, action.choice, None
-    if conflict and merged == conflict.mine:
-        return Kind.INCLUDED, None, None
+    if conflict and merged == conflict.mine:  # by a preference for the user's side, which has to be remembered
+        return (Kind.KEEP, choice, None) if choice in PREFERENCES else (Kind.INCLUDED, None, None)
     if choice is Choice.KEEP:
         return Kind.KEEP, choice, None
     if choice is Choice.TAKE and action.replaceable:
