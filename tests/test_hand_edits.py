@@ -17,15 +17,20 @@ import pytest
 from pymoca import parser as pymoca
 from support import replay
 from support.hand_edits import EDITS, MARK
+from support.modelica import compile_task, execute
 from support.packages import read
 from support.replay import Fresh, Project
 
+from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Result
 from urdfsync.modelica.parser import parse
 
-STEPS = replay.STEPS or 60
+STEPS = replay.STEPS or 27
 LARGEST = 60
 """Links that a robot has at most; larger ones take seconds a step."""
+
+COMPILED = ("add a component", "add a connection", "add an equation", "move a part", "save again in another style")
+"""Edits after which a package compiles."""
 
 pytestmark = pytest.mark.slow
 
@@ -122,6 +127,24 @@ def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.Cap
         print("", *lines, sep="\n")  # noqa: T201
     refused = sum(count for (_, what), count in tally.items() if what == "refused")
     assert refused <= 0.02 * STEPS
+
+
+def test_merged_packages_compile(corpus: Path, modelica_library: Path, tmp_path: Path) -> None:
+    """What does not compile before the merge is left out: other types, and names that other models use."""
+    random, source, number = Random(replay.SEED), steps(Random(replay.SEED)), 0
+    merged = 0
+    while merged < max(2, replay.STEPS // 10):
+        number += 1
+        old, new = next(source)
+        kind = COMPILED[number % len(COMPILED)]
+        project = tmp_path / str(number) / "project"
+        with replay.in_haste():
+            done = trial(project, old, new, kind, random)
+        if done and not done[0].conflicts and any(one.kind is Kind.MERGE for one in done[0].actions):
+            merged += 1
+            tasks = [compile_task(f"Bot.{model}") for model in ("BotRun", "BotTest")]
+            outcomes = execute(modelica_library, [project / replay.PACKAGE], tasks)
+            assert [outcome.error for outcome in outcomes] == ["", ""], (kind, project)
 
 
 def check(edited: str, merged: str) -> None:

@@ -372,6 +372,9 @@ COMMENTS = {
         "  B b(x = 1, // 1\n    y = 2, // 2\n    z = 3);\n", "  B b(x = 1, z = 3);\n",
         "  B b(x = 1, // 1\n    // 2\n    z = 3);\n",
     ),
+    "element gone, behind a blank line": (
+        "  A a;\n\n  // 1\n  B b;\n", "  A a;\n", "  A a;\n  // 1\n",
+    ),
     "last modifier gone": ("  B b(x = 1,\n    y = 2 // 1\n  );\n", "  B b(x = 1);\n", "  B b(x = 1\n    // 1\n  );\n"),
     "all modifiers gone": ("  B b(x = 1 // 1\n  );\n", "  B b;\n", "  B b // 1\n;\n"),
     "description gone": ('  B b // 1\n    "d";\n', "  B b;\n", "  B b\n    // 1\n;\n"),

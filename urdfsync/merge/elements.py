@@ -210,7 +210,7 @@ def _layout(node: Node) -> list[object]:
 def _remaining_notes(part: Part, old: Part) -> str:
     """The user's comments at a thing that goes, each with the blanks before it."""
     had = comments(f"{old.before}{old.node.text}{old.after}{old.remark}")
-    lead = re.findall(r"\n[ \t]*|\Z", part.before)[0] or " "
+    lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
     found = [note for note in comments(f"{part.before}{part.node.text}{part.after}{part.remark}") if note not in had]
     return "".join(f"{lead}{note}" for note in found)
 
