@@ -66,12 +66,24 @@ def seen_of(
 # What happened, and what to do
 
 
-def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
+def test_what_each_side_changed_and_what_to_do() -> None:
     assert seen(texts_of(EDITED, EXPORTED), width=100) == [
         "",
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
         "    You edited it, and its generated text changed too. The changes fit together: --merge takes both.",
         "",
+        "    you         comments: changed",
+        "    the export  component `b`: b 2 → 3",
+        "",
+        f"    saved: {SAVED}.base.mo, {SAVED}.generated.mo, {SAVED}.merge.mo",
+        "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
+        "    --merge takes both sides' changes; --keep leaves your file as it is; --take replaces it by the",
+        "    generated one",
+    ]
+
+
+def test_verbose_shows_the_lines() -> None:
+    assert seen(texts_of(EDITED, EXPORTED), width=100, verbose=True)[4:13] == [
         "    -- lines 1 to 6: your edit, and generated text changed",
         "               1  within Arm;",
         "               2  model Elbow",
@@ -81,12 +93,26 @@ def test_a_terminal_shows_the_versions_and_what_to_do() -> None:
         "    base       5    Real b = 2;",
         "    generated  5    Real b = 3;",
         "               6  end Elbow;",
-        "",
-        f"    saved: {SAVED}.base.mo, {SAVED}.generated.mo, {SAVED}.merge.mo",
-        "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
-        "    --merge takes both sides' changes; --keep leaves your file as it is; --take replaces it by the",
-        "    generated one",
     ]
+
+
+def test_of_many_changes_the_first_are_shown() -> None:
+    many = BASE.replace("  Real b", "".join(f"  Real x{number};\n" for number in range(10)) + "  Real b")
+    found = Conflict(ELBOW, "link elbow", BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
+    assert seen(found, width=100)[11:14] == [
+        "                component `x7`: added",
+        "                … 2 more changes",
+        "    the export  component `b`: b 2 → 3",
+    ]
+
+
+def test_of_a_contradiction_nothing_else_is_shown() -> None:
+    base, mine, generated = (text.replace("  Real b", "\n\n\n\n  Real b") for text in (BASE, *OPPOSED))
+    generated = generated.replace("b = 2", "b = 3")
+    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    lines = seen(found)
+    assert lines[2].endswith("Component `a`: you set `a = 7`, the export changes 1 to 9.")
+    assert not any("b = 3" in line for line in lines)
 
 
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")

@@ -16,7 +16,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncErro
 from urdfsync.engine.edits import EditedFile, find_edited
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
-from urdfsync.merge.edits import Edit, find_edits
+from urdfsync.merge.edits import Edit, find_edits, in_words
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import counted
 
@@ -92,10 +92,7 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLi
     if edits is None:
         told = [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
     else:
-        told = [(one.element, one.told) for one in edits if one.element != "comments" and one.part != "layout"]
-        moved = {one.element for one in edits if one.part == "layout"}
-        told += [("layout", f"{counted(len(moved), 'element')} placed or drawn in another way")] if moved else []
-        told += [("comments", "changed")] if any(one.element == "comments" for one in edits) else []
+        told = in_words(edits)
         told = told or [("", "only blanks, or the order of things")]
     lines = [line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what))) for element, what in told]
     yield from first_lines(lines, _EDITS, "edit", verbose=verbose)

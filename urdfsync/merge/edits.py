@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
 import msgspec
 
 from urdfsync.merge.words import place_of, quoted
 from urdfsync.modelica.tree import LAYOUT, Node, Tree, comments, read_tree
+
+_ITEM = re.compile(r" #\d+$")
+"""The end of the key of something that has no name, but a number."""
 
 
 class Edit(msgspec.Struct, frozen=True):
@@ -44,9 +48,12 @@ def find_edits(base: str, mine: str) -> list[Edit] | None:
 
 
 def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
+    one, other = old.text if old else None, new.text if new else None
+    if _ITEM.search(path[-1]):  # a term of a sum, or an item of an array
+        element, part = place_of(tuple(key for key in path[:-1] if key != "expression"))
+        return Edit(element, f"{part} {quoted(one or other or '')}".lstrip(), one, other)
     element, part = place_of(tuple(key for key in path if key not in LAYOUT))
-    part = "layout" if not LAYOUT.isdisjoint(path) else part
-    return Edit(element, part, old.text if old else None, new.text if new else None)
+    return Edit(element, "layout" if not LAYOUT.isdisjoint(path) else part, one, other)
 
 
 def _differences(
@@ -69,3 +76,12 @@ def _differences(
     for part in old.parts:
         if not new.find(part.key) and not part.key.startswith("section "):
             yield (*path, part.key), part.node, None
+
+
+def in_words(edits: Sequence[Edit]) -> list[tuple[str, str]]:
+    """Return the elements and what was done to them; layout and comments are one line each."""
+    found = [(one.element, one.told) for one in edits if one.element != "comments" and one.part != "layout"]
+    if moved := {one.element for one in edits if one.part == "layout"}:
+        what = "1 element" if len(moved) == 1 else f"{len(moved)} elements"
+        found.append(("layout", f"{what} placed or drawn in another way"))
+    return [*found, *(("comments", "changed") for one in edits if one.element == "comments")]

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
+_ELEMENTS = 8
+"""So many changes of each side are listed."""
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
 
@@ -145,7 +147,9 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
         from urdfsync.output.differences import difference_lines  # only a conflict needs it
 
         saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
-        lines, left_out = difference_lines(target.texts, screen, console.verbose)
+        lines, left_out = [] if console.verbose else _element_lines(target.texts), 0
+        if not lines:
+            lines, left_out = difference_lines(target.texts, screen, console.verbose)
         yield from (line(("", "")), *lines)
         if left_out:
             see = "--verbose shows them" if result.dry else f"see {saved.get('merge', saved['generated'])}"
@@ -168,6 +172,24 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     typed = f"./{name}" if name.startswith("-") else name
     yield line((f"    {_command([typed, choices[0].partition(' ')[0]], console)}", "bold"))
     yield from _paragraph("; ".join(choices), "dim", screen)
+
+
+def _element_lines(texts: Conflict) -> list[StyledLine]:
+    """What each side changed, by element, if a merge takes both and both are classes."""
+    from urdfsync.merge.edits import find_edits, in_words  # only a conflict needs it
+
+    if texts.base is None or texts.merge is None or texts.merge.text is None:
+        return []
+    sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(texts.base, texts.generated)}
+    lines: list[StyledLine] = []
+    for side, edits in sides.items():
+        if edits is None:
+            return []
+        told = [f"{element}: {what}" for element, what in in_words(edits)] or ["blanks, or the order of things"]
+        more = [f"… {counted(len(told) - _ELEMENTS, 'more change')}"] if len(told) > _ELEMENTS else []
+        for number, words in enumerate([*told[:_ELEMENTS], *more]):
+            lines.append(line((f"    {'' if number else side:<12}", "bold"), (words, "")))
+    return lines
 
 
 def _command(arguments: Sequence[str], console: Console) -> str:

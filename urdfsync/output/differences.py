@@ -98,9 +98,11 @@ def _changed_lines(texts: Texts, change: ChangedLines, has_base: bool) -> Iterat
 def difference_lines(conflict: Conflict, console: Console, verbose: bool) -> tuple[list[StyledLine], int]:
     """The versions of a file where they differ, and the number of lines that were left out for want of room.
 
-    Contradictions come first.
+    Contradictions come first. Of those that have names, nothing else is shown unless `verbose`.
     """
     hunks = find_hunks(conflict.base, conflict.mine, conflict.generated, conflict.merge)
+    if not verbose and conflict.merge and any(one.what for one in conflict.merge.conflicts):
+        hunks = [hunk for hunk in hunks if hunk.clash]
     digits = len(str(max((line.number for hunk in hunks for line in hunk.lines), default=1)))
     lines: list[StyledLine] = []
     for hunk in sorted(hunks, key=lambda hunk: not hunk.clash):

@@ -1,0 +1,44 @@
+"""What somebody edited, thing by thing."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfsync.merge.edits import find_edits, in_words
+
+BASE = """\
+model Arm
+  Body b(inertial(mass = 2)) "A body"
+    annotation (Placement(transformation(extent={{0, 0}, {20, 20}})));
+  Real m = b.m + c.m;
+equation
+  connect(frame_a, b.frame_a);
+end Arm;
+"""
+EDITS = {
+    "nothing": (("Real m", "Real  m"), []),
+    "a modifier": (("mass = 2", "mass = 2.5"), [("component `b`", "inertial.mass 2 → 2.5")]),
+    "a modifier more": (("mass = 2)", "mass = 2, x = 1)"), [("component `b`", "inertial.x added")]),
+    "a modifier less": (("inertial(mass = 2)", "inertial"), [("component `b`", "inertial removed")]),
+    "a type": (("Body b", "Ball b"), [("component `b`", "type Body → Ball")]),
+    "a term": (("b.m + c.m", "b.m + d.m + c.m"), [("component `m`", "d.m added")]),
+    "a place": (("{20, 20}", "{30, 30}"), [("layout", "1 element placed or drawn in another way")]),
+    "a connection": (("connect(frame_a", "connect(frame_b"), [
+        ("`connect(b.frame_a, frame_b)`", "added"), ("`connect(b.frame_a, frame_a)`", "removed"),
+    ]),
+    "an element": (("equation", "  Real x;\nequation"), [("component `x`", "added")]),
+    "a comment": (("equation", "equation // mine"), [("comments", "changed")]),
+    "a value": (("m = b.m + c.m", "m = 1"), [("component `m`", "m b.m + c.m → 1")]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_edits(name: str) -> None:
+    (old, new), expected = EDITS[name]
+    edits = find_edits(BASE, BASE.replace(old, new))
+    assert edits is not None
+    assert in_words(edits) == expected
+
+
+def test_what_is_no_class() -> None:
+    assert find_edits(BASE, "x") is None
