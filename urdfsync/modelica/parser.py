@@ -42,7 +42,11 @@ _REPEATABLE = frozenset(
 
 def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
-    parser = Parser(text)
+    return read(Parser(text))
+
+
+def read(parser: Parser) -> StoredText:
+    """Read all that a parser has before it."""
     parser.document()
     return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes)
 

@@ -25,7 +25,7 @@ from urdfsync.modelica.parser import (
     SECTIONS,
     TYPE_PREFIXES,
     Parser,
-    parse,
+    read,
 )
 from urdfsync.modelica.syntax import Name
 
@@ -178,10 +178,12 @@ def comments(text: str) -> list[str]:
 
 def read_tree(text: str) -> Tree | None:
     """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name."""
-    stored = parse(text)
+    reader = _Reader(text)
+    stored = read(reader)
     if stored.faults or len(stored.classes) != 1:
         return None
-    found = _Reader(text).file()
+    reader.at = 0  # again, with the same tokens
+    found = reader.file()
     return None if found.has_twins else found
 
 
