@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
-from urdfsync.merge.renames import find_renamed, rename
+from urdfsync.merge.renames import find_renamed, rename, without_clashes
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
@@ -61,7 +61,7 @@ def merge(
     has.
     """
     if names:
-        base, mine = rename(base, mine, names)
+        base, mine = rename(base, mine, without_clashes(names, mine))
     ending = _ending(mine)
     pieces, texts = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
@@ -132,7 +132,7 @@ def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
     if not (one and two and three):
         return None
     if names := find_renamed(one, two, three):
-        one, three = (read_tree(text) for text in rename(base, generated, names))
+        one, three = (read_tree(text) for text in rename(base, generated, names, modifiers=False))
     return merge_trees(one, two, three) if one and three else None
 
 
