@@ -108,3 +108,19 @@ def test_icons_stay_and_other_annotations_do_not() -> None:
     icon = '  annotation (Icon(graphics={{Line(points={{{{0, 0}}, {{{0}, 1}}}})}}), Documentation(info="{1}"));\n'
     base, mine, export = (model(A, A_B, icon.format(*values)) for values in (("1", "a"), ("2", "a"), ("3", "b")))
     assert merged(base, mine, export) == model(A, A_B, icon.format("2", "b"))
+
+
+@pytest.mark.parametrize(
+    "endless", ["extent={{-1e999, -10}, {10, 10}}", "extent={{-1, -1}, {1, 1}}, origin={1e999, 0}"]
+)
+def test_a_place_without_end_counts_as_none(endless: str) -> None:
+    """Else `inf` and `nan` would be in the text."""
+    mine = BASE.replace("extent={{40, -10}, {60, 10}}", endless)
+    assert placed("c", 100, 0) in merged(BASE, mine, EXPORT)
+
+
+def test_a_diagram_full_of_boxes_upon_each_other_takes_no_minutes() -> None:
+    """Free places are looked for so long only; all parts are there."""
+    boxes = "".join(placed(f"n{number}", 0, 0) for number in range(2_000))
+    text = merged(model(A), model(placed("a", 7, 7)), model(A + boxes))
+    assert text.count("  B n") == 2_000

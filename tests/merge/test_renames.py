@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfsync.merge import merge
-from urdfsync.merge.renames import rename
+from urdfsync.merge.renames import rename, without_clashes
 
 BASE = """\
 model Arm
@@ -53,3 +53,24 @@ def test_what_the_user_renamed_is_still_the_same_thing() -> None:
     mine, generated = base.replace("b", "body"), base.replace("n = 1", "n = 2")
     assert merge(base, mine, generated, is_modelica=True).text == mine.replace("n = 1", "n = 2")
     assert merge(base, mine.replace("Body", "Ball"), generated, is_modelica=True).text is None
+
+
+def test_a_new_name_that_the_user_has_given_to_something_else_is_a_conflict() -> None:
+    """Both would have the same name, and the user's equation would mean something else."""
+    base, generated = "model A\n  Real a = 1;\nend A;\n", "model A\n  Real n = 1;\nend A;\n"
+    mine = "model A\n  Real a = 1;\n  Real n = 5;\nequation\n  a = n;\nend A;\n"
+    assert merge(base, mine, generated, is_modelica=True, names={"a": "n"}).text is None
+
+
+def test_names_that_swap_or_follow_each_other_have_no_clash() -> None:
+    """Each goes its way at once."""
+    assert without_clashes({"a": "b", "b": "a"}, "a = b") == {"a": "b", "b": "a"}
+    assert without_clashes({"a": "b", "b": "c"}, "a = b") == {"a": "b", "b": "c"}
+    assert without_clashes({"a": "b", "b": "c"}, "a = b + c") == {}
+
+
+def test_a_modifier_with_the_name_of_a_component_that_the_user_renamed_stays() -> None:
+    """It is a name of another class."""
+    base = "model A\n  B x(m = 1);\nend A;\n"
+    merged = merge(base, base.replace("x", "y"), base.replace("m = 1", "m = f(x = x), x(k = 3)"), is_modelica=True)
+    assert merged.text == "model A\n  B y(m = f(x = y), x(k = 3));\nend A;\n"

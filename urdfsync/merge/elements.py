@@ -11,6 +11,7 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Iterable, Sequence
@@ -32,6 +33,7 @@ _ROLES = (
     *("definition", "body", "end", ";"),
 )
 """The order of the roles that the parts of an element have."""
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _MOVABLE = frozenset({"arguments", "annotation"})
 """Lists that mean nothing if they are empty."""
 
@@ -59,12 +61,14 @@ def merge_trees(base: Tree, mine: Tree, generated: Tree) -> list[Piece]:
 def _join(pieces: Iterable[Piece]) -> list[Piece]:
     """Texts that follow each other, in one."""
     found: list[Piece] = []
+    texts: list[str] = []
     for piece in pieces:
-        if isinstance(piece, str) and found and isinstance(found[-1], str):
-            found[-1] += piece
-        else:
-            found.append(piece)
-    return found
+        if isinstance(piece, str):
+            texts.append(piece)
+            continue
+        found += ["".join(texts), piece] if texts else [piece]
+        texts = []
+    return [*found, "".join(texts)] if texts else found
 
 
 def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node, *, keeps_layout: bool) -> list[Piece]:
@@ -123,10 +127,12 @@ def _new_comments(mine: str, base: str) -> list[str]:
 
 def _runs_on(blanks: str) -> bool:
     """Whether what follows these blanks and comments would be in a comment."""
-    return re.fullmatch(r"(?s)(?:/\*.*?\*/|//[^\n]*\n|[^/])*//[^\n]*", blanks) is not None
+    # one comment after the other: a pattern for all of them would try each end of a comment with each end of the others
+    *_, last = "", *_COMMENT.findall(blanks)
+    return last.startswith("//") and blanks.endswith(last)
 
 
-class _Item(msgspec.Struct):
+class _Item(msgspec.Struct, eq=False):
     """A part of the merged text."""
 
     key: str
@@ -137,6 +143,10 @@ class _Item(msgspec.Struct):
     remark: str = ""
     is_users: bool = False
     """Whether the user alone has it."""
+
+
+_Items: TypeAlias = dict[str, _Item]
+"""Parts of the merged text by their keys."""
 
 
 def _merge_parts(
@@ -172,6 +182,7 @@ def _merge_parts(
             moved[part.key] = item  # such as from `public` to `protected`
         else:
             items.append(item)
+    by_key = {item.key: item for item in items}
     arranged = arrange(mine, generated) if mine.kind is Kind.BODY and keeps_layout else {}
     for number, part in enumerate(generated.parts):
         old, section = base and base.find(part.key), generated.sections.get(part.key, "")
@@ -185,7 +196,8 @@ def _merge_parts(
                 pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
             before = part.before if number or mine.kind is not Kind.LIST else ""
             item = _Item(part.key, section, before, pieces, part.after, part.remark)
-        _insert(items, item, number, generated, mine)
+        items.insert(_place(items, item, number, generated, mine, by_key), item)
+        by_key[item.key] = item
     return _text_of(mine, items, notes)
 
 
@@ -218,27 +230,22 @@ def _remaining_notes(part: Part, old: Part) -> str:
 # --- where something new goes -------------------------------------------------------------------------------------
 
 
-def _insert(items: list[_Item], item: _Item, number: int, generated: Tree, mine: Tree) -> None:
-    """Put something new behind what precedes it in the generated text, and behind what the user added there."""
-    items.insert(_place(items, item, number, generated, mine.kind), item)
-
-
-def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, kind: Kind) -> int:
-    if kind is Kind.SLOTS:
+def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, mine: Tree, by_key: _Items) -> int:
+    """The place behind what precedes something new in the generated text, and behind what the user added there."""
+    if mine.kind is Kind.SLOTS:
         return sum(_ROLES.index(one.key) <= _ROLES.index(item.key) for one in items if one.key in _ROLES)
-    places = {one.key: place for place, one in enumerate(items)}
     is_section = item.key.startswith("section ")
-    for part in reversed(generated.parts[:number]):
-        place = places.get(part.key)
-        if place is not None and (is_section or items[place].section == item.section):
-            place += 1
+    for before in range(number - 1, -1, -1):
+        one = by_key.get(generated.parts[before].key)
+        if one and (is_section or one.section == item.section):
+            place = items.index(one) + 1
             while place < len(items) and items[place].is_users and (is_section or items[place].section == item.section):
                 place += 1
             return place
-    for part in generated.parts[number + 1 :]:
-        place = places.get(part.key)
-        if place is not None and items[place].section == item.section:
-            return place
+    for behind in range(number + 1, len(generated.parts)):
+        one = by_key.get(generated.parts[behind].key)
+        if one and one.section == item.section:
+            return items.index(one)
     inside = [place for place, one in enumerate(items) if one.section == item.section]
     if inside:
         return inside[-1] + 1
@@ -252,7 +259,8 @@ def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, ki
 
 def _text_of(tree: Tree, items: Sequence[_Item], notes: str) -> list[Piece]:
     """The merged things as text, with what stands around and between them."""
-    kept = [item for number, item in enumerate(items) if not _is_empty_section(tree, items, number)]
+    empty = _empty_sections(tree, items)
+    kept = [item for item in items if item.key not in empty]
     if tree.kind in (Kind.LIST, Kind.ARRAY, Kind.SUM):
         _set_apart(tree, kept)
     found: list[Piece] = [tree.opening]
@@ -280,16 +288,15 @@ def _go_on(found: list[Piece], blanks: str) -> None:
     found.append(f"{blanks}\n" if _runs_on(blanks) else blanks)
 
 
-def _is_empty_section(tree: Tree, items: Sequence[_Item], number: int) -> bool:
-    """Whether a word that begins a section has nothing behind it, unlike in the user's text."""
-    if not items[number].key.startswith("section "):
-        return False
-    follows = [item.key for item in items[number + 1 : number + 2]]
-    was = [part.key for part in tree.parts]
-    place = was.index(items[number].key) if items[number].key in was else -1
-    had = was[place + 1 : place + 2]
-    is_empty, was_empty = (not one or one[0] == "annotation" or one[0].startswith("section ") for one in (follows, had))
-    return is_empty and (place < 0 or not was_empty)
+def _empty_sections(tree: Tree, items: Sequence[_Item]) -> set[str]:
+    """The words that begin a section with nothing in it, unlike in the user's text."""
+    had, has = (_sections_without_parts([one.key for one in parts]) for parts in (tree.parts, items))
+    return has - had
+
+
+def _sections_without_parts(keys: Sequence[str]) -> set[str]:
+    pairs = itertools.pairwise((*keys, "annotation"))
+    return {one for one, after in pairs if one.startswith("section ") and after.startswith(("section ", "annotation"))}
 
 
 def _set_apart(tree: Tree, items: Sequence[_Item]) -> None:

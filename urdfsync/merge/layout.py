@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
@@ -18,6 +19,8 @@ _STEP = 20.0
 """Places are looked for at multiples of this from the wanted one."""
 _REACH = 40
 """So many steps away a place is looked for."""
+_MOST_COMPARISONS = 1_000_000
+"""So often two boxes are compared at most: a second. What is new after that may lie upon something."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 
 
@@ -81,9 +84,12 @@ def _shifts(mine: Tree, generated: Tree, lines: Mapping[str, tuple[str, str]], p
     boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
     planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
     shifts = {key: planned[key].centre.to(boxes[key].centre) for key in planned.keys() & boxes.keys()}
+    left = _MOST_COMPARISONS
     for key in planned:
         if not mine.find(key):
-            shifts[key] = _find_shift(key, planned, shifts, lines, boxes.values())
+            steps = left // max(len(boxes), 1)
+            shifts[key], count = _find_shift(key, planned, shifts, lines, boxes.values(), steps)
+            left -= count * len(boxes)
             boxes[key] = planned[key].shifted(shifts[key])
     return shifts
 
@@ -94,17 +100,23 @@ def _find_shift(
     shifts: Mapping[str, Point],
     lines: Mapping[str, tuple[str, str]],
     taken: Collection[Box],
-) -> Point:
-    """How far from its generated place a new component goes: as far as its neighbour did, and on to a free place."""
+    steps: int,
+) -> tuple[Point, int]:
+    """How far from its generated place a new component goes: as far as its neighbour did, and on to a free place.
+
+    Of the places around, so many as `steps` are looked at; returns also how many were.
+    """
     around = [other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts]
     earlier = [other for other in itertools.takewhile(lambda other: other != key, planned) if other in shifts]
     neighbour = next(iter(around), earlier[-1] if earlier else "")
     wanted = shifts.get(neighbour, _NOWHERE)
-    for way in _steps():
+    number = 0
+    for number, way in enumerate(_steps()[:steps], start=1):
         shift = wanted.shifted(way)
-        if not any(planned[key].shifted(shift).touches(box) for box in taken):
-            return shift
-    return wanted
+        box = planned[key].shifted(shift)
+        if not any(box.touches(other) for other in taken):
+            return shift, number
+    return wanted, number
 
 
 @functools.cache
@@ -143,9 +155,9 @@ def _points(leaf: Leaf | None) -> list[Point]:
 def _box(part: Part, place: str) -> Box | None:
     """The place of a component in the diagram or in the icon; None for what has none."""
     corners = _points(_find(part, "Placement", place, "extent"))
-    if len(corners) != 2:
-        return None
     origin = next(iter(_points(_find(part, "Placement", place, "origin"))), _NOWHERE)
+    if len(corners) != 2 or not all(map(math.isfinite, (*itertools.chain(*corners), *origin))):
+        return None  # such as 1e999
     (left, right), (low, high) = (sorted(one) for one in zip(*corners, strict=True))
     return Box(Point(left, low), Point(right, high)).shifted(origin)
 

@@ -9,28 +9,44 @@ from urdfsync.modelica.lexer import Token, lex
 from urdfsync.modelica.tree import Part, Tree
 
 _COMPONENT = "component "
+_MODIFIER = "("
+"""Stands for what is before the name of a modifier."""
+_OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 
 
-def rename(base: str, other: str, names: Mapping[str, str]) -> tuple[str, str]:
+def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool = True) -> tuple[str, str]:
     """Return both texts with new names; `names` has them by the old ones.
 
     A name without a dot before it is renamed if it stands so in base, too; one behind a dot if what is before that dot
     is before a renamed name there. So `robot.elbow` follows, and a variable `elbow` of the user's own does not.
+    Names of modifiers are those of another class: they follow if base has them, too; without `modifiers` they stay.
     """
-    used = [(before, token.text) for before, token in _uses(base) if token.text in names]
-    alone, owners = {name for before, name in used if not before}, {before for before, _ in used if before}
+    used = {(before, token.text) for before, token in _uses(base) if token.text in names}
+    places = {place for place, _ in used} - (set() if modifiers else {_MODIFIER})
+    alone = {place: {name for one, name in used if one == place} for place in places & {"", _MODIFIER}}
 
     def renamed(text: str) -> str:
-        found = [
-            token
-            for before, token in _uses(text)
-            if token.text in names and (before in owners if before else token.text in alone)
-        ]
-        for token in reversed(found):
-            text = f"{text[: token.start]}{names[token.text]}{text[token.start + len(token.text) :]}"
-        return text
+        pieces, end = list[str](), 0
+        for before, token in _uses(text):
+            if token.text in names and before in places and token.text in alone.get(before, names):
+                pieces += [text[end : token.start], names[token.text]]
+                end = token.start + len(token.text)
+        return "".join((*pieces, text[end:]))
 
     return renamed(base), renamed(other)
+
+
+def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
+    """Return the new names that are free in the user's text, by the old ones.
+
+    One is taken if the text has the new name and the old one, and the new one is not renamed itself.
+    """
+    alone = {token.text for before, token in _uses(mine) if not before}
+    found = dict(names)
+    while taken := [old for old, new in found.items() if {old, new} <= alone and new not in found]:
+        for old in taken:
+            del found[old]
+    return found
 
 
 def find_renamed(base: Tree, mine: Tree, generated: Tree) -> dict[str, str]:
@@ -66,8 +82,15 @@ def _without(meaning: object, name: str) -> object:
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:
-    """Each token, and the one before the dot before it; an empty text if there is no dot."""
+    """Each token, and the one before the dot before it; else an empty text, or `_MODIFIER` for the name of one."""
     tokens, _ = lex(text)
+    depth = 0
     for number, token in enumerate(tokens):
-        has_dot = number > 1 and tokens[number - 1].text == "."
-        yield (tokens[number - 2].text if has_dot else ""), token
+        depth += (token.text in _OPEN) - (token.text in _CLOSED)
+        before = tokens[number - 1].text if number else ""
+        if before == "." and number > 1:
+            yield tokens[number - 2].text, token
+        else:
+            # also the name of an argument of a function
+            begins = depth and before in ("(", ",", "each", "final") and tokens[number + 1].text in ("=", "(")
+            yield (_MODIFIER if begins else ""), token

@@ -10,7 +10,8 @@ import msgspec
 
 from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
-from urdfsync.merge.renames import find_renamed, rename
+from urdfsync.merge.pairs import TooManyPairsError
+from urdfsync.merge.renames import find_renamed, rename, without_clashes
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
@@ -61,7 +62,7 @@ def merge(
     has.
     """
     if names:
-        base, mine = rename(base, mine, names)
+        base, mine = rename(base, mine, without_clashes(names, mine))
     ending = _ending(mine)
     pieces, texts = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
@@ -126,14 +127,17 @@ def merge_pieces(
 
 
 def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
-    """Merge texts that are one class each; None if one of them is not."""
+    """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
     trees = [read_tree(text) for text in (base, mine, generated)]
     one, two, three = trees
     if not (one and two and three):
         return None
     if names := find_renamed(one, two, three):
-        one, three = (read_tree(text) for text in rename(base, generated, names))
-    return merge_trees(one, two, three) if one and three else None
+        one, three = (read_tree(text) for text in rename(base, generated, names, modifiers=False))
+    try:
+        return merge_trees(one, two, three) if one and three else None
+    except TooManyPairsError:
+        return None
 
 
 def _merge_by_lines(mine: str, texts: Sequence[str], ending: str) -> list[Piece]:
