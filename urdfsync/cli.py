@@ -78,6 +78,7 @@ def _main(given: list[str]) -> int:
     """Run a command. This is the one place that turns exceptions into exit codes."""
     command = _command(given)
     console = Console(as_json="--json" in given)
+    code: int
     try:
         args, unknown = _parser(given).parse_known_args(given)
         if unknown:  # argparse would show the usage without the command's options
