@@ -64,7 +64,7 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
     with streams.SafeStreams(transcript) as output, _terminated_as_interrupted():
         code = _main(given)
         trouble = output.trouble
-        return tell_unwritten(trouble) if trouble else code
+        return _for_git(given, tell_unwritten(trouble)) if trouble else code
 
 
 def tell_unwritten(trouble: str) -> int:
@@ -76,7 +76,7 @@ def tell_unwritten(trouble: str) -> int:
 
 def _main(given: list[str]) -> int:
     """Run a command. This is the one place that turns exceptions into exit codes."""
-    command = next((argument for argument in given if argument in _COMMANDS), "")
+    command = _command(given)
     console = Console(as_json="--json" in given)
     try:
         args, unknown = _parser(given).parse_known_args(given)
@@ -99,8 +99,18 @@ def _main(given: list[str]) -> int:
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
         found, code = (_unforeseen(error),), Exit.ERROR
-    console.end(command, code, found)
-    return code
+    exit_code = _for_git(given, code)
+    console.end(command, exit_code, found)
+    return exit_code
+
+
+def _for_git(given: Sequence[str], error: int) -> int:
+    """Return the exit code of an error as git's merge driver tells it: smaller ones are numbers of conflicts."""
+    return arguments.DRIVER_ERROR if _command(given) == "merge-file" else error
+
+
+def _command(given: Sequence[str]) -> str:
+    return next((argument for argument in given if argument in _COMMANDS), "")
 
 
 def _unforeseen(error: Exception) -> Diagnostic:

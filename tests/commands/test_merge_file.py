@@ -70,7 +70,16 @@ def test_errors_have_the_exit_code_that_git_knows(folder: Path, execute: Execute
     assert execute("merge-file", "mine", "nowhere", "other", code=255).err.startswith("nowhere: error: ")
     (folder / "base").write_bytes(b"\xff")
     assert execute("merge-file", "mine", "base", "other", code=255).err == "base: error: it is not UTF-8 [no-text]\n"
+    assert "--stdout and --json" in execute("merge-file", "-p", "--json", "mine", "base", "other", code=255).out
+    execute("merge-file", "mine", "base", code=255)
     assert (folder / "mine").read_text() == MINE
+
+
+@pytest.mark.parametrize("size", ["0", "-3"])
+def test_markers_are_never_without_length(size: str, folder: Path, execute: Execute) -> None:
+    """As in git, which takes seven then."""
+    execute("merge-file", "--marker-size", size, *write(MINE.replace("11.5", "99"), BASE, OTHER), code=1)
+    assert "<<<<<<< mine\n" in (folder / "mine").read_text()
 
 
 @NEEDS_GIT

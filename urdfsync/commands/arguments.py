@@ -18,6 +18,8 @@ CODES = (
     "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
     "4 another build is running, 130 interrupted"
 )
+DRIVER_ERROR = 255
+"""Exit code with which a merge driver of git says that it failed; up to 128 are conflicts."""
 
 
 class UsageError(UrdfsyncError):

@@ -15,8 +15,8 @@ from urdfsync.output.phrases import counted
 
 _MOST = 127
 """The greatest number of conflicts that an exit code tells, as in git."""
-_ERROR = 255
-"""Exit code that git takes for the end of a merge; smaller ones are numbers of conflicts."""
+_MARKER_SIZE = 7
+"""Length of markers, unless another one is given."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -41,16 +41,20 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("-p", "--stdout", action="store_true", help="print the result, leave MINE as it is")
     parser.add_argument("-L", dest="labels", metavar="LABEL", action="append", help="names of MINE, BASE and OTHER")
     parser.add_argument("--diff3", action="store_true", help="show what BASE has in a conflict, too")
-    parser.add_argument("--marker-size", metavar="N", type=int, default=7, help="length of markers (default: 7)")
+    parser.add_argument(
+        "--marker-size", metavar="N", type=int, default=_MARKER_SIZE, help="length of markers (default: 7)"
+    )
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Merge the files; the exit code is the number of conflicts."""
+    if args.stdout and args.json:
+        raise arguments.UsageError(args.parser, "--stdout and --json both write to the standard output")
     try:
         conflicts = _merge(args)
     except (UrdfsyncError, OSError) as error:
-        console.end("merge-file", _ERROR, findings_of(error))
-        return _ERROR
+        console.end("merge-file", arguments.DRIVER_ERROR, findings_of(error))
+        return arguments.DRIVER_ERROR
     message, hint = f"{counted(conflicts, 'conflict')} between markers", "settle them in the file"
     found = [Diagnostic(Severity.WARNING, "conflict", message, shown(args.mine), hint=hint)] if conflicts else []
     console.end("merge-file", min(conflicts, _MOST), found)
@@ -63,7 +67,7 @@ def _merge(args: argparse.Namespace) -> int:
 
     files = args.mine, args.base, args.other
     mine, base, other = map(_text, files)
-    named, size = args.labels or [], args.marker_size
+    named, size = args.labels or [], args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does
     labels = [*named, *map(str, files[len(named) :])]
     markers = [(f"{'<' * size} {labels[0]}", "mine"), (f"{'=' * size}", "generated"), (f"{'>' * size} {labels[2]}", "")]
     if args.diff3:
