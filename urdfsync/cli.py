@@ -78,7 +78,6 @@ def _main(given: list[str]) -> int:
     """Run a command. This is the one place that turns exceptions into exit codes."""
     command = _command(given)
     console = Console(as_json="--json" in given)
-    code: int
     try:
         args, unknown = _parser(given).parse_known_args(given)
         if unknown:  # argparse would show the usage without the command's options
@@ -100,9 +99,9 @@ def _main(given: list[str]) -> int:
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
         found, code = (_unforeseen(error),), Exit.ERROR
-    code = _for_git(given, code)
-    console.end(command, code, found)
-    return code
+    exit_code = _for_git(given, code)
+    console.end(command, exit_code, found)
+    return exit_code
 
 
 def _for_git(given: Sequence[str], error: int) -> int:

@@ -42,7 +42,20 @@ def test_what_does_not_fit_changes_nothing(project: Path, execute: Execute) -> N
     file = project / "urdfsync.toml"
     file.write_text('robots = { ladder = { domain = "rcnetwork", source = "ladder.json", package = "Ladder" } }\n')
     with unchanged(project):
-        assert execute(*ADD, "other.json", code=2).err.startswith("urdfsync.toml")
+        assert "no table can follow `robots = {…}`" in execute(*ADD, "other.json", code=2).err
+
+
+def test_a_link_stays_a_link(project: Path, execute: Execute) -> None:
+    """The text goes to the file behind it, which keeps its permissions."""
+    file, target = project / "urdfsync.toml", project / "shared.toml"
+    file.rename(target)
+    target.chmod(0o640)
+    file.symlink_to(target.name)
+    (project / "other.json").write_text((project / "ladder.json").read_text())
+    execute(*ADD, "other.json", "-q")
+    assert file.is_symlink()
+    assert "[robots.other]" in target.read_text()
+    assert target.stat().st_mode & 0o777 == 0o640
 
 
 def test_without_a_configuration(folder: Path, execute: Execute) -> None:

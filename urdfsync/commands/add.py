@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import stat
 from pathlib import Path
 
 import msgspec
@@ -47,8 +48,17 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     ending = "\r\n" if "\r\n" in text else "\n"
     new = f"{text}{'' if text.endswith(chr(10)) else ending}{tables.replace(chr(10), ending)}"
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
-    config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
-    write(loaded.file, new)
+    try:
+        config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
+    except ConfigError as error:
+        if error.diagnostics[0].code != "toml-syntax":
+            raise
+        message, hint = "no table can follow `robots = {…}`", "write each robot as a table `[robots.NAME]`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, shown(loaded.file), hint=hint)) from None
+    file = loaded.file.resolve()  # a link stays one
+    mode = stat.S_IMODE(file.stat().st_mode)
+    write(file, new)
+    file.chmod(mode)
     console.warnings(warnings)
     if console.json:
         values = {"config": str(loaded.file), "robots": msgspec.to_builtins(guesses)}

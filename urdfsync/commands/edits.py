@@ -77,9 +77,9 @@ def _edits(file: EditedFile) -> list[Edit] | None:
     return find_edits(file.base, file.mine) if file.base is not None else None
 
 
-def _values(file: EditedFile) -> list[dict[str, str | None]]:
+def _values(file: EditedFile) -> list[dict[str, str | None]] | None:
     edits = _edits(file)
-    return [] if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
+    return None if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
 
 
 def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLine]:
