@@ -74,6 +74,15 @@ def test_take_gives_back_a_file_that_does_not_conflict(project: Path, execute: E
     assert Path(MODEL).read_text() == before
 
 
+def test_take_of_a_file_that_does_not_conflict_waits_for_nothing(contradictory: Path, execute: Execute) -> None:
+    before = Path(RECORD).read_text()
+    edit(RECORD, "100", "101")
+    execute("build", code=3)
+    execute("resolve", RECORD, "--take", code=3)
+    assert Path(RECORD).read_text() == before
+    assert "choice" not in Path(".urdfsync/robots/ladder.state").read_text()
+
+
 @pytest.mark.parametrize(("side", "number"), [("mine", "101"), ("generated", "150")])
 def test_a_side_may_be_preferred_where_both_changed_the_same(
     project: Path, execute: Execute, side: str, number: str

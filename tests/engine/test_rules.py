@@ -11,8 +11,17 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.engine.actions import WRITES, Action, Kind
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.engine.rules import CLASS_FOLDER, ClassFolder, DesiredFile, OnDisk, decide, decide_file, files_after
-from urdfsync.state.record import Choice, FileRecord
+from urdfsync.engine.rules import (
+    CLASS_FOLDER,
+    ClassFolder,
+    DesiredFile,
+    OnDisk,
+    decide,
+    decide_file,
+    files_after,
+    remembered_choices,
+)
+from urdfsync.state.record import Choice, FileRecord, sides_hash
 
 
 @pytest.mark.parametrize(
@@ -162,3 +171,10 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
     else:
         assert text is None
         assert not result.writes
+
+
+def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
+    """A stranger's state could have a file replaced by that."""
+    pending = {("a.mo", sides_hash("mine", "new")): Choice.TAKE}
+    actions = [Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Kind.KEEP, Kind.CONFLICT)]
+    assert [remembered_choices(pending, [action]) for action in actions] == [{}, {"a.mo": Choice.TAKE}]

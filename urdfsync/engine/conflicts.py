@@ -117,7 +117,7 @@ def _outcome(
     if action.kind is Kind.MOVE and conflict:
         text = None if choice is Choice.TAKE else conflict.mine if choice is Choice.KEEP else merged
         return Kind.CONFLICT if text is None and choice is not Choice.TAKE else Kind.MOVE, choice, text
-    if action.kind is Kind.KEEP and choice is Choice.TAKE:
+    if action.kind is Kind.KEEP and choice is Choice.TAKE and action.replaceable:
         return Kind.UPDATE, choice, None
     if action.kind not in CONFLICTS:
         return action.kind, action.choice, None

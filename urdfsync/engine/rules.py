@@ -148,8 +148,8 @@ def hold(
     """Put off structural changes of a robot while one of its files is in conflict.
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
-    `numbers_only`), imported files, and files that are restored as they were; but none of `origins`, which elements
-    leave that have another name now. Nothing is if the package `moves`.
+    `numbers_only`), imported files, and files that are restored or taken as they were; but none of `origins`, which
+    elements leave that have another name now. Nothing is if the package `moves`.
     """
     actions = tuple(actions)
     if not any(action.kind in CONFLICTS for action in actions):
@@ -164,6 +164,8 @@ def hold(
             return action.kind is Kind.DELETE
         if action.kind is Kind.RESTORE:
             return action.role is Role.ORDER or action.base != action.generated
+        if action.choice is Choice.TAKE and action.base == action.generated:
+            return False
         return action.kind not in (Kind.UPDATE, Kind.MERGE) or action.path not in numbers_only
 
     return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
@@ -204,6 +206,10 @@ def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
 
 
 def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the pending choices that still hold, by path: neither side has changed since."""
-    found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in actions}
+    """Return the pending choices that still hold, by path: neither side has changed since.
+
+    An edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's.
+    """
+    waiting = (one for one in actions if one.kind is not Kind.KEEP)
+    found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in waiting}
     return {path: choice for path, choice in found.items() if choice is not None}
