@@ -196,6 +196,8 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
     old, new = import_("a"), import_("b", hull=False)
     assert [change[2] for change in mesh_change(old, new, FIXED)] == [PARAMETER]
     assert [change[2] for change in mesh_change(old, new, FLOATING)] == [STRUCTURAL]
+    lower = msgspec.structs.replace(new, facts={**old.facts, "hull": [[0.0, 0.0, -1.0]]})
+    assert [change[2] for change in mesh_change(old, lower, FLOATING)] == [PARAMETER]
 
 
 @pytest.mark.parametrize(("meshes", "options", "reach"), [
@@ -233,6 +235,8 @@ CASTERS = (
 )
 WHEEL, MAST = (f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "mast"))
 
+
+FOLLOWER = '<link name="f"/>' + urdfs.joint("f", "continuous", "base", "f", inside=[urdfs.mimic("wheel")])
 
 PAIR = ('<link name="a"/><link name="b"/>', '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>')
 EYE = '<link name="b"><sensor name="camera"/></link>'
@@ -277,6 +281,11 @@ DRIVES = {
         (*CASTERS, WHEEL),
         (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
         {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
+    ),
+    "a rename that what follows goes along with": (
+        (*CASTERS, FOLLOWER),
+        tuple(element.replace('"wheel"', '"tyre"') for element in (*CASTERS, FOLLOWER)),
+        {"joint wheel: renamed, structural"},
     ),
     "extensions are told apart by what they are about": ((*PAIR, *tags("b")),
         (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"}),
