@@ -127,6 +127,11 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(a
         "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
         "called like the package `six_axis_arm`"
     )
+    for mesh in (arm / "ws/src/arm-main/meshes").iterdir():
+        if mesh.name != "carousel.obj":
+            mesh.unlink()
+    said = {found.code: found.message for found in run(arm).diagnostics}
+    assert "`package://six_axis_arm/meshes/carousel.obj` is taken from" in said["mesh-guessed"]
 
 
 CART = """<robot name="cart"><link name="base"/><link name="tyre"/><link name="roller">

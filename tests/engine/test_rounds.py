@@ -293,6 +293,9 @@ class Rounds(RuleBasedStateMachine):
             written = [action for action in actions if action.writes]
             assert all(action.role is Role.RECORD or action.kind is Kind.RESTORE for action in written)
             assert not any(action.kind in DELETES for action in written)
+            left = set(self.project.moves().values())
+            restored = [one for one in actions if one.kind is Kind.RESTORE and one.base == one.generated]
+            assert all(one.writes for one in restored if one.origin is None and one.path not in left)
 
     @invariant()
     def no_markers_are_in_any_file(self) -> None:

@@ -10,6 +10,7 @@ import pytest
 from support.networks import configure
 
 from urdfsync import cli, config
+from urdfsync.engine.result import Exit
 from urdfsync.watch.paths import RobotPaths, WatchedPaths, find_robot_paths, find_watched_paths
 
 
@@ -43,6 +44,8 @@ def test_a_state_that_can_not_be_read_is_still_watched(project: Path) -> None:
     assert cli.main(["build", "--quiet"]) == 0
     (project / ".urdfsync/robots/ladder.state").write_text("<<<<<<<")
     assert ".urdfsync/robots/ladder.state" in names(project, ladder(project).outputs)
+    assert cli.main(["build", "--quiet"]) == Exit.ERROR, "it is not taken for no state"
+    assert cli.main(["build", "--quiet", "--full"]) == Exit.IN_STEP
 
 
 def test_parents_and_templates_matter(project: Path) -> None:

@@ -159,6 +159,15 @@ def test_an_edit_is_one_change_in_the_words_of_urdf(case: str) -> None:
     assert [" ".join(f"{one.kind} {one.unit} {one.change_class}".split()) for one in found] == [said]
 
 
+def test_each_of_two_changes_of_one_shape_has_its_own_class() -> None:
+    def edit(data: Data) -> None:
+        put("link base / visual 1 / geometry / size[0]", 9.0)(data)
+        put("link base / visual 1 / material / name", "blue")(data)
+
+    found = {str(change).rpartition(" / ")[2]: change.change_class for change in changes(edit)}
+    assert found == {"size[0]": PARAMETER, "name": UNMODELLED}
+
+
 def test_what_is_named_by_its_element_alone_came_or_went() -> None:
     def add(data: Data) -> None:
         data["links"]["nine"] = {"visuals": [], "collisions": []}
@@ -196,6 +205,8 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
     old, new = import_("a"), import_("b", hull=False)
     assert [change[2] for change in mesh_change(old, new, FIXED)] == [PARAMETER]
     assert [change[2] for change in mesh_change(old, new, FLOATING)] == [STRUCTURAL]
+    lower = msgspec.structs.replace(new, facts={**old.facts, "hull": [[0.0, 0.0, -1.0]]})
+    assert [change[2] for change in mesh_change(old, lower, FLOATING)] == [PARAMETER]
 
 
 @pytest.mark.parametrize(("meshes", "options", "reach"), [
@@ -233,6 +244,8 @@ CASTERS = (
 )
 WHEEL, MAST = (f'<transmission name="{name} drive"><joint name="{name}"/></transmission>' for name in ("wheel", "mast"))
 
+
+FOLLOWER = '<link name="f"/>' + urdfs.joint("f", "continuous", "base", "f", inside=[urdfs.mimic("wheel")])
 
 PAIR = ('<link name="a"/><link name="b"/>', '<joint name="a" type="fixed"><parent link="a"/><child link="b"/></joint>')
 EYE = '<link name="b"><sensor name="camera"/></link>'
@@ -277,6 +290,11 @@ DRIVES = {
         (*CASTERS, WHEEL),
         (*(element.replace('"wheel"', '"tyre"') for element in CASTERS), WHEEL),
         {"joint wheel: renamed, structural", "joint caster / drive: passive → driven, structural"},
+    ),
+    "a rename that what follows goes along with": (
+        (*CASTERS, FOLLOWER),
+        tuple(element.replace('"wheel"', '"tyre"') for element in (*CASTERS, FOLLOWER)),
+        {"joint wheel: renamed, structural"},
     ),
     "extensions are told apart by what they are about": ((*PAIR, *tags("b")),
         (*PAIR, *tags("a", "b")), {"robot / gazebo a: added, unmodelled"}),
