@@ -10,8 +10,11 @@ from support.files import unchanged
 from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, source
 from support.networks import kinds as all_kinds
 
+from urdfsync import registry
+from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.state.record import Choice
 
 
 def kinds(result: Result) -> dict[str, Kind]:
@@ -180,6 +183,27 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     assert kinds(resolved)["Elements/R3.mo"] is Kind.CREATE
     assert not (project / LADDER / "Elements/R2.mo").exists()
     assert run().in_step
+
+
+def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run()
+    domain = type(registry.domain("rcnetwork"))
+    monkeypatch.setattr(domain, "revision", 2)
+    monkeypatch.setattr(domain, "fits_since", 2)
+    edit(f"{LADDER}/Elements/R1Parameters.mo", "100", "101")
+    resistor(120)
+    alone = run()
+    assert kinds(alone) == {"Elements/R1Parameters.mo": Kind.CONFLICT}
+    assert alone.diagnostics == (), "nothing waits for it"
+    source('"R2"', '"R3"')
+    (found,) = run().diagnostics
+    assert (found.code, found.severity) == ("outdated-package", Severity.WARNING)
+    assert f"{LADDER}/Elements/R1Parameters.mo is resolved" in found.hint
+    kept = run(choices={f"{LADDER}/Elements/R1Parameters.mo": Choice.KEEP})
+    assert [(one.code, one.file) for one in kept.diagnostics] == [
+        ("outdated-file", f"{LADDER}/Elements/R1Parameters.mo")
+    ]
+    assert run().diagnostics == ()
 
 
 def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
