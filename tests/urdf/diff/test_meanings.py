@@ -159,6 +159,15 @@ def test_an_edit_is_one_change_in_the_words_of_urdf(case: str) -> None:
     assert [" ".join(f"{one.kind} {one.unit} {one.change_class}".split()) for one in found] == [said]
 
 
+def test_each_of_two_changes_of_one_shape_has_its_own_class() -> None:
+    def edit(data: Data) -> None:
+        put("link base / visual 1 / geometry / size[0]", 9.0)(data)
+        put("link base / visual 1 / material / name", "blue")(data)
+
+    found = {str(change).rpartition(" / ")[2]: change.change_class for change in changes(edit)}
+    assert found == {"size[0]": PARAMETER, "name": UNMODELLED}
+
+
 def test_what_is_named_by_its_element_alone_came_or_went() -> None:
     def add(data: Data) -> None:
         data["links"]["nine"] = {"visuals": [], "collisions": []}
