@@ -40,6 +40,12 @@ def test_a_record_comes_back(snapshot: dict[str, object], seen: dict[str, object
     assert loads(dumps(record), "arm.state") == record
 
 
+def test_blanks_in_paths_come_back() -> None:
+    folder = "my models/Plant/Arm"
+    record = msgspec.structs.replace(ARM, folder=folder, files={f"{folder}/Own part.mo": FileRecord((A,))})
+    assert loads(dumps(record), "arm.state") == record
+
+
 @pytest.mark.parametrize("record", [ARM, msgspec.structs.replace(ARM, open=OPEN)], ids=["complete", "open"])
 def test_each_line_stands_alone(record: Record) -> None:
     lines = dumps(record).split("\n")
