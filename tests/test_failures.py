@@ -126,6 +126,19 @@ def test_a_signal_ends_a_build_with_130(
     assert not (tmp_path / "modelica").exists()
 
 
+def test_what_fails_while_an_interruption_is_cleared_away_is_that_interruption(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def run(*_: object) -> None:
+        try:
+            raise KeyboardInterrupt
+        finally:
+            raise OSError("a pipe is closed")
+
+    monkeypatch.setattr("urdfsync.commands.status.run", run)
+    assert execute("status", code=130).err.startswith("error: interrupted; ")
+
+
 def test_what_is_to_be_installed_exists() -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     for name, package in extras.PACKAGES.items():

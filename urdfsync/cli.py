@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import gc
 import importlib
@@ -83,7 +84,7 @@ def _main(given: list[str]) -> int:
         if unknown:  # argparse would show the usage without the command's options
             args.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
         console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
-        return int(args.run(args, console))
+        return _call(args, console)
     except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
     except arguments.UsageError as error:
@@ -102,6 +103,19 @@ def _main(given: list[str]) -> int:
     exit_code = _for_git(given, code)
     console.end(command, exit_code, found)
     return exit_code
+
+
+def _call(args: argparse.Namespace, console: Console) -> int:
+    """Run the command. What fails while it is cleared away after an interruption is that interruption."""
+    try:
+        return int(args.run(args, console))
+    except Exception as error:
+        cause = error.__context__
+        while cause is not None and not isinstance(cause, KeyboardInterrupt):
+            cause = cause.__context__
+        if cause is not None:
+            raise KeyboardInterrupt from error
+        raise
 
 
 def _for_git(given: Sequence[str], error: int) -> int:
