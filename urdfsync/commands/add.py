@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import stat
 from pathlib import Path
 
 import msgspec
 
 from urdfsync import config, registry
 from urdfsync.commands import arguments
-from urdfsync.commands.init import guess_lines, guess_robots, robot_table, write
+from urdfsync.commands.init import guess_lines, guess_robots, robot_table, write_errors
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
-from urdfsync.files import shown
+from urdfsync.files import rewrite, shown
 from urdfsync.output.console import Console, line
 
 
@@ -55,10 +54,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             raise
         message, hint = "no table can follow `robots = {…}`", "write each robot as a table `[robots.NAME]`"
         raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, shown(loaded.file), hint=hint)) from None
-    file = loaded.file.resolve()  # a link stays one
-    mode = stat.S_IMODE(file.stat().st_mode)
-    write(file, new)
-    file.chmod(mode)
+    with write_errors(loaded.file):
+        rewrite(loaded.file, new.encode())
     console.warnings(warnings)
     if console.json:
         values = {"config": str(loaded.file), "robots": msgspec.to_builtins(guesses)}

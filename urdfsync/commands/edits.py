@@ -92,8 +92,7 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLi
     if edits is None:
         told = [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
     else:
-        told = in_words(edits)
-        told = told or [("", "only blanks, or the order of things")]
+        told = in_words(edits) or [("", "only blanks, or the order of things")]
     lines = [line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what))) for element, what in told]
     yield from first_lines(lines, _EDITS, "edit", verbose=verbose)
     if verbose:

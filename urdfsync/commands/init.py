@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import re
@@ -79,7 +80,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     domain = registry.domain(args.domain)
     guesses, warnings = guess_robots(domain, file.parent, args.sources)
     _refuse_existing(file)
-    write(file, configuration_text(domain, guesses, merges=args.merge))
+    with write_errors(file):
+        put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     console.warnings(warnings)
     if console.json:
         console.write_json("init", Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
@@ -185,10 +187,11 @@ def _assignment(key: str, value: Any) -> str:
     return tomli_w.dumps({key: plain_value}).strip()
 
 
-def write(file: Path, text: str) -> None:
-    """Write the configuration, as a whole or not at all. Raises ConfigError if that fails."""
+@contextlib.contextmanager
+def write_errors(file: Path) -> Iterator[None]:
+    """Turn an OSError of writing the configuration into a ConfigError."""
     try:
-        put(file, text.encode())
+        yield
     except OSError as error:
         message, place = f"the configuration can't be written: {error.strerror}", shown(file)
         hint = "check the folder's permissions and the space on the disk, or name another file with --config"

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import stat
 import sys
 from pathlib import Path
 
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
-from urdfsync.files import put, shown
+from urdfsync.files import rewrite, shown
 from urdfsync.output.console import Console
 from urdfsync.output.phrases import counted
 
@@ -76,10 +75,7 @@ def _merge(args: argparse.Namespace) -> int:
     if args.stdout:
         sys.stdout.write(merged)
     elif merged != mine:
-        file = args.mine.resolve()
-        mode = stat.S_IMODE(file.stat().st_mode)
-        put(file, merged.encode())
-        file.chmod(mode)
+        rewrite(args.mine, merged.encode())
     return conflicts
 
 
