@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.printer import STYLES, Style, resaved
 
-from urdfsync.modelica.tree import Node, Tree, comments, read_tree
+from urdfsync.modelica.tree import Node, SyntaxTree, comments, read_tree
 
 ROOT = Path(__file__).parents[2]
 STANDARD = Path.home() / ".openmodelica" / "libraries"
@@ -47,16 +47,16 @@ end A /* 10 */; // 11
 // 12"""
 
 
-def tree_of(text: str) -> Tree:
+def tree_of(text: str) -> SyntaxTree:
     found = read_tree(text)
     assert found is not None
     return found
 
 
-def body_of(text: str) -> Tree:
+def body_of(text: str) -> SyntaxTree:
     body = tree_of(f"model A\n{text}\nend A;\n").find("body")
     assert body is not None
-    assert isinstance(body.node, Tree)
+    assert isinstance(body.node, SyntaxTree)
     return body.node
 
 
@@ -68,7 +68,7 @@ def test_every_byte_is_in_the_tree(ending: str) -> None:
 
 
 def places(node: Node) -> list[tuple[int, str]]:
-    inner = [place for part in node.parts for place in places(part.node)] if isinstance(node, Tree) else []
+    inner = [place for part in node.parts for place in places(part.node)] if isinstance(node, SyntaxTree) else []
     return [(node.start, node.text), *inner]
 
 

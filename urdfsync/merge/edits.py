@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from urdfsync.merge.words import place_of, quoted
-from urdfsync.modelica.tree import LAYOUT, Node, Tree, comments, read_tree
+from urdfsync.modelica.tree import LAYOUT, Node, SyntaxTree, comments, read_tree
 
 _ITEM = re.compile(r" #\d+$")
 """The end of the key of something that has no name, but a number."""
@@ -62,9 +62,9 @@ def _differences(
     """Yield the innermost things that differ, with the keys around them."""
     if old.meaning == new.meaning:
         return
-    if not (isinstance(old, Tree) and isinstance(new, Tree) and old.kind is new.kind) or path[-1:] in [
-        (key,) for key in LAYOUT
-    ]:
+    if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (
+        path and path[-1] in LAYOUT
+    ):
         yield path, old, new
         return
     for part in new.parts:

@@ -22,7 +22,7 @@ import msgspec
 from urdfsync.merge.layout import arrange
 from urdfsync.merge.lines import merge_whole_lines
 from urdfsync.merge.pairs import pair
-from urdfsync.modelica.tree import LAYOUT, Kind, Leaf, Node, Part, Tree, as_sum, comments, words_of
+from urdfsync.modelica.tree import LAYOUT, Leaf, Node, Part, SyntaxTree, TreeKind, as_sum, comments, words_of
 
 ROUNDING = 1e-6
 """Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
@@ -53,7 +53,7 @@ class Contradiction(msgspec.Struct, frozen=True):
 Piece: TypeAlias = str | Contradiction
 
 
-def merge_trees(base: Tree, mine: Tree, generated: Tree) -> list[Piece]:
+def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> list[Piece]:
     """Return the merged text of a class in pieces: texts, and where the sides contradict each other."""
     return _join(_merge((), base, mine, generated, keeps_layout=False))
 
@@ -75,14 +75,14 @@ def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node
     """Merge a thing that both sides have."""
     if (base and base.meaning == generated.meaning) or mine.meaning == generated.meaning:
         return [mine.text]
-    if any(isinstance(node, Tree) and node.kind is Kind.SUM for node in (base, mine, generated)):
+    if any(isinstance(node, SyntaxTree) and node.kind is TreeKind.SUM for node in (base, mine, generated)):
         base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
     if (path[-1:] and path[-1] in LAYOUT and (keeps_layout or not base)) or (not base and mine.bare == generated.bare):
         return [mine.text]
-    if isinstance(mine, Tree) and isinstance(generated, Tree) and mine.kind is generated.kind:
-        if isinstance(base, Tree) and base.kind is mine.kind:
+    if isinstance(mine, SyntaxTree) and isinstance(generated, SyntaxTree) and mine.kind is generated.kind:
+        if isinstance(base, SyntaxTree) and base.kind is mine.kind:
             return _merge_parts(path, base, mine, generated, keeps_layout)
-        if not base and mine.kind is not Kind.SLOTS:
+        if not base and mine.kind is not TreeKind.SLOTS:
             return _merge_parts(path, None, mine, generated, keeps_layout)
     is_same = base is not None and (base.meaning == mine.meaning or _is_rounding(base, mine))
     if base and all("\n" in node.text for node in (base, mine, generated)):
@@ -150,10 +150,10 @@ _Items: TypeAlias = dict[str, _Item]
 
 
 def _merge_parts(
-    path: tuple[str, ...], base: Tree | None, mine: Tree, generated: Tree, keeps_layout: bool
+    path: tuple[str, ...], base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, keeps_layout: bool
 ) -> list[Piece]:
     """Merge things that consist of others."""
-    if mine.kind is Kind.BODY:
+    if mine.kind is TreeKind.BODY:
         keeps_layout = base is not None and _has_moved(base, mine)
         if base:
             base, mine, generated = pair(base, mine, generated)
@@ -170,7 +170,7 @@ def _merge_parts(
         elif old and part.node.bare == old.node.bare:
             notes += _remaining_notes(part, old)
             continue
-        elif old and part.key in _MOVABLE and isinstance(old.node, Tree) and isinstance(part.node, Tree):
+        elif old and part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
             nothing = msgspec.structs.replace(old.node, parts=())
             pieces = _merge(here, old.node, part.node, nothing, keeps_layout=keeps_layout)
         elif old:
@@ -183,7 +183,7 @@ def _merge_parts(
         else:
             items.append(item)
     by_key = {item.key: item for item in items}
-    arranged = arrange(mine, generated) if mine.kind is Kind.BODY and keeps_layout else {}
+    arranged = arrange(mine, generated) if mine.kind is TreeKind.BODY and keeps_layout else {}
     for number, part in enumerate(generated.parts):
         old, section = base and base.find(part.key), generated.sections.get(part.key, "")
         if part.key in moved:
@@ -194,7 +194,7 @@ def _merge_parts(
             pieces = [arranged.get(part.key, part.node.text)]
             if old:
                 pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
-            before = part.before if number or mine.kind is not Kind.LIST else ""
+            before = part.before if number or mine.kind is not TreeKind.LIST else ""
             item = _Item(part.key, section, before, pieces, part.after, part.remark)
         items.insert(_place(items, item, number, generated, mine, by_key), item)
         by_key[item.key] = item
@@ -206,7 +206,7 @@ def _is_settled(part: Part, old: Part) -> bool:
     return part.key.startswith("section ") or part.node.bare == old.node.bare
 
 
-def _has_moved(base: Tree, mine: Tree) -> bool:
+def _has_moved(base: SyntaxTree, mine: SyntaxTree) -> bool:
     """Whether the user changed the layout of anything in a class."""
     pairs = ((part.node, mine.find(part.key)) for part in base.parts)
     return any(other and _layout(node) != _layout(other.node) for node, other in pairs)
@@ -214,8 +214,8 @@ def _has_moved(base: Tree, mine: Tree) -> bool:
 
 def _layout(node: Node) -> list[object]:
     """The layout of one element."""
-    annotation = node.find("annotation") if isinstance(node, Tree) else None
-    parts = annotation.node.parts if annotation and isinstance(annotation.node, Tree) else ()
+    annotation = node.find("annotation") if isinstance(node, SyntaxTree) else None
+    parts = annotation.node.parts if annotation and isinstance(annotation.node, SyntaxTree) else ()
     return [(part.key, part.node.meaning) for part in sorted(parts, key=lambda part: part.key) if part.key in LAYOUT]
 
 
@@ -230,9 +230,11 @@ def _remaining_notes(part: Part, old: Part) -> str:
 # --- where something new goes -------------------------------------------------------------------------------------
 
 
-def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, mine: Tree, by_key: _Items) -> int:
+def _place(
+    items: Sequence[_Item], item: _Item, number: int, generated: SyntaxTree, mine: SyntaxTree, by_key: _Items
+) -> int:
     """The place behind what precedes something new in the generated text, and behind what the user added there."""
-    if mine.kind is Kind.SLOTS:
+    if mine.kind is TreeKind.SLOTS:
         return sum(_ROLES.index(one.key) <= _ROLES.index(item.key) for one in items if one.key in _ROLES)
     is_section = item.key.startswith("section ")
     for before in range(number - 1, -1, -1):
@@ -257,11 +259,11 @@ def _place(items: Sequence[_Item], item: _Item, number: int, generated: Tree, mi
 # --- the text -----------------------------------------------------------------------------------------------------
 
 
-def _text_of(tree: Tree, items: Sequence[_Item], notes: str) -> list[Piece]:
+def _text_of(tree: SyntaxTree, items: Sequence[_Item], notes: str) -> list[Piece]:
     """The merged things as text, with what stands around and between them."""
     empty = _empty_sections(tree, items)
     kept = [item for item in items if item.key not in empty]
-    if tree.kind in (Kind.LIST, Kind.ARRAY, Kind.SUM):
+    if tree.kind in (TreeKind.LIST, TreeKind.ARRAY, TreeKind.SUM):
         _set_apart(tree, kept)
     found: list[Piece] = [tree.opening]
     blanks = ""
@@ -274,7 +276,7 @@ def _text_of(tree: Tree, items: Sequence[_Item], notes: str) -> list[Piece]:
             found.append(tree.separator)
             blanks = ""
         blanks += item.remark
-    has_bracket = tree.kind in (Kind.LIST, Kind.ARRAY)
+    has_bracket = tree.kind in (TreeKind.LIST, TreeKind.ARRAY)
     _go_on(found, blanks + notes + (tree.closing[:-1] if has_bracket else ""))
     found.append(tree.closing[-1:] if has_bracket else tree.closing)
     return [piece for piece in found if piece]
@@ -288,7 +290,7 @@ def _go_on(found: list[Piece], blanks: str) -> None:
     found.append(f"{blanks}\n" if _runs_on(blanks) else blanks)
 
 
-def _empty_sections(tree: Tree, items: Sequence[_Item]) -> set[str]:
+def _empty_sections(tree: SyntaxTree, items: Sequence[_Item]) -> set[str]:
     """The words that begin a section with nothing in it, unlike in the user's text."""
     had, has = (_sections_without_parts([one.key for one in parts]) for parts in (tree.parts, items))
     return has - had
@@ -299,7 +301,7 @@ def _sections_without_parts(keys: Sequence[str]) -> set[str]:
     return {one for one, after in pairs if one.startswith("section ") and after.startswith(("section ", "annotation"))}
 
 
-def _set_apart(tree: Tree, items: Sequence[_Item]) -> None:
+def _set_apart(tree: SyntaxTree, items: Sequence[_Item]) -> None:
     """Give items of a list the blanks that this list has between its items."""
     known = {part.key for part in tree.parts}
     usual = next((part.before for part in tree.parts[1:] if not part.before.strip()), None)

@@ -13,7 +13,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
-from urdfsync.modelica.tree import Leaf, Part, Tree
+from urdfsync.modelica.tree import Leaf, Part, SyntaxTree
 
 _STEP = 20.0
 """Places are looked for at multiples of this from the wanted one."""
@@ -43,7 +43,7 @@ _NOWHERE = Point(0, 0)
 """The way to where one is."""
 
 
-class Box(NamedTuple):
+class Extent(NamedTuple):
     """The place of a component."""
 
     low: Point
@@ -54,16 +54,16 @@ class Box(NamedTuple):
         """The middle."""
         return Point((self.low.x + self.high.x) / 2, (self.low.y + self.high.y) / 2)
 
-    def shifted(self, by: Point) -> Box:
+    def shifted(self, by: Point) -> Extent:
         """The box so far away."""
-        return Box(self.low.shifted(by), self.high.shifted(by))
+        return Extent(self.low.shifted(by), self.high.shifted(by))
 
-    def touches(self, other: Box) -> bool:
+    def touches(self, other: Extent) -> bool:
         """Whether the two lie upon each other."""
         return all(one.low[axis] < two.high[axis] for one, two in ((self, other), (other, self)) for axis in (0, 1))
 
 
-def arrange(mine: Tree, generated: Tree) -> dict[str, str]:
+def arrange(mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
     """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`."""
     new = [part for part in generated.parts if not mine.find(part.key)]
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
@@ -79,7 +79,9 @@ def arrange(mine: Tree, generated: Tree) -> dict[str, str]:
     return found
 
 
-def _shifts(mine: Tree, generated: Tree, lines: Mapping[str, tuple[str, str]], place: str) -> dict[str, Point]:
+def _shifts(
+    mine: SyntaxTree, generated: SyntaxTree, lines: Mapping[str, tuple[str, str]], place: str
+) -> dict[str, Point]:
     """Return how far each component is from its generated place, by key; those that `mine` lacks get a free one."""
     boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
     planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
@@ -96,10 +98,10 @@ def _shifts(mine: Tree, generated: Tree, lines: Mapping[str, tuple[str, str]], p
 
 def _find_shift(
     key: str,
-    planned: Mapping[str, Box],
+    planned: Mapping[str, Extent],
     shifts: Mapping[str, Point],
     lines: Mapping[str, tuple[str, str]],
-    taken: Collection[Box],
+    taken: Collection[Extent],
     steps: int,
 ) -> tuple[Point, int]:
     """How far from its generated place a new component goes: as far as its neighbour did, and on to a free place.
@@ -135,12 +137,12 @@ def _find(part: Part, *keys: str) -> Leaf | None:
     """The value of an annotation of an element: `_find(part, "Line", "points")`."""
     node = part.node
     for key in ("annotation", *itertools.chain.from_iterable((key, "arguments") for key in keys[:-1]), keys[-1]):
-        found = node.find(key) if isinstance(node, Tree) else None
+        found = node.find(key) if isinstance(node, SyntaxTree) else None
         if found is None:
             return None
         node = found.node
     for key in ("value", "expression"):
-        found = node.find(key) if isinstance(node, Tree) else None
+        found = node.find(key) if isinstance(node, SyntaxTree) else None
         if found is None:
             return None
         node = found.node
@@ -152,19 +154,19 @@ def _points(leaf: Leaf | None) -> list[Point]:
     return [Point(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
 
 
-def _box(part: Part, place: str) -> Box | None:
+def _box(part: Part, place: str) -> Extent | None:
     """The place of a component in the diagram or in the icon; None for what has none."""
     corners = _points(_find(part, "Placement", place, "extent"))
     origin = next(iter(_points(_find(part, "Placement", place, "origin"))), _NOWHERE)
     if len(corners) != 2 or not all(map(math.isfinite, (*itertools.chain(*corners), *origin))):
         return None  # such as 1e999
     (left, right), (low, high) = (sorted(one) for one in zip(*corners, strict=True))
-    return Box(Point(left, low), Point(right, high)).shifted(origin)
+    return Extent(Point(left, low), Point(right, high)).shifted(origin)
 
 
 def _ends(part: Part) -> tuple[str, str] | None:
     """The keys of the components that a line connects."""
-    if not part.key.startswith("connect ") or not isinstance(part.node, Tree):
+    if not part.key.startswith("connect ") or not isinstance(part.node, SyntaxTree):
         return None
     connect = part.node.find("connect")
     names = re.findall(r"[\w.\[\]']+", connect.node.text)[1:] if connect else []

@@ -10,7 +10,7 @@ from collections import defaultdict
 
 import msgspec
 
-from urdfsync.modelica.tree import Leaf, Part, Tree, tell_apart
+from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, tell_apart
 
 _ALIKE = 0.5
 """Share of words that two equations have in common at least, if one is the new version of the other."""
@@ -22,7 +22,7 @@ class TooManyPairsError(Exception):
     """So many things have other versions that comparing each with each would take minutes."""
 
 
-def pair(base: Tree, mine: Tree, generated: Tree) -> tuple[Tree, Tree, Tree]:
+def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
     """Return the three bodies with one key for each thing. Raises TooManyPairsError."""
     base, mine, generated = tell_apart(base, mine, generated)
     gone = [part for part in base.parts if not mine.find(part.key) and not generated.find(part.key)]
@@ -40,7 +40,7 @@ def pair(base: Tree, mine: Tree, generated: Tree) -> tuple[Tree, Tree, Tree]:
 class _Added:
     """The parts of a side that base lacks; each is the new version of one thing at most."""
 
-    def __init__(self, side: Tree, base: Tree) -> None:
+    def __init__(self, side: SyntaxTree, base: SyntaxTree) -> None:
         self._side = side
         self._keys: dict[int, str] = {}
         """Keys in base of parts that are new versions, by the identity of the part."""
@@ -77,14 +77,14 @@ class _Added:
         if version:
             self._keys[id(version)] = key
 
-    def with_keys(self) -> Tree:
+    def with_keys(self) -> SyntaxTree:
         """Return the body with the keys that were taken."""
         parts = [msgspec.structs.replace(one, key=self._keys.get(id(one), one.key)) for one in self._side.parts]
         return msgspec.structs.replace(self._side, parts=tuple(parts))
 
 
 def _is_equation(part: Part) -> bool:
-    return isinstance(part.node, Tree) and part.node.find("equation") is not None
+    return isinstance(part.node, SyntaxTree) and part.node.find("equation") is not None
 
 
 def _likeness(one: Part, other: Part) -> float:
@@ -93,5 +93,5 @@ def _likeness(one: Part, other: Part) -> float:
 
 
 def _words(part: Part) -> set[object]:
-    leaf = part.node.parts[0].node if isinstance(part.node, Tree) else part.node
+    leaf = part.node.parts[0].node if isinstance(part.node, SyntaxTree) else part.node
     return set(leaf.words) if isinstance(leaf, Leaf) else set()

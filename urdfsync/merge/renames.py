@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from urdfsync.modelica.lexer import Token, lex
-from urdfsync.modelica.tree import Part, Tree
+from urdfsync.modelica.tree import Part, SyntaxTree
 
 _COMPONENT = "component "
 _MODIFIER = "("
@@ -49,7 +49,7 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     return found
 
 
-def find_renamed(base: Tree, mine: Tree, generated: Tree) -> dict[str, str]:
+def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
     """Return the components that the user gave other names, new by old: alike in all else, and no other one is."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
     gone = {name: _likeness(part, name) for name, part in old.items() if name not in new}
@@ -63,10 +63,10 @@ def find_renamed(base: Tree, mine: Tree, generated: Tree) -> dict[str, str]:
     }
 
 
-def _components(file: Tree) -> dict[str, Part]:
+def _components(file: SyntaxTree) -> dict[str, Part]:
     """The components of a class by their names."""
     body = file.find("body")
-    parts = body.node.parts if body and isinstance(body.node, Tree) else ()
+    parts = body.node.parts if body and isinstance(body.node, SyntaxTree) else ()
     return {part.key.removeprefix(_COMPONENT): part for part in parts if part.key.startswith(_COMPONENT)}
 
 

@@ -42,10 +42,10 @@ _REPEATABLE = frozenset(
 
 def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
-    return read(Parser(text))
+    return read(SyntaxParser(text))
 
 
-def read(parser: Parser) -> StoredText:
+def read(parser: SyntaxParser) -> StoredText:
     """Read all that a parser has before it."""
     parser.document()
     return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes)
@@ -59,7 +59,7 @@ class _FaultError(Exception):
         self.fault = Fault(reason, line)
 
 
-class Parser:
+class SyntaxParser:
     """Reads one text from the first token to the last.
 
     A method reads what it is named for, and returns its value, or the names used in it. It raises _FaultError where

@@ -24,7 +24,7 @@ from urdfsync.modelica.parser import (
     ELEMENT_PREFIXES,
     SECTIONS,
     TYPE_PREFIXES,
-    Parser,
+    SyntaxParser,
     read,
 )
 from urdfsync.modelica.syntax import Name
@@ -41,7 +41,7 @@ Words: TypeAlias = tuple[str | float, ...]
 """What a text says: its tokens, numbers by their value, without blanks and comments."""
 
 
-class Kind(Enum):
+class TreeKind(Enum):
     """How the parts of a tree stand beside each other."""
 
     SLOTS = "slots"
@@ -75,10 +75,10 @@ class Leaf(msgspec.Struct, frozen=True, eq=False, dict=True):
         return self.words
 
 
-class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
+class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
     """A thing that consists of others."""
 
-    kind: Kind
+    kind: TreeKind
     parts: tuple[Part, ...]
     start: int
     opening: str = ""
@@ -88,7 +88,7 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
     @property
     def separator(self) -> str:
         """What stands between two parts."""
-        return {Kind.LIST: ",", Kind.ARRAY: ",", Kind.SUM: "+"}.get(self.kind, "")
+        return {TreeKind.LIST: ",", TreeKind.ARRAY: ",", TreeKind.SUM: "+"}.get(self.kind, "")
 
     @cached_property
     def text(self) -> str:
@@ -108,7 +108,7 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
     @cached_property
     def bare(self) -> object:
         """Equal for trees that say the same, but for the layout of the diagram."""
-        found = (part for part in self.parts if not (self.kind is Kind.LIST and part.key in LAYOUT))
+        found = (part for part in self.parts if not (self.kind is TreeKind.LIST and part.key in LAYOUT))
         return self._meaning(
             [(part, part.node.bare) for part in found if not (part.key == "annotation" and is_empty(part.node))]
         )
@@ -119,13 +119,13 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
             for part, meaning in parts
             if not part.key.startswith("section ")
         ]
-        return self.kind, tuple(said if self.kind is Kind.ARRAY else sorted(said, key=lambda one: one[0]))
+        return self.kind, tuple(said if self.kind is TreeKind.ARRAY else sorted(said, key=lambda one: one[0]))
 
     @cached_property
     def sections(self) -> dict[str, str]:
         """The section of each part of a body by its key: `section public` unless something else is said."""
         section, found = "section public", dict[str, str]()
-        for part in self.parts if self.kind is Kind.BODY else ():
+        for part in self.parts if self.kind is TreeKind.BODY else ():
             if part.key.startswith("section "):
                 section = part.key.rpartition(" ")[0]
             found[part.key] = part.key if part.key == "annotation" else section
@@ -143,11 +143,11 @@ class Tree(msgspec.Struct, frozen=True, eq=False, dict=True):
     def has_twins(self) -> bool:
         """Whether two things in it can't be told apart."""
         return len(self._by_key) < len(self.parts) or any(
-            isinstance(part.node, Tree) and part.node.has_twins for part in self.parts
+            isinstance(part.node, SyntaxTree) and part.node.has_twins for part in self.parts
         )
 
 
-Node: TypeAlias = Leaf | Tree
+Node: TypeAlias = Leaf | SyntaxTree
 
 
 class Part(msgspec.Struct, frozen=True, eq=False):
@@ -165,7 +165,7 @@ class Part(msgspec.Struct, frozen=True, eq=False):
 
 def is_empty(node: Node) -> bool:
     """Whether nothing is in an annotation but layout."""
-    return isinstance(node, Tree) and all(part.key in LAYOUT for part in node.parts)
+    return isinstance(node, SyntaxTree) and all(part.key in LAYOUT for part in node.parts)
 
 
 def comments(text: str) -> list[str]:
@@ -176,9 +176,9 @@ def comments(text: str) -> list[str]:
     return [found for gap in gaps for found in re.findall(r"//[^\n\r]*|/\*.*?\*/", gap, re.DOTALL)]
 
 
-def read_tree(text: str) -> Tree | None:
+def read_tree(text: str) -> SyntaxTree | None:
     """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name."""
-    reader = _Reader(text)
+    reader = _TreeReader(text)
     stored = read(reader)
     if stored.faults or len(stored.classes) != 1:
         return None
@@ -187,7 +187,7 @@ def read_tree(text: str) -> Tree | None:
     return None if found.has_twins else found
 
 
-def tell_apart(*trees: Tree) -> tuple[Tree, ...]:
+def tell_apart(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
     """Name equations by all that they say, in all versions of a body, if one of them has several for one variable."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
@@ -199,13 +199,17 @@ def tell_apart(*trees: Tree) -> tuple[Tree, ...]:
 
 def _variable(part: Part) -> str:
     """What names an equation if it is the only one for its variable; empty for anything else."""
-    is_equation = isinstance(part.node, Tree) and part.node.find("equation")
+    is_equation = isinstance(part.node, SyntaxTree) and part.node.find("equation")
     return part.key.partition(" = ")[0] if is_equation else ""
 
 
 def _told_apart(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
     for part in parts:
-        if _variable(part) in variables and isinstance(part.node, Tree) and isinstance(part.node.parts[0].node, Leaf):
+        if (
+            _variable(part) in variables
+            and isinstance(part.node, SyntaxTree)
+            and isinstance(part.node.parts[0].node, Leaf)
+        ):
             kind = _INITIAL if part.key.startswith(_INITIAL) else ""
             part = msgspec.structs.replace(part, key=f"{kind}equation {_said(part.node.parts[0].node.words)}")
         yield part
@@ -217,7 +221,7 @@ def as_sum(node: Node) -> Node:
         isinstance(word, float) or not (is_name(word) or word == ".") for word in node.words
     ):
         return node
-    return Tree(Kind.SUM, _numbered([Part("", "", node)]), node.start)
+    return SyntaxTree(TreeKind.SUM, _numbered([Part("", "", node)]), node.start)
 
 
 def words_of(text: str) -> Words:
@@ -247,7 +251,7 @@ def _numbered(parts: Sequence[Part]) -> tuple[Part, ...]:
     return tuple(found)
 
 
-class _Reader(Parser):
+class _TreeReader(SyntaxParser):
     """Makes the tree of a text that the parser found right: it says how far each thing goes."""
 
     def __init__(self, text: str) -> None:
@@ -300,9 +304,9 @@ class _Reader(Parser):
         """A thing with the roles that were read; what stands before the first stands before the thing."""
         first, *rest = parts
         inner = msgspec.structs.replace(first, before="")
-        return Part(key, first.before, Tree(Kind.SLOTS, (inner, *rest), first.node.start))
+        return Part(key, first.before, SyntaxTree(TreeKind.SLOTS, (inner, *rest), first.node.start))
 
-    def _items(self, key: str, kind: Kind, read: Callable[[], Part]) -> Part:
+    def _items(self, key: str, kind: TreeKind, read: Callable[[], Part]) -> Part:
         """A list in brackets; `annotation` stands before its bracket."""
         first, start, before = self.at, self.tokens[self.at].start, self._blanks()
         end = self._end
@@ -313,11 +317,11 @@ class _Reader(Parser):
         while self.word not in (")", "}"):
             parts.append(self._separated(read(), ","))
         closing = self._blanks() + self._take()
-        if kind is Kind.LIST and len({part.key for part in parts}) < len(parts):  # such as `choice`
+        if kind is TreeKind.LIST and len({part.key for part in parts}) < len(parts):  # such as `choice`
             self._end = end
             return self._leaf(key, first)
-        items = _numbered(parts) if kind is Kind.ARRAY else tuple(parts)
-        return Part(key, before, Tree(kind, items, start, opening, closing))
+        items = _numbered(parts) if kind is TreeKind.ARRAY else tuple(parts)
+        return Part(key, before, SyntaxTree(kind, items, start, opening, closing))
 
     # --- expressions ----------------------------------------------------------------------------------------------
 
@@ -346,7 +350,7 @@ class _Reader(Parser):
         if operators == {"+"} and self.word != "+":
             return self._sum(key, stop)
         if self.word == "{" and not operators and all(map(self._begins_with_name, items)):
-            return self._items(key, Kind.ARRAY, self._array_item)
+            return self._items(key, TreeKind.ARRAY, self._array_item)
         self.at = stop
         return self._leaf(key, start)
 
@@ -370,17 +374,19 @@ class _Reader(Parser):
                 self._step()
             part = self._leaf("", start)
             parts.append(self._separated(part, "+") if self.at < stop else part)
-        return Part(key, before, Tree(Kind.SUM, _numbered(parts), place))
+        return Part(key, before, SyntaxTree(TreeKind.SUM, _numbered(parts), place))
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 
     def _modifiers(self) -> list[Part]:
-        return [self._items("arguments", Kind.LIST, self._modifier)] if self.word == "(" else []
+        return [self._items("arguments", TreeKind.LIST, self._modifier)] if self.word == "(" else []
 
     def _note(self) -> list[Part]:
         """A description, an annotation, both or none."""
         found = self._slot("description", self._description)
-        return [*found, self._items("annotation", Kind.LIST, self._modifier)] if self.word == "annotation" else found
+        return (
+            [*found, self._items("annotation", TreeKind.LIST, self._modifier)] if self.word == "annotation" else found
+        )
 
     def _modifier(self) -> Part:
         start, end = self.at, self._end
@@ -419,14 +425,14 @@ class _Reader(Parser):
 
     # --- classes --------------------------------------------------------------------------------------------------
 
-    def file(self) -> Tree:
+    def file(self) -> SyntaxTree:
         """The whole text."""
         parts: list[Part] = []
         if self.word == "within":
             parts += self._slot("within", lambda: self._each(self._within))
         prefixes = self._slot("prefixes", lambda: self._accept("final"))
         parts += [*prefixes, *self._class_parts(), *self._slot(";", self._step)]
-        return Tree(Kind.SLOTS, tuple(parts), 0, "", self._text[self._end :])
+        return SyntaxTree(TreeKind.SLOTS, tuple(parts), 0, "", self._text[self._end :])
 
     def _class_parts(self) -> list[Part]:
         start = self.at
@@ -483,7 +489,7 @@ class _Reader(Parser):
             else:
                 part = self._equation_part(section)
             parts.append(msgspec.structs.replace(part, remark=self._remark()))
-        (tree,) = tell_apart(Tree(Kind.BODY, tuple(parts), place))
+        (tree,) = tell_apart(SyntaxTree(TreeKind.BODY, tuple(parts), place))
         return Part("body", "", tree)
 
     def _begins_section(self) -> bool:
