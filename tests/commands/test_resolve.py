@@ -118,17 +118,63 @@ def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory
     assert (elements / "R2.mo").exists()
     assert not (elements / "R3.mo").exists()
     execute("resolve", MODEL, "--keep")
-    assert not (elements / "R2.mo").exists()
+    assert (elements / "R2.mo").exists(), "the kept file uses it"
     assert "R3" in (elements / "package.order").read_text().splitlines(), "what waited is written"
     assert not list(Path(".urdfsync/conflicts").rglob("*.*"))
     for arguments in (["build"], ["build", "--full"], ["build", "--check"]):
-        assert execute(*arguments).lines[0] == "ladder: in step, 14 files, 1 kept because you edited it"
+        assert execute(*arguments).lines[0].startswith("ladder: in step, 14 files, 1 kept because you edited it, 2 no")
     edit("ladder.json", "220.5", "330")
     execute("build")
     assert Path(MODEL).read_text() == mine
     more("R4")
     execute("build", code=3)
     assert Path(MODEL).read_text() == mine
+
+
+def test_what_a_kept_file_uses_stays(contradictory: Path, execute: Execute) -> None:
+    assert conflicts(execute) == ["Ladder.mo"]
+    assert execute("resolve", MODEL, "--keep").err == ""
+    kept = {name: Path(f"{LADDER}/Elements/{name}.mo").exists() for name in ("R2", "R2Parameters", "R3")}
+    assert kept == {"R2": True, "R2Parameters": True, "R3": True}
+    assert execute("build").err == ""
+    edit(MODEL, "R2", "R3")
+    execute("build")
+    assert not Path(f"{LADDER}/Elements/R2.mo").exists(), "nothing uses it any more"
+
+
+@pytest.fixture
+def misfit(execute: Execute, project: Path) -> Path:
+    """The network's model is kept, and uses an element that the source has no more, and whose file the user deleted."""
+    execute("build")
+    edit(MODEL, "equation", "  Elements.C1 other;\n\nequation")
+    Path(f"{LADDER}/Elements/C1.mo").unlink()
+    edit("ladder.json", '"C1"', '"C3"')
+    edit("ladder.json", '"farad": 1e-6', '"ohm": 5')
+    assert conflicts(execute) == ["Ladder.mo"]
+    execute("resolve", MODEL, "--keep")
+    return project
+
+
+def test_a_kept_file_that_does_not_fit_is_told_until_it_does(misfit: Path, execute: Execute) -> None:
+    for command in ("build", "status", "build"):
+        (line,) = execute(command, code=None).err.splitlines()
+        said = "warning: kept, does not fit: it mentions `C1`, which the package does not have"
+        assert line.startswith(f"{Path(MODEL)}:") and said in line
+        assert line.endswith("change that, or `urdfsync resolve modelica/Ladder/Ladder.mo --merge` [does-not-fit]")
+    edit(MODEL, "  Elements.C1 other;\n", "")
+    edit(MODEL, "  Elements.C1 elementC1", "  Elements.C3 elementC1")
+    assert execute("build").err == ""
+
+
+def test_a_kept_file_that_does_not_fit_can_be_merged_later(misfit: Path, execute: Execute) -> None:
+    assert "mentions `C1`" in execute("resolve", MODEL, "--merge", code=3).out
+    edit(MODEL, "  Elements.C1 other;\n", "  Real other;\n")
+    mine = Path(MODEL).read_text()
+    assert execute("resolve", MODEL, "--merge").lines[0] == "ladder: 1 merged with your edits"
+    merged = Path(MODEL).read_text()
+    assert "Elements.C3 elementC3" in merged and "Elements.C1" not in merged and "  Real other;" in merged
+    assert merged != mine
+    execute("build", "--check")
 
 
 def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradictory: Path) -> None:
@@ -326,11 +372,13 @@ def test_a_file_that_moves_is_known_by_both_names(moved: Path, execute: Execute,
     execute("build", "--check")
 
 
-def test_a_file_that_moves_can_be_kept_as_it_is(moved: Path, execute: Execute) -> None:
+def test_a_file_that_moves_can_be_kept_and_gets_its_new_name(moved: Path, execute: Execute) -> None:
     mine = Path(f"{LADDER}/Elements/R2.mo").read_text()
     assert execute("resolve", f"{LADDER}/Elements/R2.mo", "--keep").lines[0].endswith("1 moved with your edits")
     assert not Path(f"{LADDER}/Elements/R2.mo").exists()
-    assert Path(f"{LADDER}/Elements/R5.mo").read_text() == mine
+    kept = Path(f"{LADDER}/Elements/R5.mo").read_text()
+    assert kept == mine.replace("model R2", "model R5").replace("end R2", "end R5").replace("R2Param", "R5Param")
+    execute("build", "--check")
 
 
 # Robots, locks, programs

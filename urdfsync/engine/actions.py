@@ -84,6 +84,8 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the merged text; None if nothing is merged."""
     held: bool = False
     """Waits until the robot's other conflicts are resolved."""
+    keeps_base: bool = False
+    """The user keeps the file beside a generated text that it has not taken into account."""
 
     @property
     def reason(self) -> str:

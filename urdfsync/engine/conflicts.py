@@ -38,6 +38,8 @@ class Conflict(msgspec.Struct, frozen=True):
     """None without a base. Its `text` is None if both sides changed the same, or if the result makes no sense."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
+    kept: str = ""
+    """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
 
@@ -71,6 +73,7 @@ def find_conflict(
     `bases` are all texts that may be the base, best first; `names` has new names by the old ones.
     """
     from urdfsync.merge import merge
+    from urdfsync.merge.renames import rename, without_clashes
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
@@ -80,7 +83,8 @@ def find_conflict(
         first = first.rejected
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
-    return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, rejected)
+    kept = rename(base, mine, without_clashes(names, mine))[1] if names and base and action.origin else mine
+    return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, kept, rejected)
 
 
 def resolve(
@@ -115,7 +119,7 @@ def _outcome(
             return Kind.DELETE, choice, None
         return (Kind.FORGET, choice, None) if choice is Choice.KEEP else (Kind.ORPHAN, None, None)
     if action.kind is Kind.MOVE and conflict:
-        text = None if choice is Choice.TAKE else conflict.mine if choice is Choice.KEEP else merged
+        text = None if choice is Choice.TAKE else conflict.kept if choice is Choice.KEEP else merged
         return Kind.CONFLICT if text is None and choice is not Choice.TAKE else Kind.MOVE, choice, text
     if action.kind is Kind.KEEP and choice is Choice.TAKE and action.replaceable:
         return Kind.UPDATE, choice, None

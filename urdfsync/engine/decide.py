@@ -15,7 +15,7 @@ from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices
+from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state.record import Choice
@@ -63,12 +63,14 @@ def decide_package(generation: Generation) -> Decision:
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
-    choices = {**remembered, **inputs.options.choices}
+    kept = kept_choices(recorded, actions)
+    choices = {**kept, **remembered, **inputs.options.choices}
     warnings: tuple[Diagnostic, ...] = ()
-    if _takes_names_away(generation):
+    if kept or _takes_names_away(generation):
         conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
-    actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
-    actions = _keep_needed(generation, actions, merged)
+    resolved, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    resolved, misfits = _keep_bases(generation, actions, _keep_needed(generation, resolved, merged), merged)
+    actions = resolved
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
@@ -81,7 +83,7 @@ def decide_package(generation: Generation) -> Decision:
         tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
-    return msgspec.structs.replace(decision, diagnostics=warnings) if decision.is_complete else decision
+    return msgspec.structs.replace(decision, diagnostics=(*misfits, *(warnings if decision.is_complete else ())))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -155,9 +157,12 @@ def _find_vanished(
     planned, merged = resolve(actions, conflicts, choices, merging=True)
     planned = _keep_needed(generation, planned, merged)
     found = vanished.find_vanished(generation, planned, merged)
+    recorded = generation.inputs.recorded_files
+    kept = [key for key in merged if key in recorded and recorded[key].kept]
+    in_vain = {**found.in_package, **vanished.find_misfits(generation, planned, merged, kept)}
     sound = dict(conflicts)
-    for key in found.in_package.keys() & merged.keys():
-        conflict, use = sound[key], found.in_package[key][0]
+    for key in in_vain.keys() & merged.keys():
+        conflict, use = sound[key], in_vain[key][0]
         if conflict.merge and conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
             reason = f"the merge mentions `{use.part}`, which is no longer in the package (line {use.line})"
             sound[key] = msgspec.structs.replace(conflict, merge=conflict.merge.rejected, rejected=reason)
@@ -168,10 +173,41 @@ def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapp
     """Keep what texts of the user's need."""
     used: Collection[str] = ()
     if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
-        from urdfsync.engine.vanished import mentioned_records
+        from urdfsync.engine.vanished import mentioned_files
 
-        used = mentioned_records(generation, actions, merged)
+        used = mentioned_files(generation, actions, merged)
     return keep_needed(actions, generation.inputs.files.has_classes, used)
+
+
+def _keep_bases(
+    generation: Generation, before: Sequence[Action], actions: Sequence[Action], merged: Mapping[str, str]
+) -> tuple[tuple[Action, ...], tuple[Diagnostic, ...]]:
+    """Let kept files have their former bases that do not fit the package, and those that were kept so before.
+
+    `before` are the same actions before the user's choices counted. Also a warning for each file that does not fit.
+    """
+    recorded, bases = generation.inputs.recorded_files, {action.path: action.base for action in before}
+    kept = {
+        one.path: one
+        for one in actions
+        if one.choice is Choice.KEEP and one.kind in (Kind.KEEP, Kind.MOVE) and one.role is not Role.IMPORT
+    }
+    if not kept:
+        return tuple(actions), ()
+    from urdfsync.engine import vanished
+
+    mark_incomplete()  # as in `_find_vanished`
+    misfits = vanished.find_misfits(generation, actions, merged, kept)
+    stay = {
+        path
+        for path, one in kept.items()
+        if path in misfits or (path in recorded and recorded[path].kept == one.generated)
+    }
+    found = (
+        msgspec.structs.replace(one, base=bases[one.path], keeps_base=True) if one.path in stay else one
+        for one in actions
+    )
+    return tuple(found), tuple(vanished.misfit_warnings(generation, misfits))
 
 
 def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:

@@ -52,7 +52,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         record = self.inputs.recorded_files.get(self.inputs.old_key(path))
         if path in self.changed or record is None or len(record.hashes) != 1:
             return None
-        return record.hashes[0]
+        return record.generated
 
     def hash(self, path: str) -> str:
         """Return the hash of what would be written, by the path below the package."""

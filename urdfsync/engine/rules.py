@@ -184,14 +184,14 @@ def files_after(actions: Iterable[Action], recorded: Mapping[str, FileRecord]) -
         elif action.released:
             found[action.path] = FileRecord(is_users=True)
         elif action.generated is not None:
-            found[action.path] = FileRecord((action.generated,))
+            found[action.path] = _renewed(action)
     return found
 
 
 def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
     """Return the records of the files that are as generated after a build that left others waiting."""
     return {
-        action.path: FileRecord((action.generated,))
+        action.path: _renewed(action)
         for action in actions
         if action.role is not Role.ORDER
         and action.generated is not None
@@ -199,10 +199,26 @@ def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
     }
 
 
+def _renewed(action: Action) -> FileRecord:
+    """Return the record of a file that is generated, after the action."""
+    if action.keeps_base:
+        return FileRecord((action.base,) if action.base else (), kept=action.generated or "")
+    return FileRecord((action.generated,) if action.generated else ())
+
+
 def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
     """Return the user's choices that wait, by path and by the two texts that they were made on."""
     waiting = (action for action in actions if action.choice and action.held)
     return {(one.path, sides_hash(one.mine, one.generated)): one.choice for one in waiting if one.choice}
+
+
+def kept_choices(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
+    """Return the choice to keep files that stay beside a generated text which is still the same, by path."""
+    return {
+        one.path: Choice.KEEP
+        for one in actions
+        if one.kind in CONFLICTS and one.generated and recorded.get(one.path, _NEVER_WRITTEN).kept == one.generated
+    }
 
 
 def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:

@@ -121,11 +121,11 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
     }
     files = files_after(decision.actions, old)
     for action in decision.actions:
-        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED) and action.path.startswith(inside)
-        if is_left and action.role is not Role.IMPORT:
-            (base,) = files[action.path].hashes
-            if (text := generation.base(action.path, base)) is not None:
-                texts[base] = text
+        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED) or action.keeps_base
+        if is_left and action.path.startswith(inside) and action.role is not Role.IMPORT:
+            for base in files[action.path].hashes:
+                if (text := generation.base(action.origin or action.path, base)) is not None:
+                    texts[base] = text
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,

@@ -24,6 +24,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
+from urdfsync.state.record import Choice
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
@@ -81,6 +82,31 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     )
 
 
+def find_misfits(
+    generation: Generation, actions: Sequence[Action], merged: Mapping[str, str], keys: Collection[str]
+) -> dict[str, list[Unresolved]]:
+    """Return the uses of names that mean nothing once all actions are done, by the key of the file; of some files."""
+    if not keys:
+        return {}
+    _, stored, doubtful = _packages(generation, actions, _users_texts(generation, actions), merged)
+    inputs, scopes, found = generation.inputs, Scopes(stored), dict[str, list[Unresolved]]()
+    for key in keys:
+        name = _class_name(inputs.robot.target.package, inputs.path(key))
+        uses = [one for one in _unresolved(name, scopes, doubtful) if one.kind not in _LEGAL]
+        if uses:
+            found[key] = sorted(uses, key=lambda one: one.line)
+    return found
+
+
+def misfit_warnings(generation: Generation, found: Mapping[str, Sequence[Unresolved]]) -> Iterator[Diagnostic]:
+    """A warning for each kept file that does not fit the package, with the first name that it mentions in vain."""
+    for key, (first, *_) in found.items():
+        file = shown(generation.inputs.files.path(key))
+        message = f"kept, does not fit: it mentions `{first.part}`, which the package does not have"
+        hint = f"change that, or `urdfsync resolve {file} --merge`"
+        yield Diagnostic(Severity.WARNING, "does-not-fit", message, file, first.line, hint=hint)
+
+
 def _users_texts(generation: Generation, actions: Sequence[Action]) -> _Texts:
     inputs, files = generation.inputs, generation.inputs.files
     written = {action.path for action in actions} | inputs.recorded_files.keys()
@@ -106,7 +132,7 @@ def _packages(
     """
     inputs, files = generation.inputs, generation.inputs.files
     before = {
-        key: generation.base(key, record.hashes[0]) or ""
+        key: generation.base(key, record.generated) or ""
         for key, record in inputs.recorded_files.items()
         if record.hashes and key.endswith(".mo")
     }
@@ -178,7 +204,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
         return {}
     keys = [key for key, record in inputs.recorded_files.items() if record.hashes and key.endswith(".mo")]
     tops = (key for key in keys if "/" not in inputs.old_path(key))
-    texts = (generation.base(key, inputs.recorded_files[key].hashes[0]) or "" for key in tops)
+    texts = (generation.base(key, inputs.recorded_files[key].generated) or "" for key in tops)
     known = _known_names(generation)
     old = (_declared(texts) | frozenset(map(class_of, keys))) - known
     return {name: new for name in sorted(old) if (new := _new_name(name, renamed, known))}
@@ -269,19 +295,38 @@ def code_words(text: str) -> set[str]:
     return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
 
 
-def mentioned_records(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
-    """Return the records that are no longer generated and that a text of the user's mentions, edited files included.
+def mentioned_files(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
+    """Return the files that are no longer generated and that the user's texts need.
 
-    Those that a renamed element left are not needed: the user is told the new name.
+    These are records that any of his texts mentions, edited files included; but those that a renamed element left are
+    not: he is told the new name. What a file that he keeps mentions stays whatever it is, and so does what is mentioned
+    or shown by what stays.
     """
-    inputs, files = generation.inputs, generation.inputs.files
-    left = set(generation.moves.values())
-    leaving = [a.path for a in actions if a.kind is Kind.DELETE and a.role is Role.RECORD and a.path not in left]
-    if not leaving:
-        return frozenset()
-    edited = [action for action in actions if action.kind in USERS]
-    texts = list(inputs.users_classes(edited, actions, merged).values())
+    inputs, files, before = generation.inputs, generation.inputs.files, generation.last_package
+    leaving = {one.path: one for one in actions if one.kind is Kind.DELETE}
+    texts = inputs.users_classes([one for one in actions if one.kind in USERS], actions, merged)
     around = files.users_files({inputs.folder, inputs.old_folder})
-    texts += [content.decode(errors="replace") for content in around.values()]
-    used = {word for text in texts for word in code_words(text)}
-    return frozenset(path for path in leaving if class_of(path) in used)
+    all_words = {word for text in texts.values() for word in code_words(text)}
+    all_words |= {word for content in around.values() for word in code_words(content.decode(errors="replace"))}
+    kept = {one.path for one in actions if one.choice is Choice.KEEP and one.kind in USERS}
+    kept_words = {word for key in kept & texts.keys() for word in code_words(texts[key])}
+    left = set(generation.moves.values())
+    used = set()
+    for path, action in leaving.items():
+        was_needed = before is not None and inputs.old_path(path) not in before.artifacts
+        is_record = action.role is Role.RECORD and path not in left
+        if class_of(path) in (all_words if is_record or was_needed else kept_words) and path.endswith(".mo"):
+            used.add(path)
+    found = set(used)
+    while used:
+        needed = [files.any_text(path) for path in used]
+        words = {word for text in needed for word in code_words(text)}
+        used = {
+            path
+            for path in leaving.keys() - found
+            if (
+                class_of(path) in words if path.endswith(".mo") else any(inputs.old_path(path) in one for one in needed)
+            )
+        }
+        found |= used
+    return frozenset(found)

@@ -50,7 +50,10 @@ class DisputedFile(msgspec.Struct, frozen=True):
     @property
     def is_decided(self) -> bool:
         """Whether there is a decision about it that has not been carried out yet."""
-        return self.action.kind in (Kind.MERGE, Kind.MOVE) or (self.action.held and self.action.choice is not None)
+        action = self.action
+        return (
+            action.kind in (Kind.MERGE, Kind.MOVE) or (action.held and action.choice is not None) or action.keeps_base
+        )
 
     @property
     def merges(self) -> bool:

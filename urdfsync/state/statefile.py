@@ -43,6 +43,7 @@ _FACTS: Mapping[str, Any] = {
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
     "text": tuple[str, str],
+    "kept": tuple[str, str],
     "choice": tuple[str, str, Choice],
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
@@ -86,6 +87,8 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
         yield from (("model", fact) for fact in _elements(snapshot))
     yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
     yield from (("text", item) for item in record.texts.items())
+    below = len(record.folder) + 1
+    yield from (("kept", (key[below:], file.kept)) for key, file in record.files.items() if file.kept)
     if record.open:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
         yield from (("seen", fact) for fact in _elements(record.open.seen))
@@ -159,6 +162,8 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     hashes: dict[str, list[str]] = {}
     for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
+    kept = {f"{folder}/{path}": sha256 for path, sha256 in found["kept"]} if is_placed else {}
+    hashes |= {key: [] for key in kept if key not in hashes}
     imports: dict[str, tuple[Import, ...]] = {}
     for key, one in found["import"]:
         imports[key] = (*imports.get(key, ()), one)
@@ -183,7 +188,7 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         snapshots=snapshots,
         imports=imports,
         files={
-            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found)
+            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found, kept.get(key, ""))
             for key, found in sorted(hashes.items())
         },
         texts=dict(found["text"]),
