@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 import pytest
 from support.commands import Execute
@@ -159,7 +164,8 @@ def test_a_kept_file_that_does_not_fit_is_told_until_it_does(misfit: Path, execu
     for command in ("build", "status", "build"):
         (line,) = execute(command, code=None).err.splitlines()
         said = "warning: kept, does not fit: it mentions `C1`, which the package does not have"
-        assert line.startswith(f"{Path(MODEL)}:") and said in line
+        assert line.startswith(f"{Path(MODEL)}:")
+        assert said in line
         assert line.endswith("change that, or `urdfsync resolve modelica/Ladder/Ladder.mo --merge` [does-not-fit]")
     edit(MODEL, "  Elements.C1 other;\n", "")
     edit(MODEL, "  Elements.C1 elementC1", "  Elements.C3 elementC1")
@@ -172,7 +178,9 @@ def test_a_kept_file_that_does_not_fit_can_be_merged_later(misfit: Path, execute
     mine = Path(MODEL).read_text()
     assert execute("resolve", MODEL, "--merge").lines[0] == "ladder: 1 merged with your edits"
     merged = Path(MODEL).read_text()
-    assert "Elements.C3 elementC3" in merged and "Elements.C1" not in merged and "  Real other;" in merged
+    assert "Elements.C1" not in merged
+    for text in ("Elements.C3 elementC3", "  Real other;"):
+        assert text in merged
     assert merged != mine
     execute("build", "--check")
 
@@ -290,8 +298,8 @@ def test_of_many_conflicts_a_few_are_named(clean: Path, execute: Execute) -> Non
     ("arguments", "words"),
     [
         (["--keep"], "name files or folders, or use --all"),
-        ([], "one of --keep, --take and --merge is needed"),
-        ([MODEL], "one of --keep, --take and --merge is needed"),
+        ([], "one of --keep, --take, --merge, --edit and --undo is needed"),
+        ([MODEL], "one of --keep, --take, --merge, --edit and --undo is needed"),
         ([MODEL, "--all", "--keep"], "--all goes without paths"),
     ],
 )
@@ -379,6 +387,197 @@ def test_a_file_that_moves_can_be_kept_and_gets_its_new_name(moved: Path, execut
     kept = Path(f"{LADDER}/Elements/R5.mo").read_text()
     assert kept == mine.replace("model R2", "model R5").replace("end R2", "end R5").replace("R2Param", "R5Param")
     execute("build", "--check")
+
+
+# Undo, and saves that take back a merge
+
+
+@pytest.fixture
+def merged(clean: Path, execute: Execute) -> Path:
+    """The network's model was merged; what the user had is in `mine.txt`."""
+    (clean / "mine.txt").write_text(Path(MODEL).read_text())
+    lines = execute("build", "--merge").lines
+    assert lines[-1] == f"  merge      {Path(MODEL)}  R3; merged with your edits"
+    return clean
+
+
+def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: Execute) -> None:
+    both = Path(MODEL).read_text()
+    assert execute("resolve", MODEL, "--undo", "--dry-run").lines[0] == "ladder: 1 to give back as you had it"
+    assert Path(MODEL).read_text() == both
+    assert execute("resolve", MODEL, "--undo").lines[0] == "ladder: 1 given back as you had it"
+    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
+    for command in (["build"], ["build", "--merge"], ["build", "--full", "--merge"]):
+        assert execute(*command).lines[0] == "ladder: in step, 16 files, 1 kept because you edited it"
+    error = execute("resolve", MODEL, "--undo", code=2).err
+    assert "there is nothing to give back" in error
+    execute("resolve", MODEL, "--merge")
+    assert Path(MODEL).read_text() == both
+
+
+def test_the_next_export_merges_what_was_undone_too(merged: Path, execute: Execute) -> None:
+    execute("resolve", MODEL, "--undo")
+    more("R4")
+    execute("build", "--merge")
+    for text in (FRESH, '"Element R4"', "parameter Real mine = 1;"):
+        assert text in Path(MODEL).read_text()
+
+
+def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
+    edit(MODEL, "Real mine = 1", "Real mine = 2")
+    with unchanged(merged, but=".urdfsync/lock"):
+        assert "or the file was saved since" in execute("resolve", MODEL, "--undo", code=2).err
+
+
+def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    execute("resolve", MODEL, "--undo")
+    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
+
+
+def test_what_was_taken_can_be_given_back(contradictory: Path, execute: Execute) -> None:
+    mine = Path(MODEL).read_text()
+    execute("resolve", MODEL, "--take")
+    assert MINE not in Path(MODEL).read_text()
+    execute("resolve", MODEL, "--undo")
+    assert Path(MODEL).read_text() == mine
+    assert execute("build", code=0).lines[0].startswith("ladder: in step")
+
+
+def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -> None:
+    execute("build")
+    more("R3")
+    execute("build")
+    assert "there is nothing to give back" in execute("resolve", MODEL, "--undo", code=2).err
+
+
+def test_a_save_that_takes_back_a_merge_is_told(merged: Path, execute: Execute) -> None:
+    old_buffer = Path("mine.txt").read_text().replace("Real mine = 1", "Real mine = 3")
+    Path(MODEL).write_text(old_buffer)
+    for command in ("build", "status"):
+        (line,) = execute(command).err.splitlines()
+        assert line.startswith(f"{Path(MODEL)}: warning: it was saved without what the last build wrote")
+    execute("resolve", MODEL, "--merge")
+    assert FRESH in Path(MODEL).read_text()
+    assert "Real mine = 3" in Path(MODEL).read_text()
+    assert execute("build").err == ""
+
+
+def test_an_old_buffer_of_a_file_that_nobody_had_edited_is_told(execute: Execute, project: Path) -> None:
+    execute("build")
+    opened = Path(MODEL).read_text()
+    more("R3")
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    assert execute("build").err == "", "an edit of what was written is no such save"
+    Path(MODEL).write_text(opened.replace("equation", "  Real mine = 1;\nequation"))
+    assert "[taken-back]" in execute("build").err
+    execute("resolve", MODEL, "--keep")
+    assert execute("build").err == ""
+    assert FRESH not in Path(MODEL).read_text()
+
+
+# The user's editor
+
+Editor: TypeAlias = Callable[[str], object]
+
+
+@pytest.fixture
+def editor(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Editor:
+    """Sets the user's editor: a program in Python, which gets the names of the files as `names`."""
+    program = tmp_path / "editor.py"
+    monkeypatch.setenv("VISUAL", f"{sys.executable} {program}")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    begin = "import sys\nfrom pathlib import Path\nnames = sys.argv[1:]\nfile = Path(names[0])\n"
+    return lambda text: program.write_text(begin + text)
+
+
+SETTLE = """
+lines = file.read_text().splitlines(keepends=True)
+begin, end = (next(n for n, line in enumerate(lines) if line.startswith(mark)) for mark in ("<<<<<<<", ">>>>>>>"))
+lines[begin : end + 1] = ['  Real mine "1 %";\\n']
+file.write_text("".join(lines))
+"""
+
+
+def test_an_editor_makes_one_text_of_both(
+    contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path
+) -> None:
+    editor(SETTLE)
+    assert execute("resolve", MODEL, "--edit").lines[0].endswith("2 deleted, 1 merged with your edits")
+    for text in (FRESH, 'Real mine "1 %";'):
+        assert text in Path(MODEL).read_text()
+    execute("build", "--check")
+    assert not list(tmp_path.glob("urdfsync-edit-*"))
+
+
+def test_the_editor_sees_all_versions(contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path) -> None:
+    editor("print([Path(name).name for name in names]); print(Path(names[2]).read_text()); sys.exit(3)")
+    with unchanged(contradictory, but=".urdfsync/lock"):
+        error = execute("resolve", MODEL, "--edit", code=2).err
+    assert "the editor ended with exit code 3; nothing was changed" in error
+    (folder,) = tmp_path.glob("urdfsync-edit-*")
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["Ladder.base.mo", "Ladder.generated.mo", "Ladder.mine.mo", "Ladder.mo"]
+    assert (folder / "Ladder.mine.mo").read_text() == Path(MODEL).read_text()
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("", "has the conflict marker"),
+        ('file.write_text("")', "is not one class called `Ladder`"),
+        (SETTLE + 'file.write_text(file.read_text().replace("Ladder", "Other"))', "is not one class called `Ladder`"),
+    ],
+)
+def test_an_edited_text_that_cannot_be_used_changes_nothing(
+    contradictory: Path, execute: Execute, editor: Editor, program: str, words: str
+) -> None:
+    editor(program)
+    with unchanged(contradictory, but=".urdfsync/lock"):
+        error = execute("resolve", MODEL, "--edit", code=2).err
+    assert words in error
+    assert "nothing was changed" in error
+
+
+def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(
+    contradictory: Path, execute: Execute, editor: Editor
+) -> None:
+    editor(SETTLE.replace("Real mine", "Elements.R2 mine"))
+    mine = Path(MODEL).read_text()
+    printed = execute("resolve", MODEL, "--edit", code=3)
+    assert "mentions `R2`" in printed.out
+    assert "this edited text was not taken over" in printed.err
+    assert Path(MODEL).read_text() == mine
+
+
+def test_the_merge_tool_of_git_goes_before_the_editor(
+    contradictory: Path,
+    execute: Execute,
+    editor: Editor,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    editor("file.write_text(Path(names[1]).read_text())")
+    settings = tmp_path / "gitconfig"
+    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
+    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
+    monkeypatch.setenv("VISUAL", "false")
+    execute("resolve", MODEL, "--edit")
+    assert MINE not in Path(MODEL).read_text()
+    assert FRESH in Path(MODEL).read_text()
+    execute("build", "--check")
+
+
+def test_without_an_editor_it_says_what_to_set(
+    contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("VISUAL")
+    monkeypatch.delenv("EDITOR", raising=False)
+    assert "set $VISUAL, or git's `merge.tool`" in execute("resolve", MODEL, "--edit", code=2).err
 
 
 # Robots, locks, programs

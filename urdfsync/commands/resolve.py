@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+import shutil
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path, PurePosixPath
 
 from urdfsync import config
-from urdfsync.commands import arguments
+from urdfsync.commands import arguments, merge_tool
 from urdfsync.commands.build import build_and_check
 from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
-from urdfsync.engine.conflicts import MERGES
+from urdfsync.engine.conflicts import MERGES, Conflict
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.package_files import encode
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import shown
+from urdfsync.merge.texts import find_flaw
+from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, line
 from urdfsync.output.results import show_result, show_results
@@ -49,6 +54,8 @@ def add(commands: arguments.Commands) -> None:
         Choice.KEEP: "leave your file as it is, until something new is generated",
         Choice.TAKE: "replace your file by the generated one",
         Choice.MERGE: "take both sides' changes, if they do not contradict each other",
+        Choice.EDIT: "make one text of both sides in git's merge tool, or in the editor of $VISUAL",
+        Choice.UNDO: "give a file back as you had it before it was merged or replaced",
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
@@ -62,48 +69,124 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Find the files that the user means, and build their robots with the user's choice."""
-    configuration = arguments.configuration(args)
-    robots = configuration.select(args.robot or [])
-    found = list(build(configuration, robots, arguments.request(args, console, dry=True)))
-    names = [target.shown for target in find_conflicts(found)]
-    listed = ", ".join(names[:_FEW]) + (f" and {len(names) - _FEW} more" if len(names) > _FEW else "")
+    loaded = arguments.configuration(args)
+    found = list(build(loaded, loaded.select(args.robot or []), arguments.request(args, console, dry=True)))
+    choice = _choice(args, find_conflicts(found))
+    targets, unknown = _targets(args, console, found, loaded.root, choice)
+    if unknown:
+        return _refuse(console, found, unknown)
+    concerned = {target.result.robot for target in targets}
+    if args.all:
+        concerned |= {result.robot for result in found if result.failed or result.conflicts}
+    robots = [robot for robot in loaded.robots if robot.name in concerned]
+    choices = {target.action.path: choice for target in targets}
+    planned = arguments.request(args, console, dry=True, choices=choices)
+    if choice is Choice.TAKE and not console.json and not console.quiet:
+        _show_losses(loaded, robots, targets, planned, console)
+    if choice is Choice.UNDO:
+        _refuse_undo(targets, build(loaded, robots, planned))
+    edited = _edit(loaded, targets, build(loaded, robots, planned)) if choice is Choice.EDIT else {}
+    texts = {path: file.read_bytes().decode(errors="surrogateescape") for path, file in edited.items()}
+    request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=texts)
+    results = show_results(console, build_and_check(loaded, robots, request))
+    code = exit_code(results)
+    done = {one.path for result in results for one in result.actions if one.choice is Choice.EDIT and not one.held}
+    left = [_left(file) for path, file in edited.items() if path not in done or code is Exit.CONFLICT]
+    for path in edited.keys() & done if not args.dry_run and not left else ():
+        shutil.rmtree(edited[path].parent)
+    console.end("resolve", code, left)
+    return code
+
+
+def _choice(args: argparse.Namespace, conflicts: Sequence[DisputedFile]) -> Choice:
+    """The choice that the arguments make. Raises UsageError."""
     wrong = "" if args.all or args.paths else "name files or folders, or use --all"
     wrong = "--all goes without paths" if args.all and args.paths else wrong
+    wrong = "--undo goes with paths, not with --all" if args.all and args.choice is Choice.UNDO else wrong
     wrong = "--prefer goes with --merge" if args.prefer and args.choice is not Choice.MERGE else wrong
-    wrong = "one of --keep, --take and --merge is needed" if args.choice is None else wrong
+    wrong = "one of --keep, --take, --merge, --edit and --undo is needed" if args.choice is None else wrong
     if wrong:
-        raise arguments.UsageError(args.parser, wrong, f"in conflict: {listed}" if listed else "nothing is in conflict")
-    choice = Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
-    concerned = set()
+        raise arguments.UsageError(args.parser, wrong, _listed(conflicts) or "nothing is in conflict")
+    return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
+
+
+def _listed(conflicts: Sequence[DisputedFile]) -> str:
+    names = [target.shown for target in conflicts]
+    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
+    return f"in conflict: {', '.join(names[:_FEW])}{more}" if names else ""
+
+
+def _targets(
+    args: argparse.Namespace, console: Console, found: Sequence[Result], root: Path, choice: Choice
+) -> tuple[list[DisputedFile], list[str]]:
+    """The files that the arguments mean, and the paths that mean none. Raises UrdfsyncError for what can't be had."""
     if args.all:
         targets = find_conflicts(found)
-        concerned = {target.result.robot for target in targets} | {result.robot for result in found if result.failed}
-        if not concerned:
+        if not targets and not any(result.failed for result in found):
             console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
-        targets = [target for target in targets if not any(_problems(target, choice))]
-    else:
-        targets, unknown = _find_targets(found, args.paths, configuration.root, choice)
-        if unknown:
-            failed = [result for result in found if result.failed]
-            for result in failed:
-                show_result(console, result)
-            named, have = " and ".join(f"`{path}`" for path in unknown), "has" if len(unknown) == 1 else "have"
-            hint = f"in conflict: {listed}" if listed else "no file is in conflict"
-            code = exit_code(failed) if failed else Exit.ERROR
-            no_conflict = Diagnostic(Severity.ERROR, "no-conflict", f"{named} {have} no conflict", hint=hint)
-            console.end("resolve", code, [no_conflict])
-            return code
-        if problems := [problem for target in targets for problem in _problems(target, choice)]:
-            raise UrdfsyncError(*problems)
-        concerned = {target.result.robot for target in targets}
-    choices = {target.action.path: choice for target in targets}
-    again = [robot for robot in configuration.robots if robot.name in concerned]
-    if choice is Choice.TAKE and not console.json and not console.quiet:
-        _show_losses(configuration, again, targets, arguments.request(args, console, dry=True), console)
-    request = arguments.request(args, console, dry=args.dry_run, choices=choices)
-    code = exit_code(show_results(console, build_and_check(configuration, again, request)))
-    console.end("resolve", code)
+        return [target for target in targets if not any(_problems(target, choice))], []
+    targets, unknown = _find_targets(found, args.paths, root, choice)
+    problems = [] if unknown else [problem for target in targets for problem in _problems(target, choice)]
+    if problems:
+        raise UrdfsyncError(*problems)
+    return targets, unknown
+
+
+def _refuse(console: Console, found: Sequence[Result], unknown: Sequence[str]) -> Exit:
+    """Say that paths mean no file that could be resolved."""
+    failed = [result for result in found if result.failed]
+    for result in failed:
+        show_result(console, result)
+    named, have = " and ".join(f"`{path}`" for path in unknown), "has" if len(unknown) == 1 else "have"
+    hint = _listed(find_conflicts(found)) or "no file is in conflict"
+    code = exit_code(failed) if failed else Exit.ERROR
+    console.end("resolve", code, [Diagnostic(Severity.ERROR, "no-conflict", f"{named} {have} no conflict", hint=hint)])
     return code
+
+
+def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> None:
+    """Raise UrdfsyncError for files of which nothing can be given back."""
+    undone = {one.path for result in planned for one in result.actions if one.kind is Kind.UNDO}
+    message = "there is nothing to give back: no build replaced what you had, or the file was saved since"
+    hint = "--keep, --take and --merge are for conflicts"
+    found = [
+        Diagnostic(Severity.ERROR, "no-undo", message, target.shown, hint=hint)
+        for target in targets
+        if target.action.path not in undone
+    ]
+    if found:
+        raise UrdfsyncError(*found)
+
+
+def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Iterable[Result]) -> dict[str, Path]:
+    """Let the user edit each file; where its text is then, by key. Raises UrdfsyncError if it can't be used."""
+    texts = {one.path: one for result in planned for one in result.conflict_texts}
+    edited = {}
+    for target in targets:
+        one = texts[target.action.path]
+        proposal = one.merge.proposal if one.merge else one.mine
+        sides = (one.base or "", one.mine, one.generated, proposal)
+        name = PurePosixPath(one.path).name
+        file = merge_tool.edit(name, merge_tool.Versions(*map(encode, sides)), loaded.root)
+        if flaw := _flaw(file.read_bytes().decode(errors="surrogateescape"), one):
+            message = f"the edited text {flaw}; nothing was changed"
+            raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, target.shown, hint=f"it is in {file}"))
+        edited[one.path] = file
+    return edited
+
+
+def _flaw(text: str, conflict: Conflict) -> str:
+    """Why an edited text can't be used, as the end of a sentence; empty if it can."""
+    wanted, found = ([one.name for one in parse(one).classes] for one in (conflict.generated, text))
+    if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
+        return flaw
+    return "" if found == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"
+
+
+def _left(file: Path) -> Diagnostic:
+    message = "this edited text was not taken over"
+    hint = "once the other conflicts are resolved, edit again"
+    return Diagnostic(Severity.NOTE, "edit-left", message, shown(file), hint=hint)
 
 
 def _show_losses(
@@ -135,9 +218,11 @@ def _find_targets(
         for file in _places(target.action, root):
             for place in (file, *file.parents):
                 by_place.setdefault(place, []).append(target)
-    for target in (DisputedFile(result, action) for result in results for action in result.actions.decided):
-        takes = choice is Choice.TAKE and target.action.kind is Kind.KEEP
-        if target.action.kind is Kind.ORPHAN or target.is_decided or takes:
+    for target in (DisputedFile(result, action) for result in results for action in result.actions):
+        action = target.action
+        takes = choice is Choice.TAKE and action.kind is Kind.KEEP
+        is_known = action.kind is Kind.ORPHAN or target.is_decided
+        if is_known or takes or (choice is Choice.UNDO and action.mine):
             for file in _places(target.action, root):
                 by_place.setdefault(file, []).append(target)
     chosen: dict[str, DisputedFile] = {}
@@ -161,9 +246,11 @@ def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
     if choice is Choice.TAKE and not target.replaceable:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
-    elif choice in MERGES and target.action.kind is Kind.ORPHAN:
+    elif choice in (*MERGES, Choice.EDIT) and target.action.kind is Kind.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
+    elif choice is Choice.EDIT and target.texts is None and not target.is_decided:
+        message, hint = f"it can't be edited: {describe(target)}", "use --keep or --take"
     elif choice in MERGES and not target.offers(choice):
         message = f"it can't be merged: {describe(target)}"
         hint = "use --keep or --take" if target.replaceable else "use --keep"

@@ -42,7 +42,9 @@ class FileStatus(enum.StrEnum):
 
 _STATUSES = {
     **dict.fromkeys((Kind.UNCHANGED, Kind.ADOPT), FileStatus.IN_STEP),
-    **dict.fromkeys((Kind.CREATE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.LEAVE), FileStatus.STALE),
+    **dict.fromkeys(
+        (Kind.CREATE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.LEAVE), FileStatus.STALE
+    ),
     **dict.fromkeys((Kind.KEEP, Kind.INCLUDED), FileStatus.EDITED),
     **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), FileStatus.CONFLICT),
     **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), FileStatus.ORPHAN),

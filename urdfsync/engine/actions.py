@@ -28,11 +28,12 @@ class Kind(enum.StrEnum):
     INCLUDED = "included"
     MERGE = "merge"
     MOVE = "move"
+    UNDO = "undo"
     LEAVE = "leave"
     FORGET = "forget"
 
 
-WRITES = frozenset({Kind.CREATE, Kind.RESTORE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.LEAVE})
+WRITES = frozenset({Kind.CREATE, Kind.RESTORE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.LEAVE})
 """Actions that change a file."""
 DELETES = frozenset({Kind.DELETE, Kind.LEAVE})
 """Actions that take a file away."""
@@ -42,7 +43,7 @@ IN_STEP = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind
 """Actions on files that are as they should be, edits apart."""
 DISPUTED = CONFLICTS | {Kind.MOVE}
 """Actions that the texts, or the user, decide on."""
-USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.CONFLICT, Kind.ORPHAN})
+USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.CONFLICT, Kind.ORPHAN})
 """Actions after which the file still has text of the user's."""
 
 _REASONS = {
@@ -61,6 +62,7 @@ _REASONS = {
     Kind.INCLUDED: "you edited it, and it already has what is new",
     Kind.MERGE: "your edits and what is new, merged",
     Kind.MOVE: "its element was renamed; your edits move here",
+    Kind.UNDO: "the merge is undone; it is as you had it",
     Kind.LEAVE: "its element was renamed; your edits move to its new file",
 }
 
@@ -86,6 +88,8 @@ class Action(msgspec.Struct, frozen=True):
     """Waits until the robot's other conflicts are resolved."""
     keeps_base: bool = False
     """The user keeps the file beside a generated text that it has not taken into account."""
+    takes_back: bool = False
+    """The user saved the file without what the last build wrote."""
 
     @property
     def reason(self) -> str:

@@ -40,11 +40,15 @@ class Conflict(msgspec.Struct, frozen=True):
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     kept: str = ""
     """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
+    edited: str | None = None
+    """What the user has made of both sides."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""
+        if choice is Choice.EDIT:
+            return self.edited
         if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
             return self.merge.text if self.merge else None
         return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
@@ -126,11 +130,11 @@ def _outcome(
     if action.kind not in CONFLICTS:
         return action.kind, action.choice, None
     if conflict and merged == conflict.mine:  # by a preference for the user's side, which has to be remembered
-        return (Kind.KEEP, choice, None) if choice in PREFERENCES else (Kind.INCLUDED, None, None)
+        return (Kind.KEEP, choice, None) if choice in (*PREFERENCES, Choice.EDIT) else (Kind.INCLUDED, None, None)
     if choice is Choice.KEEP:
         return Kind.KEEP, choice, None
     if choice is Choice.TAKE and action.replaceable:
         return Kind.UPDATE, choice, None
-    if merged is not None and (choice in MERGES or merging):
+    if merged is not None and (choice in (*MERGES, Choice.EDIT) or merging):
         return Kind.MERGE, choice, merged
     return action.kind, choice, None

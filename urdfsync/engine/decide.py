@@ -16,6 +16,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices
+from urdfsync.engine.undo import reconsider
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.state.record import Choice
@@ -56,6 +57,7 @@ def decide_package(generation: Generation) -> Decision:
     users = {key for key, one in recorded.items() if one.is_users} - desired.keys()
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
+    actions, undone, taken_back = reconsider(generation, actions, inputs.options.choices)
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
     names = _renamed(generation) if disputed else {}
@@ -69,6 +71,7 @@ def decide_package(generation: Generation) -> Decision:
     if kept or _takes_names_away(generation):
         conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
     resolved, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    merged |= undone
     resolved, misfits = _keep_bases(generation, actions, _keep_needed(generation, resolved, merged), merged)
     actions = resolved
 
@@ -83,7 +86,8 @@ def decide_package(generation: Generation) -> Decision:
         tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
-    return msgspec.structs.replace(decision, diagnostics=(*misfits, *(warnings if decision.is_complete else ())))
+    gone = warnings if decision.is_complete else ()
+    return msgspec.structs.replace(decision, diagnostics=(*taken_back, *misfits, *gone))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -103,7 +107,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
     if mine is not None:
-        return find_conflict(action, bases, mine, generated, names)
+        found = find_conflict(action, bases, mine, generated, names)
+        return msgspec.structs.replace(found, edited=generation.inputs.options.edited.get(action.path))
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
     return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)
@@ -163,9 +168,10 @@ def _find_vanished(
     sound = dict(conflicts)
     for key in in_vain.keys() & merged.keys():
         conflict, use = sound[key], in_vain[key][0]
-        if conflict.merge and conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
+        if conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
             reason = f"the merge mentions `{use.part}`, which is no longer in the package (line {use.line})"
-            sound[key] = msgspec.structs.replace(conflict, merge=conflict.merge.rejected, rejected=reason)
+            merge = conflict.merge.rejected if conflict.merge else None
+            sound[key] = msgspec.structs.replace(conflict, merge=merge, edited=None, rejected=reason)
     return sound, tuple(vanished.warnings(generation, found))
 
 

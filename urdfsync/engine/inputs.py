@@ -16,11 +16,13 @@ from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templa
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.parents import Parents
-from urdfsync.files import shown
+from urdfsync.files import shown, text_digest
+from urdfsync.state import replaced
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
-from urdfsync.state.store import Store
+from urdfsync.state.replaced import Replaced
+from urdfsync.state.store import REPLACED, Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """Errors that a domain raises for a recorded snapshot that is none of its own."""
@@ -103,7 +105,14 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def bases(self) -> Mapping[str, str]:
         """The texts that urdfsync wrote last, by their hashes, as far as they are kept: those of edited files."""
-        return self.store.bases(self.former_name or self.robot.name)
+        kept = self.store.bases(self.former_name or self.robot.name)
+        aside = (one.base for one in self.replaced.values() if one.base)
+        return {text_digest(encode(text)): text for text in aside} | kept
+
+    @cached_property
+    def replaced(self) -> Mapping[str, Replaced]:
+        """What stood in files that the last build wrote over, by path below the package."""
+        return replaced.read(self.store.contents(REPLACED, self.former_name or self.robot.name))
 
     @property
     def has_same_generator(self) -> bool:

@@ -39,6 +39,8 @@ OnDisk: TypeAlias = str | ClassFolder | None
 """Hash of what is at a path; None for nothing."""
 
 _NEVER_WRITTEN = FileRecord()
+_AT_ONCE = frozenset({Choice.EDIT, Choice.UNDO})
+"""Choices that wait for nothing, and are not recorded."""
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
@@ -158,6 +160,8 @@ def hold(
     def waits(action: Action) -> bool:
         if not action.writes:
             return action.choice is not None and action.kind not in CONFLICTS
+        if action.choice in _AT_ONCE and not moves:
+            return False
         if moves or action.origin is not None or action.path in origins:
             return True
         if action.role is Role.IMPORT:
@@ -208,7 +212,7 @@ def _renewed(action: Action) -> FileRecord:
 
 def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
     """Return the user's choices that wait, by path and by the two texts that they were made on."""
-    waiting = (action for action in actions if action.choice and action.held)
+    waiting = (one for one in actions if one.choice and one.held and one.choice not in _AT_ONCE)
     return {(one.path, sides_hash(one.mine, one.generated)): one.choice for one in waiting if one.choice}
 
 
@@ -228,4 +232,4 @@ def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Itera
     """
     waiting = (one for one in actions if one.kind is not Kind.KEEP)
     found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in waiting}
-    return {path: choice for path, choice in found.items() if choice is not None}
+    return {path: choice for path, choice in found.items() if choice is not None and choice not in _AT_ONCE}

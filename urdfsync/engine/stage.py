@@ -18,9 +18,11 @@ from urdfsync.engine.inputs import option_values
 from urdfsync.engine.package_files import encode
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.rules import files_after, pending_choices, renewed_files
+from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
+from urdfsync.state import replaced
 from urdfsync.state.record import RESOURCES, FileRecord, Open, Record, role_of
-from urdfsync.state.store import BASE, CONFLICTS, Witness
+from urdfsync.state.store import BASE, CONFLICTS, REPLACED, Witness
 from urdfsync.state.transaction import FileChange
 
 
@@ -59,6 +61,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     aside = {path: encode(text) for version in versions for path, text in version}
     changes += store.fill(CONFLICTS, robot.name, aside, former)
     changes += store.fill(BASE, robot.name, _bases(generation, decision, record), former)
+    before = put_aside(generation, decision.actions, decision.texts)
+    changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
 
     drawing = None
     if inputs.options.draw:

@@ -49,11 +49,10 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
     @property
     def is_decided(self) -> bool:
-        """Whether there is a decision about it that has not been carried out yet."""
+        """Whether it does not conflict, but can be decided about all the same."""
         action = self.action
-        return (
-            action.kind in (Kind.MERGE, Kind.MOVE) or (action.held and action.choice is not None) or action.keeps_base
-        )
+        waits = action.held and action.choice is not None
+        return action.kind in (Kind.MERGE, Kind.MOVE) or waits or action.keeps_base or action.takes_back
 
     @property
     def merges(self) -> bool:

@@ -79,6 +79,7 @@ _ACTION_PHRASES = {
     Kind.DELETE: ("{n} to delete", "{n} deleted"),
     Kind.ADOPT: ("{n} already equal to the generated text",) * 2,
     Kind.MERGE: ("{n} to merge with your edits", "{n} merged with your edits"),
+    Kind.UNDO: ("{n} to give back as you had {them}", "{n} given back as you had {them}"),
     Kind.MOVE: ("{n} to move with your edits", "{n} moved with your edits"),
     Kind.INCLUDED: ("{n} that you edited already {have} what is new",) * 2,
     Kind.KEEP: ("{n} kept because you edited {them}",) * 2,

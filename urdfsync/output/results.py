@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 _STYLES = {
-    **dict.fromkeys((Kind.CREATE, Kind.RESTORE, Kind.ADOPT, Kind.UPDATE, Kind.MERGE, Kind.MOVE), "green"),
+    **dict.fromkeys((Kind.CREATE, Kind.RESTORE, Kind.ADOPT, Kind.UPDATE, Kind.MERGE, Kind.MOVE, Kind.UNDO), "green"),
     **dict.fromkeys((Kind.LEAVE, Kind.DELETE), "magenta"),
     **dict.fromkeys((Kind.INCLUDED, Kind.KEEP), "cyan"),
     **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), "yellow"),
     **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), "bold red"),
 }
-_ALWAYS_LISTED = (Kind.ORPHAN, Kind.NEEDED)
+_ALWAYS_LISTED = (Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.ORPHAN, Kind.NEEDED)
 _ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
 """So many changes of a model are shown at most, without --verbose."""

@@ -32,6 +32,10 @@ class Choice(enum.StrEnum):
     """Both sides' changes; where they contradict each other, the user's."""
     MERGE_GENERATED = "merge-generated"
     """Both sides' changes; where they contradict each other, the generated ones."""
+    EDIT = "edit"
+    """What the user makes of both sides in an editor; nothing, as long as there is no such text."""
+    UNDO = "undo"
+    """The user's text as it was before it was merged or replaced."""
 
 
 class FileRecord(msgspec.Struct, frozen=True):

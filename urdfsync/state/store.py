@@ -16,8 +16,9 @@ from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
 SUFFIX = ".state"
-BASE, CONFLICTS = "base", "conflicts"
-"""Folders beside the records, with one for each robot: kept texts by their hashes, and versions of what conflicts."""
+BASE, CONFLICTS, REPLACED = "base", "conflicts", "replaced"
+"""Folders beside the records, with one for each robot: kept texts by their hashes, versions of what conflicts, and what
+stood in files that the last build wrote over."""
 _FOR_GIT = {
     ".gitignore": """\
 # Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
@@ -93,12 +94,14 @@ class Store:
 
     def bases(self, robot: str) -> dict[str, str]:
         """The texts that are kept to merge edited files with, by their hashes (see `text_digest`). Safe to lose."""
-        found = {}
-        for path in self._files(self.folder / BASE / robot):
-            content = self._bytes(path)
-            if content is not None and text_digest(content) == path.name:  # it may be a stranger's, or cut short
-                found[path.name] = content.decode(errors="replace")
-        return found
+        found = self.contents(BASE, robot).items()  # one may be a stranger's, or cut short
+        return {sha256: text.decode(errors="replace") for sha256, text in found if text_digest(text) == sha256}
+
+    def contents(self, kind: str, robot: str) -> dict[str, bytes]:
+        """What is in the robot's folder of one kind, by the paths below it. Safe to lose."""
+        folder = self.folder / kind / robot
+        found = ((path.relative_to(folder).as_posix(), self._bytes(path)) for path in self._files(folder))
+        return {path: content for path, content in found if content is not None}
 
     def fill(self, kind: str, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
         """How files get to the robot's folder of one kind, by their path below it, and how all others go."""

@@ -1,0 +1,116 @@
+"""What the last build wrote over: given back to the user, and compared with what has been saved since.
+
+It is put aside in the state folder and stays there until the next build that writes. What the user had before a merge
+stays as long as the merged file is not saved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.conflicts import MERGES
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_files import encode
+from urdfsync.files import shown, text_digest
+from urdfsync.state.record import Choice
+from urdfsync.state.replaced import Replaced
+
+_MANY = 100
+"""If a build writes over more files that nobody edited, these are not put aside: it was no export, but a template."""
+
+
+def reconsider(
+    generation: Generation, actions: Iterable[Action], choices: Mapping[str, Choice]
+) -> tuple[tuple[Action, ...], dict[str, str], tuple[Diagnostic, ...]]:
+    """Undo merges, and look again at files that nothing seems to be new for.
+
+    One that was saved without what the last build had written conflicts again if the user wants it merged or edited;
+    else there is a warning. Returns the actions, the texts of what is undone by path, and the warnings.
+    """
+    inputs, found, texts = generation.inputs, list[Action](), dict[str, str]()
+    warnings = list[Diagnostic]()
+    for action in actions:
+        choice, now = choices.get(action.path), action
+        if action.mine and (action.kind is Kind.KEEP or choice is Choice.UNDO) and action.role is not Role.IMPORT:
+            one = inputs.replaced.get(inputs.path(action.path))
+            if one and choice is Choice.UNDO:
+                after = _hash(one.after) if one.after is not None else action.generated
+                if one.is_users and action.mine == after and action.base == action.generated:
+                    now = _undone(action, one)
+                    texts[action.path] = one.before
+            elif one and one.base and _takes_back(generation, action, one):
+                if choice in (*MERGES, Choice.EDIT):
+                    now = msgspec.structs.replace(action, kind=Kind.CONFLICT, base=_hash(one.base))
+                elif choice is Choice.KEEP:
+                    now = msgspec.structs.replace(action, choice=choice)
+                elif choice is None:
+                    now = msgspec.structs.replace(action, takes_back=True)
+                    warnings.append(_warning(shown(inputs.files.path(action.path))))
+        found.append(now)
+    return tuple(found), texts, tuple(warnings)
+
+
+def _undone(action: Action, one: Replaced) -> Action:
+    base = None if one.base is None else _hash(one.base)
+    return msgspec.structs.replace(
+        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=_hash(one.before), keeps_base=True
+    )
+
+
+def _takes_back(generation: Generation, action: Action, one: Replaced) -> bool:
+    """Whether a file is rather what stood there before the last build than what this build wrote, with an edit."""
+    from urdfsync.merge.edits import find_edits  # only an edited file needs it
+
+    mine = generation.inputs.files.text(action.path) or ""
+    after = generation.content(action.path).decode() if one.after is None else one.after
+    since_before, since_after = find_edits(one.before, mine), find_edits(after, mine)
+    if since_before is None or since_after is None:
+        return _hash(mine) == _hash(one.before)
+    return len(since_before) < len(since_after)
+
+
+def _warning(file: str) -> Diagnostic:
+    message = "it was saved without what the last build wrote, as by an editor that had opened it before"
+    hint = f"`urdfsync resolve {file} --merge` brings that in again, --keep leaves your file as it is"
+    return Diagnostic(Severity.WARNING, "taken-back", message, file, hint=hint)
+
+
+def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, Replaced]:
+    """Return what is put aside after a build, by path; `texts` has those of merged files by key."""
+    inputs, files = generation.inputs, generation.inputs.files
+    actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
+    new = dict(_written_over(generation, actions, texts))
+    untouched = [path for path, one in new.items() if not one.is_users]
+    for path in untouched if len(untouched) > _MANY else ():
+        del new[path]
+    found = {}
+    is_writing = any(action.writes for action in actions)
+    settled = {inputs.path(action.path) for action in actions if action.choice in (Choice.KEEP, Choice.UNDO)}
+    for path, one in inputs.replaced.items():
+        after = files.text(inputs.key(path))
+        stands = after is not None and one.after in (None, after)
+        if path not in settled and (not is_writing or (one.is_users and stands)):
+            found[path] = one
+    return found | new
+
+
+def _written_over(
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]
+) -> Iterator[tuple[str, Replaced]]:
+    inputs, files = generation.inputs, generation.inputs.files
+    for action in actions:
+        if action.writes and action.mine and action.kind in (Kind.UPDATE, Kind.MERGE) and action.origin is None:
+            before = files.text(action.path) or ""
+            base = before if action.mine == action.base else None
+            if base is None and action.base:
+                base = generation.base(action.path, action.base)
+            yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
+
+
+def _hash(text: str) -> str:
+    return text_digest(encode(text))
