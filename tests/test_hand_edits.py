@@ -12,8 +12,10 @@ import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from random import Random
+from typing import NamedTuple
 
 import pytest
+from pymoca import ast
 from pymoca import parser as pymoca
 from support import replay
 from support.hand_edits import EDITS, MARK
@@ -47,14 +49,17 @@ def steps(random: Random) -> Iterator[tuple[bytes, bytes]]:
         yield random.choice(pairs)
 
 
-def declared(text: str) -> set[str]:
-    """What a class declares, as another parser reads it."""
+def elements(text: str) -> set[str]:
+    """What a class declares, connects and extends, as another parser reads it."""
     tree = pymoca.parse(text)
     assert tree is not None
     found: set[str] = set()
     classes = list(tree.classes.values())
     for one in classes:
         found.update(one.symbols)
+        found.update(f"extends {base.component}" for base in one.extends)
+        clauses = (clause for clause in one.equations if isinstance(clause, ast.ConnectClause))
+        found.update(" -- ".join(sorted(map(str, (clause.left, clause.right)))) for clause in clauses)
         classes += one.classes.values()
     return found
 
@@ -70,7 +75,17 @@ def conflicts(result: Result) -> Sequence[tuple[str, str]]:
     return found
 
 
-def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> tuple[Result, str, Path] | None:
+class Trial(NamedTuple):
+    """A file that was edited, and built again from the next export."""
+
+    result: Result
+    base: str
+    edited: str
+    generated: str
+    path: Path
+
+
+def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> Trial | None:
     """Build an export, edit a file of the package, and build the next one; None if nothing can be edited so."""
     if any(read(version).snapshot is None for version in (old, new)):
         return None
@@ -95,7 +110,8 @@ def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> tu
     path.write_text(edited)
     project.save(new)
     result = project.build()
-    return None if result.failed else (result, edited, path)
+    generated = changed.get(path.relative_to(project.package).as_posix(), b"").decode()
+    return None if result.failed else Trial(result, text, edited, generated, path)
 
 
 def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -111,13 +127,12 @@ def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.Cap
             if done is None:
                 continue
             number += 1
-            result, edited, path = done
-            found = conflicts(result)
+            found = conflicts(done.result)
             tally[kind, "steps"] += 1
             tally[kind, found[0][0] if found else "met"] += 1
             reasons.update(f"{kind}: {why}: {what}" for why, what in found)
-            if not found and path.is_file():
-                check(edited, path.read_text())
+            if not found and done.path.is_file() and done.generated:
+                check(done, kind)
     lines = [
         f"{kind}: " + ", ".join(f"{what} {count}" for (of, what), count in sorted(tally.items()) if of == kind)
         for kind in EDITS
@@ -140,16 +155,24 @@ def test_merged_packages_compile(corpus: Path, modelica_library: Path, tmp_path:
         project = tmp_path / str(number) / "project"
         with replay.in_haste():
             done = trial(project, old, new, kind, random)
-        if done and not done[0].conflicts and any(one.kind is Kind.MERGE for one in done[0].actions):
+        if done and not done.result.conflicts and any(one.kind is Kind.MERGE for one in done.result.actions):
             merged += 1
             tasks = [compile_task(f"Bot.{model}") for model in ("BotRun", "BotTest")]
             outcomes = execute(modelica_library, [project / replay.PACKAGE], tasks)
             assert [outcome.error for outcome in outcomes] == ["", ""], (kind, project)
 
 
-def check(edited: str, merged: str) -> None:
-    """Nothing that was added by hand is lost, and the text is Modelica."""
+def check(done: Trial, kind: str) -> None:
+    """Nothing that was edited by hand is lost, and nothing that the export has; but what was renamed by hand."""
+    merged = done.path.read_text()
     assert not parse(merged).faults
-    names = {name for name in declared(edited) if name.startswith(MARK)}
-    assert names <= declared(merged)
-    assert set(re.findall(r"7171\.5|byHand\.\w+", edited)) <= set(re.findall(r"7171\.5|byHand\.\w+", merged))
+    marks = rf"7171\.5|{MARK}\.\w+"
+    assert set(re.findall(marks, done.edited)) <= set(re.findall(marks, merged))
+    base, edited, generated, now = map(elements, (done.base, done.edited, done.generated, merged))
+    if kind == "rename a part":
+        new = next(name for name in edited - base if name.startswith(MARK) and " " not in name)
+        assert new in now or new.removeprefix(f"{MARK}_") not in generated
+        return
+    assert edited - base <= now
+    assert generated <= now
+    assert base - generated <= base - now

@@ -37,3 +37,12 @@ def test_the_tutorial(folder: Path, execute: Execute) -> None:
                 done = execute(*arguments, code=None)
                 pattern = re.escape(printed).replace(re.escape("    …\n"), "(?:.*\n)*")
                 assert re.fullmatch(pattern, done.out + done.err), command
+
+
+def test_the_readme_shows_what_the_tutorial_does() -> None:
+    shown = [text for kind, text in _BLOCK.findall((PAGE.parents[1] / "README.md").read_text()) if kind == "console"]
+    told = PAGE.read_text()
+    assert len(shown) == 2
+    for block in shown:
+        for command, printed in commands(block):
+            assert f"$ {command}\n{printed}" in told

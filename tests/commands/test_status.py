@@ -192,3 +192,15 @@ def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     shown = said(found)
     assert shown[2] == "  next build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
     assert sum("waits until the conflicts are resolved" in line for line in shown) == 2
+
+
+def test_robots_are_meant_by_their_sources_and_outputs_too(built: Path, execute: Execute) -> None:
+    Path("other.json").write_text(Path("ladder.json").read_text())
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
+    ladder, other = "ladder: in step, 14 files", "other: not built yet"
+    for arguments in (["ladder"], ["ladder.json"], [LADDER], [f"{LADDER}/Elements/R1.mo"]):
+        assert execute("status", *arguments).lines == [ladder]
+    assert execute("status", "modelica", "ladder.json").lines[:2] == [ladder, other]
+    assert execute("status", "ladder", "other.json").lines[:2] == [ladder, other]
+    assert "no robot `laddr.json`" in execute("status", "laddr.json", code=2).err

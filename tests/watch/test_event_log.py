@@ -164,7 +164,10 @@ SAID: dict[str, Case] = {
                 changes=Changes((change("link tool", "tool", "gripper", kind=Event.RENAMED),)),
             ),
         ),
-        [f"{TIME}arm  link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits"],
+        [
+            f"{TIME}arm  link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits",
+            "  move       modelica/Arm/Links/Wrist.mo  its element was renamed; your edits move here",
+        ],
     ),
     "nothing is said of files that stay": (
         (built(action(Kind.KEEP), action(Kind.UNCHANGED), changes=HEAVIER),),

@@ -52,7 +52,11 @@ def count(text: str) -> int:
 
 
 _SHARED: Mapping[str, dict[str, Any]] = {
-    "robots": {"nargs": "*", "metavar": "ROBOT", "help": "robots of urdfsync.toml (default: all)"},
+    "robots": {
+        "nargs": "*",
+        "metavar": "ROBOT",
+        "help": "robots of urdfsync.toml, their sources or outputs (default: all)",
+    },
     "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
 
+from urdfsync.config.paths import working_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Target
 from urdfsync.files import shown
@@ -67,6 +69,10 @@ class RobotConfig(msgspec.Struct, frozen=True):
         """The folder of the generated package."""
         return self.output.joinpath(*self.target.package.split("."))
 
+    def is_at(self, place: Path) -> bool:
+        """Whether a path is the robot's source, or is in its package or around it."""
+        return place == self.source or place.is_relative_to(self.folder) or self.folder.is_relative_to(place)
+
 
 class Config(msgspec.Struct, frozen=True):
     """A configuration file and its robots, in the order of the file."""
@@ -82,12 +88,20 @@ class Config(msgspec.Struct, frozen=True):
         return self.file.parent
 
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
-        """The robots of these names, or all for none. Raises ConfigError for a name that no robot has."""
-        known = [robot.name for robot in self.robots]
+        """The robots that are meant, or all for none: by their names, their sources, or what their packages are in.
+
+        Raises ConfigError for what means no robot.
+        """
+        found = {robot.name for robot in self.robots if not names}
         for name in names:
-            if name not in known:
+            meant = [robot.name for robot in self.robots if robot.name == name]
+            place = Path(os.path.normpath(working_folder() / name))
+            meant = meant or [robot.name for robot in self.robots if robot.is_at(place)]
+            if not meant:
+                known = [robot.name for robot in self.robots]
                 near = nearest(name, known)
                 hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
-        return tuple(robot for robot in self.robots if not names or robot.name in names)
+            found.update(meant)
+        return tuple(robot for robot in self.robots if robot.name in found)

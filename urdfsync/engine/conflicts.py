@@ -88,7 +88,8 @@ def find_conflict(
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
     kept = rename(base, mine, without_clashes(names, mine))[1] if names and base and action.origin else mine
-    return Conflict(action.path, action.owner, base, mine, generated, first, action.origin, kept, rejected)
+    texts = base, mine, generated, first
+    return Conflict(action.path, action.owner, *texts, origin=action.origin, kept=kept, rejected=rejected)
 
 
 def resolve(

@@ -111,7 +111,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         return msgspec.structs.replace(found, edited=generation.inputs.options.edited.get(action.path))
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
-    return Conflict(action.path, action.owner, base, package, generated, None, action.origin, reason)
+    texts = base, package, generated, None
+    return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
 
 
 def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple[Action, ...]:

@@ -87,7 +87,7 @@ def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Ite
     )
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
-        actions = [action for action in actions if action.kind in _ALWAYS_LISTED]
+        actions = [action for action in actions if action.kind in _ALWAYS_LISTED and not action.held]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         why = reason(action, result.changes, brief=True)
         yield file_line(shown_path(result, action.path), *action_word(action), why)
