@@ -12,7 +12,7 @@ import shutil
 import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from random import Random
 from typing import Any
 
@@ -184,11 +184,12 @@ def bind(file: Path) -> None:
 def contents(project: Path) -> Mapping[str, bytes | None]:
     """All files and folders of a project, but for the lock; folders have no content.
 
-    Of the kept bases, those count that the recorded files need: others may be left of an earlier build.
+    Of the kept bases, those count that the recorded files need: others may be left of an earlier build. So may what
+    files were replaced.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = (".urdfsync/lock", ".urdfsync/base")
-    names = [name for name in found if name not in left_out and not name.startswith(".urdfsync/base/")]
+    left_out = {".urdfsync/lock", ".urdfsync/base", ".urdfsync/replaced"}
+    names = [name for name in found if left_out.isdisjoint((name, *map(str, PurePosixPath(name).parents)))]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
     return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
