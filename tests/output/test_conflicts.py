@@ -75,10 +75,13 @@ def test_what_each_side_changed_and_what_to_do() -> None:
         "    you         comments: changed",
         "    the export  component `b`: b 2 → 3",
         "",
-        f"    saved: {SAVED}.base.mo, {SAVED}.generated.mo, {SAVED}.merge.mo",
+        f"    saved: {SAVED}.base.mo, {SAVED}.generated.mo,",
+        f"    {SAVED}.merge.mo",
         "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
-        "    --merge takes both sides' changes; --keep leaves your file as it is; --take replaces it by the",
-        "    generated one",
+        "      --merge  both sides' changes",
+        "      --edit   both in your merge tool, or in your editor",
+        "      --keep   your file as it is",
+        "      --take   the generated file",
     ]
 
 
@@ -116,8 +119,7 @@ def test_of_a_contradiction_nothing_else_is_shown() -> None:
 
 
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")
-SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --keep"
-PUT = "first put into it what you want of both"
+SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
 
 
 @pytest.mark.parametrize(
@@ -126,12 +128,12 @@ PUT = "first put into it what you want of both"
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Kind.CONFLICT),
             f"{CHANGED} The changes fit together, but the merge declares `x` twice.",
-            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --keep --keep leaves your file as it is: {PUT}",
+            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your merge tool, or in your editor",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.UNOWNED),
             "urdfsync did not write the file that is there. There is no base, so nothing can be merged.",
-            f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep",
+            f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --take",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.CONFLICT),
@@ -141,12 +143,12 @@ PUT = "first put into it what you want of both"
         (
             *(NEW_NAME, Kind.CONFLICT),
             f"Its element was renamed: it will be moved to {ELBOW}.",
-            f"{SHOULDER} --keep moves your file as it is: {PUT}, and its new name; --merge --prefer",
+            f"{SHOULDER} --merge --prefer mine both sides' changes, yours (or generated) in doubt --edit",
         ),
         (
             *(rejected(None, FOLDER), Kind.CONFLICT),
             f"{CHANGED} You made a folder of the class.",
-            f"--keep leaves your file as it is: {PUT}",
+            f"urdfsync resolve {ELBOW} --keep --keep your file as it is",
         ),
     ],
     ids=["no model", "a file of the user's", "a lost base", "another name", "a folder"],
@@ -157,7 +159,7 @@ def test_why_a_merge_is_not_offered(found: Conflict, kind: Kind, reason: str, af
     assert lines[2].endswith(reason)
     words = " ".join(" ".join(lines).split())
     assert after in words
-    assert "--merge takes" not in words
+    assert "--merge both sides" not in words
     assert ("--take" in words) is (found.rejected != FOLDER)
 
 
@@ -169,7 +171,8 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
         f"  conflict   {path}  package://arm/hand.stl",
         f"    {CHANGED} It is not a text, so it can't be merged.",
         f"    urdfsync resolve {path} --keep",
-        "    --keep leaves your file as it is; --take replaces it by the generated one",
+        "      --keep  your file as it is",
+        "      --take  the generated file",
     ]
 
 
@@ -189,7 +192,7 @@ def test_long_differences_are_cut() -> None:
     lines = seen(found)
     (cut,) = [line for line in lines if "more line" in line]
     assert cut == f"    … {401 - LINES} more lines; see .urdfsync/conflicts/arm/Elbow.merge.mo"
-    assert len(lines) < LINES + 12
+    assert len(lines) < LINES + 15
     assert len(seen(found, verbose=True)) > 400
 
 

@@ -249,7 +249,7 @@ def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     elif choice in (*MERGES, Choice.EDIT) and target.action.kind is Kind.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
-    elif choice is Choice.EDIT and target.texts is None and not target.is_decided:
+    elif choice is Choice.EDIT and not (target.replaceable and (target.texts or target.is_decided)):
         message, hint = f"it can't be edited: {describe(target)}", "use --keep or --take"
     elif choice in MERGES and not target.offers(choice):
         message = f"it can't be merged: {describe(target)}"

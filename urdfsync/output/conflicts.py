@@ -158,22 +158,30 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
             yield line((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
         yield line(("", ""))
         if not result.dry:
-            yield line((f"    saved: {', '.join(saved.values())}", "dim"))
-    keep = "--keep moves your file as it is" if action.origin else "--keep leaves your file as it is"
-    if target.texts and not target.merges:
-        keep += f": first put into it what you want of both{', and its new name' if action.origin else ''}"
-    choices = [keep]
-    if target.merges:
-        choices.insert(0, "--merge takes both sides' changes")
-    elif target.offers(Choice.MERGE_MINE):
-        choices.insert(
-            1, "--merge --prefer mine (or generated) takes both sides' changes, and one side where they contradict"
-        )
-    if target.replaceable:
-        choices.append("--take replaces it by the generated one")
+            yield from _paragraph(f"saved: {', '.join(saved.values())}", "dim", screen)
+    choices = _choices(target)
+    width = max(map(len, choices))
     typed = f"./{name}" if name.startswith("-") else name
-    yield line((f"    {_command([typed, choices[0].partition(' ')[0]], console)}", "bold"))
-    yield from _paragraph("; ".join(choices), "dim", screen)
+    yield line((f"    {_command([typed, *next(iter(choices)).split()], console)}", "bold"))
+    for choice, words in choices.items():
+        yield line((f"      {choice:<{width}}  {words}", "dim"))
+
+
+def _choices(target: DisputedFile) -> dict[str, str]:
+    """The options that settle a conflict, the best one first, and what they do."""
+    found = {}
+    if target.merges:
+        found["--merge"] = "both sides' changes"
+    elif target.offers(Choice.MERGE_MINE):
+        found["--merge --prefer mine"] = "both sides' changes, yours (or generated) in doubt"
+    if target.texts and target.texts.merge and target.replaceable:
+        found["--edit"] = "both in your merge tool, or in your editor"
+    found["--keep"] = "your file as it is"
+    if target.action.origin:
+        found["--keep"] += ", under its new name"
+    if target.replaceable:
+        found["--take"] = "the generated file"
+    return found
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
