@@ -415,6 +415,15 @@ def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: 
     assert Path(MODEL).read_text() == both
 
 
+def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    edit("ladder.json", '"C1"', '"C3"')
+    execute("build", "--merge")
+    assert "it mentions `C1`" in execute("resolve", MODEL, "--undo").err
+    assert "it mentions `C1`" in execute("build").err
+
+
 def test_the_next_export_merges_what_was_undone_too(merged: Path, execute: Execute) -> None:
     execute("resolve", MODEL, "--undo")
     more("R4")

@@ -23,6 +23,8 @@ from urdfsync.state.record import Choice
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
+_KEPT = frozenset({Kind.KEEP, Kind.MOVE, Kind.UNDO})
+"""Actions by which the user's choice leaves him his own text."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
 
@@ -197,7 +199,7 @@ def _keep_bases(
     kept = {
         one.path: one
         for one in actions
-        if one.choice is Choice.KEEP and one.kind in (Kind.KEEP, Kind.MOVE) and one.role is not Role.IMPORT
+        if one.choice in (Choice.KEEP, Choice.UNDO) and one.kind in _KEPT and one.role is not Role.IMPORT
     }
     if not kept:
         return tuple(actions), ()
