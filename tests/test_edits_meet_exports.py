@@ -1,0 +1,124 @@
+"""What people do in a month: edits in every model of a package, and then the next export of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+import pytest
+from support.commands import Execute
+from support.hand_edits import EDITS, MARK
+from support.modelica import compile_task
+from support.modelica import execute as compile_all
+from support.printer import STYLES, Style, resaved
+
+PACKAGE = Path("modelica/Arm")
+MODELS = ("Links/Upper_arm.mo", "Joints/Shoulder.mo", "Arm.mo", "ArmRun.mo", "ArmTest.mo")
+INERTIA = '<inertia ixx="0.01" iyy="0.06" izz="0.06" ixy="0" ixz="0" iyz="0"/>'
+
+
+def link(name: str, mass: str = "11.5", more: str = "") -> str:
+    origin = '<origin xyz="0.2 0 0"/>'
+    return f'<link name="{name}"><inertial>{origin}<mass value="{mass}"/>{INERTIA}</inertial>{more}</link>\n'
+
+
+def joint(name: str, parent: str, child: str, more: str = "") -> str:
+    ends = f'<parent link="{parent}"/><child link="{child}"/><origin xyz="0.4 0 0"/><axis xyz="0 1 0"/>'
+    limit = '<limit lower="-2" upper="2" effort="80" velocity="3"/>'
+    return f'<joint name="{name}" type="revolute">{ends}{limit}{more}</joint>\n'
+
+
+def export(*elements: str) -> None:
+    Path("arm.urdf").write_text(f'<robot name="arm">\n<link name="base"/>\n{"".join(elements)}</robot>\n')
+
+
+ARM = (
+    *(link("upper_arm"), link("forearm")),
+    *(joint("shoulder", "base", "upper_arm"), joint("elbow", "upper_arm", "forearm")),
+)
+VISUAL = '<visual><geometry><box size="0.4 0.05 0.05"/></geometry></visual>'
+LARGER = (
+    *(link("upper_arm", more=VISUAL), link("forearm"), link("hand")),
+    joint("shoulder", "base", "upper_arm", '<dynamics damping="0.5" friction="0.1"/>'),
+    *(joint("elbow", "upper_arm", "forearm"), joint("wrist", "forearm", "hand")),
+)
+"""What is new in it adds to each model: a visual, friction, a link with its joint, a drive."""
+
+
+@pytest.fixture
+def arm(folder: Path, execute: Execute) -> Path:
+    """A project with an arm of two links, which is built."""
+    export(*ARM)
+    execute("init", "arm.urdf", "--merge")
+    execute("build")
+    return folder
+
+
+def edit_all(edit: Callable[[str, Random], str | None]) -> dict[str, str]:
+    """Edit every model; their texts then."""
+    edited = {name: edit((PACKAGE / name).read_text(), Random(3)) for name in MODELS}
+    texts = {name: text for name, text in edited.items() if text is not None}
+    for name, text in texts.items():
+        (PACKAGE / name).write_text(text)
+    return texts
+
+
+def assert_larger() -> None:
+    """Every model has what the larger arm adds."""
+    new = ("visual", "friction", "Joints.Wrist wrist", "wrist_phi", "wrist")
+    for name, words in zip(MODELS, new, strict=True):
+        assert words in (PACKAGE / name).read_text(), name
+
+
+@pytest.mark.parametrize("kind", ["add a component", "add an equation", "move a part", "save again in another style"])
+def test_what_a_hand_adds_moves_or_saves_again_meets_what_cad_adds(arm: Path, execute: Execute, kind: str) -> None:
+    edited = edit_all(EDITS[kind])
+    assert len(edited) == len(MODELS)
+    export(*LARGER)
+    assert f"{len(MODELS)} merged with your edits" in execute("build").lines[0]
+    assert_larger()
+    for name, text in edited.items():
+        now = (PACKAGE / name).read_text()
+        for line in text.splitlines():
+            assert MARK not in line or line in now.splitlines(), name
+
+
+@pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
+def test_what_an_editor_saves_again_is_no_edit_of_a_name_or_number(arm: Path, execute: Execute, style: Style) -> None:
+    edit_all(lambda text, _: resaved(text, style))
+    export(*LARGER)
+    assert "conflict" not in execute("build").lines[0]
+    assert_larger()
+
+
+def test_a_mass_by_hand_meets_the_rounding_of_cad(arm: Path, execute: Execute) -> None:
+    record = PACKAGE / "Links/Upper_armParameters.mo"
+    record.write_text(record.read_text().replace("mass = 11.5", "mass = 99"))
+    export(link("upper_arm", "11.50000001"), *ARM[1:])
+    execute("build")
+    assert "mass = 99" in record.read_text()
+
+
+def test_what_is_kept_compiles(arm: Path, execute: Execute, modelica_library: Path) -> None:
+    robot = PACKAGE / "Arm.mo"
+    robot.write_text(robot.read_text().replace('"Link \\"forearm\\""', '"The light one"'))
+    assert "The light one" in robot.read_text()
+    export(link("upper_arm"), link("hand"), joint("shoulder", "base", "upper_arm"), joint("wrist", "upper_arm", "hand"))
+    execute("build", code=3)
+    execute("resolve", "--all", "--keep")
+    assert (PACKAGE / "Links/Forearm.mo").exists()
+    (outcome,) = compile_all(modelica_library, [PACKAGE.absolute()], [compile_task("Arm.Arm")])
+    assert not outcome.error
+
+
+@pytest.mark.slow
+def test_what_met_compiles(arm: Path, execute: Execute, modelica_library: Path) -> None:
+    for kind in ("add a component", "add an equation", "move a part", "save again in another style"):
+        edit_all(EDITS[kind])
+    export(*LARGER)
+    execute("build")
+    assert_larger()
+    tasks = [compile_task(f"Arm.{name}") for name in ("ArmRun", "ArmTest")]
+    outcomes = compile_all(modelica_library, [PACKAGE.absolute()], tasks)
+    assert [outcome.error for outcome in outcomes] == ["", ""]
