@@ -100,6 +100,7 @@ def test_a_mass_by_hand_meets_the_rounding_of_cad(arm: Path, execute: Execute) -
     assert "mass = 99" in record.read_text()
 
 
+@pytest.mark.slow
 def test_what_is_kept_compiles(arm: Path, execute: Execute, modelica_library: Path) -> None:
     robot = PACKAGE / "Arm.mo"
     robot.write_text(robot.read_text().replace('"Link \\"forearm\\""', '"The light one"'))

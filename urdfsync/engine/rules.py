@@ -217,12 +217,16 @@ def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
 
 
 def kept_choices(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the choice to keep files that stay beside a generated text which is still the same, by path."""
-    return {
-        one.path: Choice.KEEP
-        for one in actions
-        if one.kind in CONFLICTS and one.generated and recorded.get(one.path, _NEVER_WRITTEN).kept == one.generated
-    }
+    """Return the choice to keep files that stay beside a generated text which is still the same, by path.
+
+    Not where git has united two states: an edited file with an ambiguous base is never kept in silence.
+    """
+    found = {}
+    for action in actions:
+        record = recorded.get(action.path, _NEVER_WRITTEN)
+        if action.kind in CONFLICTS and record.kept and record.kept == action.generated and not record.is_ambiguous:
+            found[action.path] = Choice.KEEP
+    return found
 
 
 def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
