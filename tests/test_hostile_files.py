@@ -45,7 +45,7 @@ COMMANDS = st.sampled_from(
         *map(str.split, ("build", "build", "build", "build --full", "build --check", "build --dry-run", "build --svg")),
         *map(str.split, ("build --json", "build bot", "status", "status --verbose", "status --json", "diff")),
         *map(str.split, ("diff --since-build", "hook check", "hook build", "resolve --all --keep", "init bot.urdf")),
-        *map(str.split, ("resolve --all --merge", f"resolve {MODEL} --keep")),
+        *map(str.split, ("resolve --all --merge", f"resolve {MODEL} --keep", "remove bot --yes")),
         WATCH,
     ]
 )
@@ -113,7 +113,8 @@ def run_one(work: Workplace, command: Sequence[str]) -> None:
     for name in changes(before, after):
         is_output = name.endswith((".mo", "package.order")) or "/Resources/" in name or after.get(name) == "folder"
         is_state = f"{name}/".startswith((".urdfsync/", "modelica/Bot/", ".git/index"))
-        assert is_state or (is_output and not name.startswith(".git/")), (command, name)
+        is_configuration = command[0] == "remove" and name == "urdfsync.toml"
+        assert is_state or is_configuration or (is_output and not name.startswith(".git/")), (command, name)
 
 
 # Configurations

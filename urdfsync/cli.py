@@ -23,6 +23,7 @@ from urdfsync.output.console import Console
 _COMMANDS = (
     "init",
     "add",
+    "remove",
     "build",
     "diff",
     "status",

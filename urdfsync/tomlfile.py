@@ -82,8 +82,16 @@ def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> It
 def key_lines(text: str) -> dict[tuple[str, ...], int]:
     """The line, counted from 1, at which each key or table first stands, by its full path."""
     found: dict[tuple[str, ...], int] = {}
+    for number, (_, path) in enumerate(_paths(text), start=1):
+        for length in range(1, min(len(path), DEEPEST) + 1):
+            found.setdefault(path[:length], number)
+    return found
+
+
+def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
+    """Whether each line opens a table, and the full path of the table or key in it; else that of the table around."""
     header: tuple[str, ...] = ()
-    for number, line in enumerate(text.split("\n"), start=1):
+    for line in text.split("\n"):
         opening = _HEADER.match(line)
         end, more = opening.end() if opening else 0, "."
         keys: tuple[str, ...] = ()
@@ -95,12 +103,41 @@ def key_lines(text: str) -> dict[tuple[str, ...], int]:
             keys, end = (*keys, quoted or literal or bare or ""), part.end()
         if more or line[end : end + 1] not in ("=", "]"):
             keys = ()  # the line neither sets a key nor opens a table
-        path = keys if opening else header + keys
+        yield bool(opening and keys), keys if opening else header + keys
         if opening:
             header = keys
-        for length in range(1, min(len(path), DEEPEST) + 1):
-            found.setdefault(path[:length], number)
-    return found
+
+
+def without_table(text: str, *table: str) -> str:
+    """The text without a table and those inside of it.
+
+    Comments that touch a table go along. Those behind a blank line at its end stay: they belong to what follows.
+    """
+    lines, paths = re.findall(r"[^\n]*\n|[^\n]+", text), list(_paths(text))
+    starts = [number for number, (opens, _) in enumerate(paths) if opens]
+    begins = []  # of each table, with the comments above it
+    for start in starts:
+        while start and _is_comment(lines[start - 1]):
+            start -= 1
+        begins.append(start)
+    kept = lines[: min(begins, default=len(lines))]
+    for start, begin, end in zip(starts, begins, [*begins, len(lines)][1:], strict=True):
+        part = lines[begin:end]
+        if paths[start][1][: len(table)] == table:
+            last = max(
+                number for number in range(start, end) if lines[number].strip() and not _is_comment(lines[number])
+            )
+            part = lines[last + 1 : end]
+            blank = next((number for number, line in enumerate(part) if not line.strip()), len(part))
+            part = part[blank + 1 :]
+            while end == len(lines) and not part and kept and not kept[-1].strip():
+                kept.pop()
+        kept += part
+    return "".join(kept)
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith("#")
 
 
 def nearest(lines: dict[tuple[str, ...], int], *path: str) -> int:

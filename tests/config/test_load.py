@@ -131,7 +131,6 @@ OTHER_MISTAKES = {
     robot("x = " + "[" * 5000 + "]" * 5000): DEEP,
     ".".join(["a"] * 5000) + " = 1": DEEP,
     robot("x = " + "{a=" * 300 + "1" + "}" * 300): DEEP,
-    "": " the configuration has no robot; add a table `[robots.NAME]` with `source` and `package` [no-robots]",
 }
 """By the whole text, with the place in it; some messages only as they begin."""
 URDF_MISTAKES = {

@@ -122,8 +122,8 @@ def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda 
     assert os.WTERMSIG(status) == signal.SIGKILL
 
 
-def forked(project: Path, hook: Hook) -> int:
-    """Build in another process, whose number comes back; its exit code is 1 if the build fails."""
+def forked(project: Path, hook: Hook, work: Callable[[Path], int] = lambda project: run(project).failed) -> int:
+    """Build, or do other work, in another process, whose number comes back; its exit code is that of the work."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # the test runner's threads do not matter to the child
         child = os.fork()
@@ -132,7 +132,7 @@ def forked(project: Path, hook: Hook) -> int:
         code = 1
         try:
             with before_each(hook):
-                code = int(run(project).failed)
+                code = work(project)
         finally:
             os._exit(code)
     return child

@@ -118,9 +118,6 @@ class _Reader:
         """Every robot whose table is right."""
         self._refuse_unknown(self._table("the configuration", self._document), {"check", "defaults", "robots"})
         defaults, robots = self._subtable("defaults"), self._subtable("robots")
-        if not robots and not self.problems:
-            hint = "add a table `[robots.NAME]` with `source` and `package`"
-            self._report("no-robots", 0, "the configuration has no robot", hint)
         known = set(_KEY_NAMES)
         for name, values in robots.items():
             if not isinstance(values, dict):

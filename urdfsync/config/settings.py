@@ -90,8 +90,11 @@ class Config(msgspec.Struct, frozen=True):
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
         """The robots that are meant, or all for none: by their names, their sources, or what their packages are in.
 
-        Raises ConfigError for what means no robot.
+        Raises ConfigError for what means no robot, and if there is none.
         """
+        if not self.robots:
+            message, hint = "the configuration has no robot", "`urdfsync add SOURCE` adds one"
+            raise ConfigError(Diagnostic(Severity.ERROR, "no-robots", message, shown(self.file), hint=hint))
         found = {robot.name for robot in self.robots if not names}
         for name in names:
             meant = [robot.name for robot in self.robots if robot.name == name]

@@ -149,9 +149,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def changes(self) -> Changes | None:
-        """What changed since the last complete build; None if that is not known."""
+        """What changed since the last complete build; None if that is not known, and for a robot that is removed."""
         inputs = self.inputs
-        if inputs.last is None:
+        if inputs.last is None or inputs.options.removes:
             return None
         try:
             found = changes.compare(inputs.last, self.now, inputs.domain, inputs.robot.options, self.renames)
@@ -213,6 +213,10 @@ def generate_robot(inputs: Inputs) -> Generation:
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
     domain, robot, options = inputs.domain, inputs.robot, inputs.options
+    last_packages = tuple(_recorded_packages(inputs, inputs.record.snapshots if inputs.record else ()))
+    if options.removes:
+        nothing = Package((), inputs.templates, robot.target.package)
+        return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, last_packages, frozenset())
     snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source))
     found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
     imported = imports.bring_in(
@@ -224,7 +228,6 @@ def generate_robot(inputs: Inputs) -> Generation:
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
     now = Version(snapshot, imported.imports)
-    last_packages = tuple(_recorded_packages(inputs, inputs.record.snapshots if inputs.record else ()))
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
     is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written

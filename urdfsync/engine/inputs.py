@@ -187,14 +187,14 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     """Read all that a build of a robot starts from. Raises UrdfsyncError for whatever is wrong with it."""
     domain = registry.domain(robot.domain)
     files = PackageFiles(config, robot)
-    around = parents.check(config, robot, domain.uses(robot.options))
+    around = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
     store, folder = Store(config.root), files.key(robot.folder)
     record, former = store.load(robot.name, strict=not options.full), None
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
         record = store.load(former) if former else None
     templates = source.templates(config, robot, domain)
-    content = source.read_source(config, robot)
+    content = b"" if options.removes else source.read_source(config, robot)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"

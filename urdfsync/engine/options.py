@@ -29,6 +29,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write to outputs outside of the configuration's folder, too."""
     compares_state: bool = False
     """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
+    removes: bool = False
+    """Take the robots' packages and records away, as if their sources gave nothing any more."""
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
     package_paths: tuple[Path, ...] = ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -55,13 +56,13 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
     if inputs.options.dry and not inputs.options.compares_state:
         return plan
-    record = _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
-    changes = _file_changes(generation, decision, record)
+    record = _record(generation, decision)
+    changes = _file_changes(generation, decision, record.files if record else {})
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
     aside = {path: encode(text) for version in versions for path, text in version}
     changes += store.fill(CONFLICTS, robot.name, aside, former)
-    changes += store.fill(BASE, robot.name, _bases(generation, decision, record), former)
-    before = put_aside(generation, decision.actions, decision.texts)
+    changes += store.fill(BASE, robot.name, _bases(generation, decision, record) if record else {}, former)
+    before = put_aside(generation, decision.actions, decision.texts) if record else {}
     changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
 
     drawing = None
@@ -85,8 +86,18 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     )
 
 
-def _file_changes(generation: Generation, decision: Decision, record: Record) -> list[FileChange]:
-    """Return the changes of the package's files, but for those in which other robots may have a part."""
+def _record(generation: Generation, decision: Decision) -> Record | None:
+    """Return the record after a build; None for a robot that is removed."""
+    if generation.inputs.options.removes:
+        return None
+    return _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
+
+
+def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[str, FileRecord]) -> list[FileChange]:
+    """Return the changes of the package's files, but for those in which other robots may have a part.
+
+    `recorded` are the records of the files afterwards.
+    """
     files, found = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
@@ -94,7 +105,7 @@ def _file_changes(generation: Generation, decision: Decision, record: Record) ->
             content = None if action.kind in DELETES else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            old, file = state.sha256 if state else None, record.files.get(action.path)
+            old, file = state.sha256 if state else None, recorded.get(action.path)
             found.append(FileChange(files.path(action.path), content, old, is_moved, file))
     return found
 

@@ -289,9 +289,12 @@ def _declared(texts: Iterable[str]) -> frozenset[str]:
 def code_words(text: str) -> set[str]:
     """Return all names and keywords in a text, without those in strings and comments, and without the classes in it.
 
-    An edited file whose element has another name may still declare its class by the old one. The text need not parse.
+    Left out are the packages that it stands in, too: one may be called like the robot's model. An edited file whose
+    element has another name may still declare its class by the old one. The text need not parse.
     """
     found = [token.text for token in lex(text)[0]]
+    if found[:1] == ["within"]:
+        found = found[[*found, ";"].index(";") :]
     return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
 
 

@@ -116,11 +116,17 @@ class Store:
         """All files below a folder. Raises OutputError for a link to it, which may lead to all of the disk."""
         return sorted(map(Path, walk_files(folder))) if self._tree.check_folder(folder) else []
 
-    def changes(self, robot: str, record: Record, former: str | None) -> Iterator[FileChange]:
-        """How the new record gets to the disk; `former` is the robot's name in the record that was loaded."""
-        path, content = self.path(robot), statefile.dumps(record).encode()
-        old = self._bytes(path) or b""
-        if content != (old.replace(b"\r\n", b"\n") if b"\r" in old else old):
+    def changes(self, robot: str, record: Record | None, former: str | None) -> Iterator[FileChange]:
+        """How the new record gets to the disk, or how the old one goes if there is none.
+
+        `former` is the robot's name in the record that was loaded.
+        """
+        path, content = self.path(robot), statefile.dumps(record).encode() if record else None
+        drawing = self._drawing(robot)
+        if record is None and self._bytes(drawing) is not None:
+            yield self._change(drawing, None)
+        old = self._bytes(path)
+        if content != (old.replace(b"\r\n", b"\n") if old and b"\r" in old else old):
             yield self._change(path, content)
         if former and self._bytes(self.path(former)) is not None:
             yield self._change(self.path(former), None)
@@ -132,8 +138,11 @@ class Store:
 
     def drawing(self, robot: str, text: str) -> tuple[Path, list[FileChange]]:
         """Where the robot's diagram goes, and how it gets there."""
-        path = self.folder / "svg" / f"{robot}.svg"
+        path = self._drawing(robot)
         return path, [self._change(path, text.encode())] if self._bytes(path) != text.encode() else []
+
+    def _drawing(self, robot: str) -> Path:
+        return self.folder / "svg" / f"{robot}.svg"
 
     def path(self, robot: str) -> Path:
         """The file of the robot's record."""

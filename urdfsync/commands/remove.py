@@ -1,0 +1,124 @@
+"""`urdfsync remove`: takes a robot out of the configuration, with its package as far as that is untouched."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfsync import tomlfile
+from urdfsync.commands import arguments
+from urdfsync.commands.init import write_errors
+from urdfsync.config import Config
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.build import build
+from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import rewrite, shown
+from urdfsync.output.conflicts import shown_path
+from urdfsync.output.console import Console, StyledLine, first_lines
+from urdfsync.output.phrases import action_counts
+from urdfsync.output.results import action_word, file_line, headline, show_result
+
+_STAYS = (Kind.ORPHAN, Kind.NEEDED)
+_FILES = 20
+"""So many files that go are listed at most, without --verbose."""
+
+
+def add(commands: arguments.Commands) -> None:
+    """Add the command's parser."""
+    parser = arguments.add_command(
+        commands,
+        "remove",
+        run,
+        "--wait --trust",
+        help="take a robot out of urdfsync.toml, with its package",
+        description="Take a robot's table out of urdfsync.toml, with all files of its package that nobody edited, its "
+        "line in the package.order around, and its recorded state. What goes is shown before. Files that you edited, "
+        "or that your own files need, stay.",
+        epilog="example: urdfsync remove gripper --dry-run",
+    )
+    parser.add_argument("robot", metavar="ROBOT", help="the robot of urdfsync.toml that leaves")
+    mode = parser.add_mutually_exclusive_group()
+    mode.add_argument("--dry-run", action="store_true", help="say what would go, write nothing")
+    mode.add_argument("--yes", action="store_true", help="do not ask")
+
+
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Show what goes, ask, and take it away: package and recorded state first, then the table."""
+    configuration = arguments.configuration(args)
+    robots = configuration.select([args.robot])
+    if len(robots) > 1:
+        raise arguments.UsageError(args.parser, f"{args.robot!r} means {len(robots)} robots: name one")
+    name = robots[0].name
+    _without_robot(configuration, name)  # refuses a table that can't be taken out
+    if not args.yes:
+        (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
+        _show(console, result, f"its table in {shown(configuration.file)} goes", with_files=True)
+    if args.yes or not (args.dry_run or result.failed or not _is_confirmed(console)):
+        # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
+        for result in build(configuration, robots, arguments.request(args, console, removes=True)):
+            if not result.failed:
+                with write_errors(configuration.file):
+                    rewrite(configuration.file, _without_robot(configuration, name))
+            _show(console, result, "removed", with_files=args.yes)
+    code = exit_code([result])
+    console.end("remove", code)
+    return code
+
+
+def _show(console: Console, result: Result, words: str, *, with_files: bool) -> None:
+    """Show what was done, or would be."""
+    if console.json or result.failed:
+        show_result(console, result)
+        return
+    console.findings(result.diagnostics if with_files else ())
+    if not console.quiet:
+        console.print([headline(result, "; ".join([words, *action_counts(result, _STAYS)]), is_fine=True)])
+        console.print(_lines(result, console.verbose) if with_files else ())
+
+
+def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
+    """Yield the files that go or change, and those that stay."""
+    changed = [action for action in result.actions if action.writes]
+    lines = [file_line(shown_path(result, one.path), *action_word(one)) for one in changed]
+    yield from first_lines(lines, _FILES, "file", verbose=verbose)
+    paths = {os.path.normpath(result.root / one.path) for one in changed}
+    kept = (action for action in result.actions if action.kind in _STAYS)
+    reasons = {os.path.normpath(result.root / one.path): _reason(one) for one in kept}
+    there = {str(path) for path in result.folder.rglob("*") if not path.is_dir()}
+    for path in sorted(there.union(reasons) - paths):
+        yield file_line(shown(Path(path)), "stays", "yellow", reasons.get(path, "urdfsync did not write it"))
+
+
+def _reason(action: Action) -> str:
+    """Why a file stays."""
+    if action.kind is Kind.NEEDED:
+        return "your own files need it"
+    return "you edited it" if action.mine != action.base else "it is in a former folder, and may be yours"
+
+
+def _is_confirmed(console: Console) -> bool:
+    """Ask the user. Raises UrdfsyncError if nobody is there to answer."""
+    if console.json or sys.stdin is None or not sys.stdin.isatty():
+        message, hint = "nothing was removed: there is no terminal to ask on", "look at what goes, then give --yes"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "not-confirmed", message, hint=hint))
+    sys.stdout.write("Remove it? [y/N] ")
+    sys.stdout.flush()
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+def _without_robot(configuration: Config, robot: str) -> bytes:
+    """Return the configuration's text without the robot. Raises ConfigError if it has no table."""
+    text = configuration.file.read_bytes().decode()
+    mark = "\ufeff" if text.startswith("\ufeff") else ""
+    plain, name = text.removeprefix(mark), shown(configuration.file)
+    new = tomlfile.without_table(plain, "robots", robot)
+    document = tomlfile.parse(plain.replace("\r\n", "\n"), name, ConfigError)
+    del document["robots"][robot]
+    if (tomlfile.parse(new.replace("\r\n", "\n"), name, ConfigError).get("robots") or {}) != document["robots"]:
+        message, hint = f"`{robot}` is no table `[robots.{robot}]`", "write it as one, then remove it"
+        raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, name, hint=hint))
+    return f"{mark}{new}".encode()
