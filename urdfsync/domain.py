@@ -9,7 +9,7 @@ nothing in here does IO.
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
@@ -325,6 +325,8 @@ class Domain(Protocol):
     """The oldest revision whose packages fit the libraries that they use as they are now."""
     converter: int = 1
     """Raised whenever `convert` gives other bytes for the same input."""
+    warnings: Collection[str] = ()
+    """Codes of the domain's warnings and notes, which a configuration may ignore."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 

@@ -124,6 +124,16 @@ OTHER_MISTAKES = {
     "# \u2028 \x85\n" + robot("grund = true"): "6 unknown key `grund` in robot `arm`; did you mean `ground`?",
     robot(package="Plant.end"): "3 `package`: `end` is a keyword of Modelica; choose another name, for example "
     "`EndRobot` [modelica-name]",
+    robot(
+        'ignore = ["vanished-nam"]'
+    ): "5 no warning or note has the code `vanished-nam`; did you mean `vanished-name`? [unknown-code]",
+    robot(
+        'ignore = ["mesh-guessed"]'
+    ): "5 no warning or note has the code `mesh-guessed`; errors can't be ignored, and "
+    "warnings end with their code [unknown-code]",
+    '[defaults]\nignore = ["nothing-here"]\n'
+    + robot()
+    + robot("", "other", "Other"): "2 no warning or note has the code `nothing-here`",
     "a = 1\na = 2\n[b]\n": "2:6 a key is set twice; remove one of them",
     "[robots.a]\n[robots.a]\n": "2:10 the table `robots.a` is there twice; put the keys of both into one",
     "a = 1\n<<<<<<< ours\n": "2 unresolved merge markers; settle the merge",

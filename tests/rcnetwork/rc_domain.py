@@ -74,6 +74,7 @@ class RcNetwork(Domain):
     name = "rcnetwork"
     templates = Path(__file__).parent / "templates"
     options = Options
+    warnings = ("no-ground",)
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         return (("Modelica", "4.0.0"),)

@@ -86,7 +86,8 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
         for result in built:
             if robots[result.robot] in due:
                 found = next(checks)
-                new = tuple(one for one in found.diagnostics if one not in said)
+                kept = robots[result.robot].without_ignored(found.diagnostics)
+                new = tuple(one for one in kept if one not in said)
                 said.update(filter(is_general, new))  # what is about the machine is said once for all robots
                 diagnostics = (*result.diagnostics, *new)
                 result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=found.checked)

@@ -47,6 +47,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         result.add(texts.missing_resources(package))  # files that no fingerprint knows of
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))
+    result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
     return result
 

@@ -26,7 +26,7 @@ from urdfsync.config.settings import (
     Keys,
     RobotConfig,
 )
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import IGNORABLE, ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
@@ -73,6 +73,7 @@ def parse(text: str, file: Path, name: str) -> Config:
     robots = () if reader.problems else tuple(reader.robots())
     library = reader.library()
     reader.find_clashes(robots)
+    reader.check_ignored(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
     return Config(file, robots, library)
@@ -166,6 +167,16 @@ class _Reader:
             for message in clashes:
                 self._report("clash", robot.lines["package"], message)
 
+    def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
+        """What is ignored has to be the code of a warning, in one of the formats here."""
+        domains = {robot.domain for robot in robots}
+        known = IGNORABLE.union(*(registry.domain(one).warnings for one in domains))
+        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignored - known}
+        for line, code in sorted(wrong):
+            near = nearest(code, sorted(known))
+            hint = f"did you mean `{near}`?" if near else "errors can't be ignored, and warnings end with their code"
+            self._report("unknown-code", line, f"no warning or note has the code `{code}`", hint)
+
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
         """A robot by its own table and the defaults; None if anything in it is wrong."""
         before, known = len(self.problems), _KEY_NAMES | _names_of(domain.options)
@@ -199,6 +210,7 @@ class _Reader:
             create_parents=keys.create_parents,
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",
+            ignored=frozenset(keys.ignore),
             options=options,
             lines=lines,
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -35,6 +35,7 @@ class Keys(msgspec.Struct, frozen=True):
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
     on_build: Literal["nothing", "check"] = "nothing"
+    ignore: tuple[str, ...] = ()
 
 
 class CheckKeys(msgspec.Struct, frozen=True):
@@ -61,6 +62,8 @@ class RobotConfig(msgspec.Struct, frozen=True):
     """Whether a file that both sides changed gets their merge, if that is without doubt."""
     checking: bool = False
     """Whether the package is checked after each build."""
+    ignored: frozenset[str] = frozenset()
+    """Codes of warnings and notes that nobody wants to see."""
     lines: Mapping[str, int] = {}
     """Line of every key in the configuration; of the robot's table for `""`."""
 
@@ -72,6 +75,10 @@ class RobotConfig(msgspec.Struct, frozen=True):
     def is_at(self, place: Path) -> bool:
         """Whether a path is the robot's source, or is in its package or around it."""
         return place == self.source or place.is_relative_to(self.folder) or self.folder.is_relative_to(place)
+
+    def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """Leave out the warnings and notes that are ignored; errors never are."""
+        return tuple(one for one in diagnostics if one.severity is Severity.ERROR or one.code not in self.ignored)
 
 
 class Config(msgspec.Struct, frozen=True):
@@ -86,6 +93,11 @@ class Config(msgspec.Struct, frozen=True):
     def root(self) -> Path:
         """The folder of the configuration, which holds `.urdfsync/` as well."""
         return self.file.parent
+
+    def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """Leave out the warnings and notes about no robot that all robots ignore."""
+        kept = {one for robot in self.robots for one in robot.without_ignored(diagnostics)}
+        return tuple(one for one in diagnostics if one in kept)
 
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
         """The robots that are meant, or all for none: by their names, their sources, or what their packages are in.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import registry
@@ -18,30 +18,30 @@ _SUFFIX = ".jinja"
 
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist; files in template folders that no template of the domain or other file names."""
-    found = []
-    for robot in robots:
-        for folder in robot.package_paths:
-            if not is_folder(folder):
-                message = f"the folder {shown(folder)} of `package_paths` does not exist"
-                line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
-                warning = Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line, hint=hint)
-                found.append(warning)
-    for robot in robots:
-        if robot.templates is None or not is_folder(robot.templates):
-            continue
-        known = set(_files(templates_folder(registry.domain(robot.domain))))
-        own = _files(robot.templates)
-        for name in sorted(own.keys() - known):
-            replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
-            if replaces != name and replaces not in known:
-                continue  # a text that only lies there
-            if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
-                continue
-            near = nearest(replaces, sorted(known), 0.5)
-            hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
-            message = "no template of urdfsync has this name, so this one replaces none"
-            found.append(Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint))
+    found = (one for robot in robots for one in robot.without_ignored(_find_warnings(config, robot)))
     return tuple(dict.fromkeys(found))
+
+
+def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
+    for folder in robot.package_paths:
+        if not is_folder(folder):
+            message = f"the folder {shown(folder)} of `package_paths` does not exist"
+            line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
+            yield Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line, hint=hint)
+    if robot.templates is None or not is_folder(robot.templates):
+        return
+    known = set(_files(templates_folder(registry.domain(robot.domain))))
+    own = _files(robot.templates)
+    for name in sorted(own.keys() - known):
+        replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
+        if replaces != name and replaces not in known:
+            continue  # a text that only lies there
+        if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
+            continue
+        near = nearest(replaces, sorted(known), 0.5)
+        hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
+        message = "no template of urdfsync has this name, so this one replaces none"
+        yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 
 
 def _files(folder: Path) -> dict[str, Path]:

@@ -202,7 +202,7 @@ def _with_version(
         old, _, told_before = _read(domain, robot, other, imported, options)
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
-    result = msgspec.structs.replace(result, diagnostics=new_findings)
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     found = changes.compare(old, new, domain, robot.options)
     if not found.changes:
         return Comparison(result, shown(robot.source), against)

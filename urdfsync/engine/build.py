@@ -51,9 +51,9 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             result = builder.build(robot)
-            notes = builder.notes if count else [*orphaned_state(config), *builder.notes]
+            notes = config.without_ignored([*([] if count else orphaned_state(config)), *builder.notes])
             builder.notes = []
-            yield msgspec.structs.replace(result, diagnostics=(*notes, *result.diagnostics)) if notes else result
+            yield msgspec.structs.replace(result, diagnostics=(*notes, *robot.without_ignored(result.diagnostics)))
 
 
 class _Builder:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import (
     Artifact,
     Conversion,
@@ -38,6 +38,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import massless_passive_joints, out_of_scope
+from urdfsync.urdf.validate import ADVICE
 
 
 @functools.lru_cache(maxsize=1)
@@ -57,12 +58,23 @@ def _read(content: bytes, file: str, options: Options) -> Reading:
     return Reading(to_snapshot(robot), diagnostics, lines)
 
 
+WARNINGS = frozenset(
+    {
+        *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
+        *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
+        *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
+        "planar-not-generic",
+    }
+)
+
+
 class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
     revision = 6
     fits_since = 5
+    warnings = WARNINGS
     options = Options
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:

@@ -120,7 +120,7 @@ class CheckQueue:
 
     def _note(self, robot: RobotConfig, found: BuildCheck) -> events.CheckDone:
         """Return the event of a check that has ended; findings about the machine are told once."""
-        new = tuple(one for one in found.diagnostics if one not in self._told)
+        new = tuple(one for one in robot.without_ignored(found.diagnostics) if one not in self._told)
         self._told.update(one for one in new if is_general(one))
         self._last[robot.name] = found.checked
         return events.CheckDone(robot.name, found.checked, round(found.seconds, 3), new)

@@ -1,0 +1,83 @@
+"""What a configuration ignores, no command says; and all that can be ignored is known and documented."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.networks import configure, edit
+
+from urdfsync.diagnostics import IGNORABLE
+from urdfsync.urdf.domain import WARNINGS
+
+REPOSITORY = Path(__file__).parents[1]
+UNRELATED = {"conflict", "edit-left", "exec", "no-conflict", "not-watched"}
+"""Warnings of commands, not of what a configuration is about."""
+WORDS = "no node is called `ground`"
+
+
+@pytest.fixture
+def noted(project: Path) -> Path:
+    """A network with a note, and a pattern of a search path that is not there."""
+    edit("ladder.json", '"ground"', '"earth"')
+    configure('package_paths = ["nowhere"]\n')
+    return project
+
+
+@pytest.mark.parametrize("command", ["build", "status --verbose", "diff", "build --check", "build --json"])
+def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command: str) -> None:
+    told = execute(*command.split(), code=None).words
+    assert WORDS in told
+    configure('ignore = ["no-ground", "no-package-path"]\n')
+    told = execute(*command.split(), code=None).words
+    assert WORDS not in told
+    assert "nowhere" not in told
+
+
+def test_check_does_not_either(project: Path, execute: Execute) -> None:
+    execute("build", "-q")
+    edit("modelica/Ladder/package.order", "Ladder\n", "")
+    edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error, so that nothing is compiled
+    assert "[order-lacks]" in execute("check", code=None).err
+    configure('ignore = ["order-lacks"]\n')
+    assert "[order-lacks]" not in execute("check", code=None).words
+
+
+def test_a_saved_answer_does_not_outlive_the_list(noted: Path, execute: Execute) -> None:
+    execute("build")
+    assert WORDS in execute("build").err
+    configure('ignore = ["no-ground"]\n')
+    assert WORDS not in execute("build").err
+    assert WORDS not in execute("build").err
+    edit("urdfsync.toml", 'ignore = ["no-ground"]', "ignore = []")
+    assert WORDS in execute("build").err
+
+
+def test_of_all_robots_or_of_one(noted: Path, execute: Execute) -> None:
+    table = (noted / "urdfsync.toml").read_text()
+    other = table.replace("[robots.ladder]", "[robots.other]").replace('"Ladder"', '"Other"')
+    defaults = '[defaults]\nignore = ["no-ground"]\n'
+    for ignored, count in ((defaults, 0), ("", 1)):
+        (noted / "urdfsync.toml").write_text(f'{ignored}{table}\n{other}ignore = ["no-ground"]\n')
+        assert execute("build").err.count(WORDS) == count
+
+
+def test_errors_are_told(noted: Path, execute: Execute) -> None:
+    configure('ignore = ["no-ground"]\nprefix = "in"\n')
+    assert "[prefix-is-node]" in execute("build", code=2).err
+
+
+def test_every_warning_can_be_ignored() -> None:
+    files = sorted((REPOSITORY / "urdfsync").rglob("*.py"))
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    codes = {code for text in texts for code in re.findall(r'(?:WARNING|NOTE),\s*"([\w-]+)"', text)}
+    assert codes - UNRELATED - WARNINGS <= IGNORABLE
+    assert not IGNORABLE & WARNINGS
+
+
+def test_every_warning_is_explained() -> None:
+    page = (REPOSITORY / "docs/configuration.md").read_text(encoding="utf-8")
+    table = page.partition("## Warnings\n")[2].partition("\n## ")[0].partition("| code |")[2]
+    assert set(re.findall(r"`([\w-]+)`", "\n".join(re.findall(r"^\|[^|]*\|", table, re.MULTILINE)))) == IGNORABLE
