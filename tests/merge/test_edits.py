@@ -19,7 +19,11 @@ EDITS = {
     "nothing": (("Real m", "Real  m"), []),
     "a modifier": (("mass = 2", "mass = 2.5"), [("component `b`", "inertial.mass 2 → 2.5")]),
     "a modifier more": (("mass = 2)", "mass = 2, x = 1)"), [("component `b`", "inertial.x added")]),
-    "a modifier less": (("inertial(mass = 2)", "inertial"), [("component `b`", "inertial removed")]),
+    "a modifier less": (("inertial(mass = 2)", "inertial"), [("component `b`", "inertial modifiers removed")]),
+    "no annotation": (
+        ("\n    annotation (Placement(transformation(extent={{0, 0}, {20, 20}})))", ""),
+        [("component `b`", "annotation removed")],
+    ),
     "a type": (("Body b", "Ball b"), [("component `b`", "type Body → Ball")]),
     "a term": (("b.m + c.m", "b.m + d.m + c.m"), [("component `m`", "d.m added")]),
     "a place": (("{20, 20}", "{30, 30}"), [("layout", "1 element placed or drawn in another way")]),

@@ -6,9 +6,12 @@ from urdfsync.merge.elements import Contradiction
 
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""
-_SILENT = frozenset("body arguments annotation value expression constraint definition import components".split())
+_SILENT = frozenset("body value expression definition import components".split())
 """Parts that need no name, since what is in them has one."""
 _ROLES = {
+    "annotation": "annotation",
+    "arguments": "modifiers",
+    "constraint": "constraint",
     "connect": "equation",
     "equation": "equation",
     "description": "description",
