@@ -24,6 +24,7 @@ _COMMANDS = (
     "init",
     "add",
     "remove",
+    "adopt",
     "build",
     "diff",
     "status",

@@ -61,7 +61,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 def _show(console: Console, root: Path, robot: str, found: Sequence[EditedFile]) -> None:
     if console.json:
         files = [
-            {"path": one.path, "owner": one.owner, "base": one.base is not None, "edits": _values(one)} for one in found
+            {"path": one.path, "owner": one.owner, "base": one.base is not None, "edits": edit_values(one)}
+            for one in found
         ]
         console.add_robot({"name": robot, "failed": False, "files": files})
         return
@@ -77,13 +78,17 @@ def _edits(file: EditedFile) -> list[Edit] | None:
     return find_edits(file.base, file.mine) if file.base is not None else None
 
 
-def _values(file: EditedFile) -> list[dict[str, str | None]] | None:
+def edit_values(file: EditedFile) -> list[dict[str, str | None]] | None:
+    """Return the edits of a file as plain data; None if they can't be told by element."""
     edits = _edits(file)
     return None if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
 
 
-def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the lines of one file: each element that is edited, and what of it; with `verbose`, the lines as well."""
+def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) -> Iterator[StyledLine]:
+    """Yield the lines of one file: each element that is edited, and what of it; with `verbose`, the lines as well.
+
+    Without it, so many edits are listed at `most`.
+    """
     edits = _edits(file)
     yield line(("  ", ""), (shown(Path(os.path.normpath(root / file.path))), "bold"), (f"  {file.owner}", "dim"))
     if file.base is None:
@@ -94,7 +99,7 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool) -> Iterator[StyledLi
     else:
         told = in_words(edits) or [("", "only blanks, or the order of things")]
     lines = [line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what))) for element, what in told]
-    yield from first_lines(lines, _EDITS, "edit", verbose=verbose)
+    yield from first_lines(lines, most, "edit", verbose=verbose)
     if verbose:
         old, new = (text.replace("\r\n", "\n").splitlines() for text in (file.base, file.mine))
         for text in difflib.unified_diff(old, new, "base", "mine", lineterm="", n=2):

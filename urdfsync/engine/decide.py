@@ -59,6 +59,8 @@ def decide_package(generation: Generation) -> Decision:
     users = {key for key, one in recorded.items() if one.is_users} - desired.keys()
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
+    if inputs.options.adopts:
+        actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
     actions, undone, taken_back = reconsider(generation, actions, inputs.options.choices)
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
@@ -90,6 +92,11 @@ def decide_package(generation: Generation) -> Decision:
     )
     gone = warnings if decision.is_complete else ()
     return msgspec.structs.replace(decision, diagnostics=(*taken_back, *misfits, *gone))
+
+
+def _as_edit(action: Action) -> Action:
+    """Keep a file that urdfsync did not write as an edit of the generated one."""
+    return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated)
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -278,6 +285,14 @@ def _lines_of_gone_classes(
     return found
 
 
+def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[str]:
+    """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
+    folder = order.removesuffix("package.order")
+    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in inputs.files.classes(folder))
+    found = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
+    return sorted(found.difference(names))
+
+
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
@@ -294,6 +309,8 @@ def _decide_orders(
     found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
+        if inputs.options.adopts and old is None:
+            names = (*names, *_users_classes(inputs, key, names))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
             kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import file_type
-from urdfsync.diagnostics import Diagnostic, Severity, StateError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
 from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.actions import Action
@@ -193,6 +193,10 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
         record = store.load(former) if former else None
+    if options.adopts and record and record.snapshots:
+        message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
+        place = shown(config.file), robot.lines[""]
+        raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))
     templates = source.templates(config, robot, domain)
     content = b"" if options.removes else source.read_source(config, robot)
     generator = Generator(robot.domain, domain.revision, templates.digest)

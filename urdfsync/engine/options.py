@@ -29,6 +29,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write to outputs outside of the configuration's folder, too."""
     compares_state: bool = False
     """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
+    adopts: bool = False
+    """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False
     """Take the robots' packages and records away, as if their sources gave nothing any more."""
     draw: bool = False

@@ -133,8 +133,12 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     if not mergeable:
         what = "keeps all your files as they are, --take replaces them by the generated ones"
     choice = Choice.MERGE if mergeable else Choice.KEEP
-    command = _command(["--all", "--robot", result.robot, f"--{choice}"], console)
+    command = _command(["resolve", "--all", "--robot", result.robot, f"--{choice}"], console)
     yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
+    never_built = all(action.base is None for action in result.actions)
+    if never_built and all(target.action.kind is Kind.UNOWNED for target in found):
+        what = "takes them for your edits, and lists these"
+        yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 
 def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
@@ -162,7 +166,7 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     choices = _choices(target)
     width = max(map(len, choices))
     typed = f"./{name}" if name.startswith("-") else name
-    yield line((f"    {_command([typed, *next(iter(choices)).split()], console)}", "bold"))
+    yield line((f"    {_command(['resolve', typed, *next(iter(choices)).split()], console)}", "bold"))
     for choice, words in choices.items():
         yield line((f"      {choice:<{width}}  {words}", "dim"))
 
@@ -203,8 +207,8 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 
 def _command(arguments: Sequence[str], console: Console) -> str:
-    """A command line of `resolve` to copy."""
-    command = ["urdfsync", "resolve", *arguments, *(["--config", console.config] if console.config else [])]
+    """A command line to copy."""
+    command = ["urdfsync", *arguments, *(["--config", console.config] if console.config else [])]
     if os.name == "nt":
         return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
     return shlex.join(command)

@@ -1,0 +1,109 @@
+"""`urdfsync adopt`: a package that was there before becomes the user's side, and nothing of it is written."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.files import snapshot, unchanged
+from support.networks import C1, RECORD, edit, resistor
+from support.urdfs import joint, link, robot
+
+PARAMS = "modelica/Arm/Joints/ElbowParams.mo"
+"""As URDFModelica names the records."""
+
+
+@pytest.fixture
+def lost(project: Path, execute: Execute) -> Path:
+    """A network whose package was built and edited, and whose recorded state is lost."""
+    execute("build", "-q")
+    edit(C1, "\nequation\n", "\n  Real mine = 1;\nequation\n")
+    edit(RECORD, "100", "99")
+    shutil.rmtree(project / ".urdfsync")
+    return project
+
+
+def test_after_the_state_was_lost(lost: Path, execute: Execute) -> None:
+    assert "  urdfsync adopt ladder  takes them for your edits, and lists these" in execute("build", code=3).lines
+    shutil.rmtree(lost / ".urdfsync")
+    before = snapshot(lost)
+    assert execute("adopt", "ladder").lines == [
+        "ladder: adopted: 10 same, 2 edited",
+        f"  edited     {C1}  element C1",
+        "    component `mine`: added",
+        f"  edited     {RECORD}  element R1",
+        "    component `R`: R 100 → 99",
+    ]
+    assert {path: content for path, content in snapshot(lost).items() if not path.startswith(".urdfsync")} == before
+    assert execute("build").lines == ["ladder: in step, 14 files, 2 kept because you edited them"]
+
+
+def test_later_exports_merge(lost: Path, execute: Execute) -> None:
+    execute("adopt", "ladder", "-q")
+    resistor(150)
+    printed = execute("build", code=3)
+    assert "you set" in printed.words
+    assert "Real mine = 1;" in Path(C1).read_text()
+
+
+def test_a_dry_run_says_the_same_and_writes_nothing(lost: Path, execute: Execute) -> None:
+    with unchanged(lost):
+        said = execute("adopt", "ladder", "--dry-run").lines
+    assert said[0] == "ladder: to adopt: 10 same, 2 edited"
+    assert said[1:] == execute("adopt", "ladder").lines[1:]
+
+
+def test_a_robot_that_was_built_is_refused(project: Path, execute: Execute) -> None:
+    execute("build", "-q")
+    edit(C1, "\nequation\n", "\n  Real mine = 1;\nequation\n")
+    resistor(150)
+    with unchanged(project):
+        printed = execute("adopt", "ladder", code=2)
+    assert "robot `ladder` was built already; `urdfsync resolve` settles its conflicts [already-built]" in printed.err
+
+
+def test_after_a_first_build_that_ended_in_conflicts(lost: Path, execute: Execute) -> None:
+    execute("build", "-q", code=3)
+    assert execute("adopt", "ladder").lines[0] == "ladder: adopted: 10 same, 2 edited"
+
+
+@pytest.fixture
+def foreign(folder: Path, execute: Execute) -> Path:
+    """A robot whose package URDFModelica might have written: other texts, other names of records, no package.order."""
+    turning = joint("elbow", "revolute", "base", "tip", axis="0 0 1")
+    (folder / "arm.urdf").write_text(robot(link("base"), turning, link("tip", 1)))
+    (folder / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    texts = {
+        "modelica/Arm/package.mo": "package Arm\n  extends Modelica.Icons.Package;\nend Arm;\n",
+        "modelica/Arm/Arm.mo": "within Arm;\nmodel Arm\n  Joints.Elbow elbow;\nend Arm;\n",
+        "modelica/Arm/Joints/package.mo": "within Arm;\npackage Joints\nend Joints;\n",
+        "modelica/Arm/Joints/Elbow.mo": "within Arm.Joints;\nmodel Elbow\n  ElbowParams p;\nend Elbow;\n",
+        PARAMS: "within Arm.Joints;\nrecord ElbowParams\n  Real limit = 3;\nend ElbowParams;\n",
+        "modelica/Arm/Joints/Brake.mo": "within Arm.Joints;\nmodel Brake\nend Brake;\n",
+    }
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
+    before = snapshot(foreign)
+    (found,) = execute("adopt", "arm", "--json").json["robots"]
+    assert snapshot(foreign).items() >= before.items()
+    files = {file["path"]: file for file in found["files"]}
+    assert {path for path in files if files[path]["status"] == "edited"} == {
+        path for path in before if path.endswith(".mo") and path not in (PARAMS, "modelica/Arm/Joints/Brake.mo")
+    }
+    unknown = {path: file["owner"] for path, file in files.items() if file["status"] == "unknown"}
+    assert unknown == {PARAMS: "joint elbow", "modelica/Arm/Joints/Brake.mo": ""}
+    assert files["modelica/Arm/Joints/ElbowParameters.mo"]["status"] == "new"
+    named = {edit["element"]: edit for edit in files["modelica/Arm/Arm.mo"]["edits"]}
+    assert named["component `tip`"]["mine"] is None
+    assert "component `elbow`" in named
+    order = (foreign / "modelica/Arm/Joints/package.order").read_text().split()
+    assert order == ["Elbow", "ElbowParameters", "Brake", "ElbowParams"]
+    assert "4 edited" in execute("status").out
+    assert "order-lacks" not in execute("check", code=None).words
