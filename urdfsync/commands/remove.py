@@ -116,9 +116,9 @@ def _without_robot(configuration: Config, robot: str) -> bytes:
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     plain, name = text.removeprefix(mark), shown(configuration.file)
     new = tomlfile.without_table(plain, "robots", robot)
-    document = tomlfile.parse(plain.replace("\r\n", "\n"), name, ConfigError)
-    del document["robots"][robot]
-    if (tomlfile.parse(new.replace("\r\n", "\n"), name, ConfigError).get("robots") or {}) != document["robots"]:
+    before, after = (tomlfile.parse(one.replace("\r\n", "\n"), name, ConfigError) for one in (plain, new))
+    del before["robots"][robot]
+    if {"robots": {}, **after} != before:
         message, hint = f"`{robot}` is no table `[robots.{robot}]`", "write it as one, then remove it"
         raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, name, hint=hint))
     return f"{mark}{new}".encode()
