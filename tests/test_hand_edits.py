@@ -173,6 +173,9 @@ def check(done: Trial, kind: str) -> None:
         new = next(name for name in edited - base if name.startswith(MARK) and " " not in name)
         assert new in now or new.removeprefix(f"{MARK}_") not in generated
         return
-    assert edited - base <= now
+    ends = {end for one in now for end in one.split(" -- ")}
+    for one in edited - base - now:
+        # a connection by hand goes to the part under its new name
+        assert any(end in ends and MARK in end for end in one.split(" -- ")), one
     assert generated <= now
     assert base - generated <= base - now

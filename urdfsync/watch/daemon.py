@@ -343,6 +343,7 @@ class Daemon:
         before, writers = {watched.name: watched.hashes for watched in robots}, set()
         for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
+            watched.built = None  # what is saved meanwhile is built, even if it is as before the last change
             if result.renews_state or any(action.writes for action in result.actions):
                 writers.add(result.robot)
             if not result.failed:
