@@ -398,10 +398,7 @@ class Domain(Protocol):
     # Differences
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        """Return elements that have another name and nothing else, in the same place: old element → new name.
-
-        An ambiguous match is none.
-        """
+        """Return elements that have another name: old element → new name. An ambiguous match is none."""
         return {}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:

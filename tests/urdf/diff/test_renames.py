@@ -105,11 +105,34 @@ def followers(first: str, second: str, third: str, last: str, leader: str) -> Sn
     )
 
 
+def arm(upper: str, mass: float, *more: Link | Joint, base: str = "base", base_mass: float = 1.0) -> Snapshot:
+    """The arm with another upper link, and perhaps another base."""
+    joints = joint("shoulder", base, upper), joint("elbow", upper, "lower")
+    return snapshot(link(base, base_mass), link(upper, mass), ARM[2], *joints, *more)
+
+
 OLD = snapshot(*ARM)
-HEAVIER = snapshot(ARM[0], link("arm", 2.5), ARM[2], joint("shoulder", "base", "arm"), joint("elbow", "arm", "lower"))
+WAS_FOOT = snapshot(*ARM, link("foot", 7), joint("heel", "base", "foot"))
 CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
-    "another mass": (OLD, HEAVIER, {}),
-    "another length": (OLD, snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1)), {}),
+    "another mass": (OLD, arm("arm", 2.5), {("link", "upper"): "arm"}),
+    "another mass, and a new link that looks as it did": (
+        OLD,
+        arm("arm", 2.5, link("rod", 2), joint("clamp", "base", "rod")),
+        {},
+    ),
+    "the mass of a link that is gone": (WAS_FOOT, arm("arm", 7), {}),
+    "another mass of the root": (OLD, arm("upper", 2, base="foot", base_mass=5), {("link", "base"): "foot"}),
+    "another root, another joint": (snapshot(link("base", 1)), snapshot(link("foot", 5)), {}),
+    "another mass, another joint": (
+        OLD,
+        snapshot(ARM[0], link("arm", 2.5), ARM[2], joint("turn", "base", "arm"), joint("elbow", "arm", "lower")),
+        {},
+    ),
+    "another length": (
+        OLD,
+        snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1)),
+        {("joint", "elbow"): "bend"},
+    ),
     "another place": (OLD, snapshot(*ARM[:4], joint("bend", "base", "lower")), {}),
     "swapped names": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "upper"}), {}),
     "a name that was taken": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "hand"}), {}),
@@ -124,7 +147,7 @@ CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
     "a joint that follows another one now": (
         followers("x", "y", "two", "end", leader="x"),
         followers("p", "q", "zwei", "ende", leader="q"),
-        {("joint", "x"): "p", ("joint", "y"): "q"},
+        {("joint", "x"): "p", ("joint", "y"): "q", ("joint", "two"): "zwei", ("joint", "end"): "ende"},
     ),
 }
 

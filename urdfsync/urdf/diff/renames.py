@@ -1,9 +1,13 @@
-"""Links and joints that have another name and nothing else.
+"""Links and joints that have another name.
 
 Elements of one name are the same element, whatever else changed. What is only in the old version is matched with what
-is only in the new one from the root down: a link through the joint that leads to it, a joint through its parent link,
-its numbers and its child link. A match has to be the only one among the joints of its parent: of two legs of one kind
-that both have other names, none is matched.
+is only in the new one, from the root down:
+
+- The joints between the same two links are the same joint.
+- A joint that leads to a link of another name is matched by its numbers and by all that this link has. It has to be the
+  only such joint of its parent: of two legs of one kind that both have other names, none is matched.
+- The link at the end of the same joint is the same link; a root is, if it has all that it had or one of its joints.
+  Where more than the name changed, no other new link may have all that it had, and no other old link all that it has.
 """
 
 from __future__ import annotations
@@ -21,19 +25,26 @@ joint): not part of what makes elements alike."""
 
 
 def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-    """Return the new names of links and joints that were renamed, and are otherwise the same in the same place."""
+    """Return the new names of links and joints that were renamed."""
     links, joints = (old[part].keys() & new[part].keys() for part in ("links", "joints"))
     if not (old["links"].keys() - links and new["links"].keys() - links) and not (
         old["joints"].keys() - joints and new["joints"].keys() - joints
     ):
         return {}
     before, after = _joints_by_parent(old), _joints_by_parent(new)
+    was = {name: _frozen(link) for name, link in old["links"].items() if name not in links}
+    looks = {name: _frozen(link) for name, link in new["links"].items() if name not in links}
+    all_were, all_look = set(was.values()), set(looks.values())
     renames: dict[ElementKey, str] = {}
     places = [(name, name) for name in old["links"] if name in links]  # links that are in the same place
-    places.append((_root(old), _root(new)))
+    root, new_root = _root(old), _root(new)
+    if was.get(root) == looks.get(new_root) or joints.intersection(before[root], after[new_root]):
+        places.append((root, new_root))
     for one, other in places:  # grows while it is walked
         if one != other:
-            if one in links or other in links or _frozen(old["links"][one]) != _frozen(new["links"][other]):
+            if one in links or other in links:
+                continue
+            if was[one] != looks[other] and (was[one] in all_look or looks[other] in all_were):
                 continue
             renames["link", one] = other
         matches = {name: name for name in joints.intersection(before[one], after[other])}
@@ -42,9 +53,9 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         if gone and came:
             alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
             for name in gone:
-                alike[_likeness(old, name, links, joints)][0].append(name)
+                alike[_likeness(old, name, links)][0].append(name)
             for name in came:
-                alike[_likeness(new, name, links, joints)][1].append(name)
+                alike[_likeness(new, name, links)][1].append(name)
             for ones, others in alike.values():
                 if len(ones) == len(others) == 1:
                     renames["joint", ones[0]] = others[0]
@@ -52,7 +63,6 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []
-    _drop_wrongly_led(renames, old, new)
     return dict(sorted(renames.items(), key=lambda rename: (rename[0][0] != "link", rename[0][1])))
 
 
@@ -68,28 +78,11 @@ def _root(snapshot: Snapshot) -> str:
     return str(root)
 
 
-def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str], joints: AbstractSet[str]) -> Hashable:
-    """Return what a joint shares with its match: numbers and type, the joint that it follows, its child link.
-
-    `links` and `joints` are the names in both versions.
-    """
+def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str]) -> Hashable:
+    """Return what a joint shares with its match; `links` are those in both versions."""
     joint = snapshot["joints"][name]
-    child, leader = joint["child"], None
-    if "mimic" in joint:  # a leader that has another name may have been renamed as well: `_drop_wrongly_led` sees to it
-        leader = joint["mimic"]["joint"] if joint["mimic"]["joint"] in joints else ""
-    return _frozen(joint), leader, child if child in links else _frozen(snapshot["links"][child])
-
-
-def _drop_wrongly_led(renames: dict[ElementKey, str], old: Snapshot, new: Snapshot) -> None:
-    """Take back joints that follow another joint than before; and so on with those that follow them."""
-    leaders = {
-        name: (old["joints"][name]["mimic"]["joint"], new["joints"][match]["mimic"]["joint"])
-        for (kind, name), match in renames.items()
-        if kind == "joint" and "mimic" in old["joints"][name]
-    }
-    while wrong := [name for name, (one, other) in leaders.items() if renames.get(("joint", one), one) != other]:
-        for name in wrong:
-            del renames["joint", name], leaders[name]
+    child = joint["child"]
+    return child if child in links else (_frozen(joint), _frozen(snapshot["links"][child]))
 
 
 def _frozen(value: Any) -> Hashable:
