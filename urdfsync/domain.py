@@ -398,7 +398,10 @@ class Domain(Protocol):
     # Differences
 
     def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        """Return elements that have another name: old element → new name. An ambiguous match is none."""
+        """Return elements that have another name: old element → new name. An ambiguous match is none.
+
+        Where renames are declared, both snapshots are `comparable` ones, the old one under the declared names.
+        """
         return {}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:

@@ -86,6 +86,8 @@ def in_words(kind: Any) -> str:
         return " or ".join(map(json.dumps, arguments))
     if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
+    if origin is Mapping:
+        return "a table of strings"
     if origin in (tuple, list):
         return f"a list of {'strings' if arguments[0] is str else in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
@@ -189,6 +191,12 @@ class _Reader:
         keys, options = self._read(table, Keys), self._read(table, domain.options)
         if keys is None:
             return None
+        lines |= {f"renamed.{old}": self._line("robots", name, "renamed", old) for old in keys.renamed}
+        olds: dict[str, str] = {}
+        for old, new in keys.renamed.items():
+            if (other := olds.setdefault(new, old)) != old:
+                message = f"robot `{name}`: both `{other}` and `{old}` are renamed to `{new}`"
+                self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one of them out")
         for key, message, hint in find_name_problems(keys.package, keys.class_):
             self._report("modelica-name", lines[key], message, hint)
         source, output = Path(keys.source), _absolute(self._root / keys.output)
@@ -211,6 +219,7 @@ class _Reader:
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",
             ignored=frozenset(keys.ignore),
+            renamed=keys.renamed,
             options=options,
             lines=lines,
         )

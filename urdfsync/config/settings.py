@@ -18,7 +18,7 @@ from urdfsync.spelling import nearest
 FILE_NAME = "urdfsync.toml"
 STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
-OWN_KEYS = ("source", "package", "class")
+OWN_KEYS = ("source", "package", "class", "renamed")
 """Keys that `[defaults]` can't have."""
 
 
@@ -36,6 +36,7 @@ class Keys(msgspec.Struct, frozen=True):
     on_conflict: Literal["keep", "merge"] = "keep"
     on_build: Literal["nothing", "check"] = "nothing"
     ignore: tuple[str, ...] = ()
+    renamed: Mapping[str, str] = {}
 
 
 class CheckKeys(msgspec.Struct, frozen=True):
@@ -64,8 +65,10 @@ class RobotConfig(msgspec.Struct, frozen=True):
     """Whether the package is checked after each build."""
     ignored: frozenset[str] = frozenset()
     """Codes of warnings and notes that nobody wants to see."""
+    renamed: Mapping[str, str] = {}
+    """Old → new name of elements, as far as the user declares it."""
     lines: Mapping[str, int] = {}
-    """Line of every key in the configuration; of the robot's table for `""`."""
+    """Line of every key in the configuration; of the robot's table for `""`, of an old name for `renamed.NAME`."""
 
     @property
     def folder(self) -> Path:

@@ -28,6 +28,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.renames import find_renames
 from urdfsync.engine.result import Exit, Result
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.files import shown
@@ -203,7 +204,8 @@ def _with_version(
     before = {(one.code, one.message) for one in told_before}
     new_findings = tuple(one for one in told if (one.code, one.message) not in before)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
-    found = changes.compare(old, new, domain, robot.options)
+    renames = find_renames(domain, old.snapshot, new.snapshot, robot.renamed)
+    found = changes.compare(old, new, domain, robot.options, renames)
     if not found.changes:
         return Comparison(result, shown(robot.source), against)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)

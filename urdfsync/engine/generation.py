@@ -15,14 +15,15 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Domain, ElementKey, Role, Snapshot, Target, Version, displaced
+from urdfsync.domain import ElementKey, Role, Snapshot, Target, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
+from urdfsync.engine.renames import check_declared, find_renames_since
 from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import normalised, shown, text_digest
-from urdfsync.state.record import Open, role_of
+from urdfsync.state.record import role_of
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -139,11 +140,20 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def renames(self) -> Mapping[ElementKey, str]:
         """Elements that have another name since the last complete build: old element → new name."""
+        return self._find_renames(self.inputs.robot.renamed)
+
+    @property
+    def recognised_renames(self) -> Mapping[ElementKey, str]:
+        """The renames without those that are declared, or follow from these: what is declared may be taken back."""
+        return self._find_renames({}) if self.inputs.robot.renamed else self.renames
+
+    def _find_renames(self, declared: Mapping[str, str]) -> Mapping[ElementKey, str]:
         inputs = self.inputs
         if inputs.last is None or inputs.record is None:
             return {}
+        last, open_ = inputs.last.snapshot, inputs.record.open
         try:
-            return find_renames(inputs.domain, inputs.last.snapshot, inputs.record.open, self.now.snapshot)
+            return find_renames_since(inputs.domain, last, open_, self.now.snapshot, declared)
         except NO_MODEL:
             return {}
 
@@ -178,35 +188,6 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return {new: old for new, old in pairs if new != old and inputs.path(new) in now}
 
 
-def find_renames(domain: Domain, recorded: Snapshot, open_: Open | None, now: Snapshot) -> dict[ElementKey, str]:
-    """Return elements that have another name since the last complete build: old element → new name.
-
-    While something is open, an element may get another name in one export and other numbers in another. So the renames
-    up to the model last seen are followed by those from it.
-    """
-    direct = dict(domain.renames(recorded, now)) if recorded != now else {}
-    if open_ is None or not open_.seen:
-        return direct
-    later = domain.renames(open_.seen, now) if open_.seen != now else {}
-    there, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
-    gone, followed = displaced(open_.renamed), {}
-    for kind, name in _elements(domain, recorded):
-        if (kind, name) in gone:
-            continue
-        last_name = open_.renamed.get((kind, name), name)
-        new_name = later.get((kind, last_name), last_name)
-        if (kind, last_name) in elements and (kind, new_name) in there:
-            followed[kind, name] = new_name
-    taken = {(kind, name) for (kind, _), name in followed.items()}
-    more = {key: name for key, name in direct.items() if key not in followed and (key[0], name) not in taken}
-    return {key: name for key, name in (followed | more).items() if name != key[1]}
-
-
-def _elements(domain: Domain, snapshot: Snapshot) -> Iterator[ElementKey]:
-    for kind, identifiers in domain.names(snapshot, Target("Package", "Model")).items():
-        yield from ((kind.removesuffix("s"), name) for name in identifiers)
-
-
 def generate_robot(inputs: Inputs) -> Generation:
     """Parse the source, import the files that it refers to, and generate the package; no text is rendered yet.
 
@@ -218,7 +199,11 @@ def generate_robot(inputs: Inputs) -> Generation:
         nothing = Package((), inputs.templates, robot.target.package)
         return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, last_packages, frozenset())
     snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source))
-    found = (*reading.diagnostics, *source.check_options(inputs.config, robot, domain, snapshot))
+    found = (
+        *reading.diagnostics,
+        *source.check_options(inputs.config, robot, domain, snapshot),
+        *check_declared(inputs, snapshot),
+    )
     imported = imports.bring_in(
         domain,
         inputs.dependencies(snapshot, reading.lines),

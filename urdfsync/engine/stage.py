@@ -178,7 +178,7 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
         if files.get(inputs.key(one.target)) == FileRecord((one.target_hash,)) and record.imports.get(key) != (one,)
     }
     choices = {(inputs.path(key), sides): one for (key, sides), one in pending_choices(decision.actions).items()}
-    open_ = Open(choices, generation.now.snapshot, generation.renames, {**known, **imports})
+    open_ = Open(choices, generation.now.snapshot, generation.recognised_renames, {**known, **imports})
     return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
 
 

@@ -13,6 +13,7 @@ from support import mutations
 
 from urdfsync.changes import compare
 from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
+from urdfsync.engine import renames
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -67,9 +68,9 @@ def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
 def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str]) -> None:
     old = snapshot(*ARM)
     new = with_names(old, names)
-    renames = find_renames(old, new)
-    assert renames == names
-    assert list(renames) == sorted(names, key=lambda element: (element[0] != "link", element[1])), "links come first"
+    recognised = find_renames(old, new)
+    assert recognised == names
+    assert list(recognised) == sorted(names, key=lambda element: (element[0] != "link", element[1])), "links come first"
     found = compare(Version(old), Version(new), DOMAIN, Options())
     assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
 
@@ -159,7 +160,7 @@ def test_what_is_certain_is_a_rename(old: Snapshot, new: Snapshot, names: Mappin
 
 @given(st.randoms(use_true_random=False), st.integers(0, 2))
 def test_what_is_recognised_is_true(random: Random, others: int) -> None:
-    """Fresh names for some elements, and other changes beside: no match is ever wrong."""
+    """Fresh names for some elements, some of them declared, and other changes beside: no match is ever wrong."""
     old = mutations.version(random)
     edited = dict(old.snapshot)
     if others and random.random() < 0.5:
@@ -172,5 +173,9 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
         for name in edited[f"{kind}s"]
         if random.random() < 0.6
     }
-    found = find_renames(old.snapshot, with_names(edited, names))
+    new = with_names(edited, names)
+    assert find_renames(old.snapshot, new).items() <= names.items()
+    declared = {name: renamed for (_, name), renamed in names.items() if random.random() < 0.3}
+    found = renames.find_renames(DOMAIN, old.snapshot, new, declared)
+    assert {key: renamed for key, renamed in names.items() if key[1] in declared}.items() <= found.items()
     assert found.items() <= names.items()

@@ -1,0 +1,139 @@
+"""Renames that the configuration declares: done by the build, refused where they can't be, and told when done."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.networks import edit
+from support.urdfs import joint, link, robot
+
+from urdfsync.engine.result import Exit
+
+CONFIGURATION = '[robots.dog]\nsource = "dog.urdf"\npackage = "Dog"\n\n[robots.dog.renamed]\n'
+MINE = "  Real mine = 1;\n  annotation"
+
+
+def dog(*sides: str) -> str:
+    """A trunk with legs that look the same; link and joint of each foot have one name."""
+    elements = [link("trunk", 9.0)]
+    for side in sides:
+        elements += [link(f"{side}_thigh", 2.0), link(f"{side}_foot", 1.0)]
+        elements += [joint(f"{side}_hip", "continuous", "trunk", f"{side}_thigh")]
+        elements += [joint(f"{side}_foot", "continuous", f"{side}_thigh", f"{side}_foot")]
+    return robot(*elements)
+
+
+@pytest.fixture
+def built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
+    """A folder, also the working one, with the package of a dog of two legs."""
+    monkeypatch.chdir(tmp_path)
+    Path("dog.urdf").write_text(dog("left", "right"))
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    execute("build", "-q")
+    return tmp_path
+
+
+def declare(*lines: str) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION + "\n".join(lines))
+
+
+def renames(execute: Execute, *arguments: str) -> dict[str, str]:
+    """What `diff` calls renamed, by element."""
+    (found,) = execute("diff", "--json", *arguments, code=Exit.OUT_OF_STEP).json["robots"]
+    return {one["change"]: one["new"] for one in found["changes"] if one["kind"] == "renamed"}
+
+
+LEGS = {
+    f"{kind} {old}_{part}": f"{new}_{part}"
+    for old, new in {"left": "l", "right": "r"}.items()
+    for kind, part in (("link", "thigh"), ("link", "foot"), ("joint", "hip"), ("joint", "foot"))
+}
+
+
+def test_one_declared_joint_tells_two_legs_apart(built: Path, execute: Execute) -> None:
+    """All else of both legs follows from it, edits move, and then the line is no longer needed."""
+    Path("old.urdf").write_text(Path("dog.urdf").read_text())
+    edit("modelica/Dog/Links/Left_thigh.mo", "  annotation", MINE)
+    Path("dog.urdf").write_text(dog("l", "r"))
+    assert renames(execute) == {}
+    declare('left_hip = "l_hip"')
+    assert renames(execute) == renames(execute, "--against", "old.urdf") == LEGS
+    execute("build")
+    assert "Real mine" in Path("modelica/Dog/Links/L_thigh.mo").read_text()
+    assert not Path("modelica/Dog/Links/Left_thigh.mo").exists()
+    note = (
+        "urdfsync.toml:6: note: robot `dog`: the last build has `l_hip` already; take `left_hip` out of `renamed` "
+        "[rename-done]"
+    )
+    for command in ("build", "status"):
+        assert note in execute(command).words
+
+
+def test_a_name_is_that_of_the_link_and_of_the_joint(built: Path, execute: Execute) -> None:
+    """Where both are gone, and both have the new name."""
+    new = dog("left", "right").replace('"left_foot"', '"paw"').replace('"left_thigh"', '"limb"').replace("2.0", "3.0")
+    Path("dog.urdf").write_text(new.replace('"left_hip"', '"hip"').replace('"0.1 -0.2 0.3"', '"0 0 1"'))
+    assert renames(execute) == {}
+    declare('left_foot = "paw"', 'left_thigh = "limb"')
+    assert renames(execute) == {
+        "link left_foot": "paw",
+        "joint left_foot": "paw",
+        "link left_thigh": "limb",
+        "joint left_hip": "hip",
+    }
+
+
+WRONG = {
+    ('right_hip = "l_hip"',): "6: error: robot `dog`: `right_hip` can't be renamed to `l_hip`: "
+    "the source still has joint `right_hip`; correct it, or take it out",
+    ('left_hip = "l_hop"',): "6: error: robot `dog`: `left_hip` can't be renamed to `l_hop`: "
+    "the source has no `l_hop`; did you mean `l_hip`?",
+    ('left_hop = "l_hip"',): "6: error: robot `dog`: `left_hop` can't be renamed to `l_hip`: "
+    "the last build had no joint `left_hop`; did you mean `left_hip`?",
+    ('left_hip = "right_hip"',): "6: error: robot `dog`: `left_hip` can't be renamed to `right_hip`: "
+    "the last build has `right_hip` beside `left_hip`; correct it, or take it out",
+    ('left_hip = "l_thigh"',): "6: error: robot `dog`: `left_hip` can't be renamed to `l_thigh`: "
+    "the last build had no link `left_hip`; did you mean `left_thigh`?",
+    ('left_hip = "l_hip"', 'left_foot = "l_hip"'): "7: error: robot `dog`: both `left_hip` and `left_foot` are "
+    "renamed to `l_hip`; take one of them out",
+}
+
+
+@pytest.mark.parametrize(("lines", "message"), WRONG.items())
+def test_a_rename_that_cannot_be_is_refused_with_its_line(
+    built: Path, execute: Execute, lines: tuple[str, ...], message: str
+) -> None:
+    """No command goes on with it."""
+    Path("dog.urdf").write_text(dog("l", "right"))
+    declare(*lines)
+    for command in ("build", "diff", "status"):
+        printed = execute(command, code=Exit.ERROR)
+        assert f"urdfsync.toml:{message} [wrong-rename]" in printed.words
+    assert Path("modelica/Dog/Links/Left_thigh.mo").exists()
+
+
+def test_without_a_last_build_only_the_source_counts(built: Path, execute: Execute) -> None:
+    """A package that is built for the first time has nothing that could be renamed."""
+    for folder in (".urdfsync", "modelica"):
+        shutil.rmtree(folder)
+    declare('left_hap = "left_hip"')
+    assert "rename" not in execute("build").err
+    declare('trunk = "left_thigh"')
+    assert "the source still has link `trunk`" in execute("build", code=Exit.ERROR).words
+
+
+def test_what_was_declared_while_a_conflict_is_open_can_be_taken_back(built: Path, execute: Execute) -> None:
+    """The wrong leg is declared first: nothing of that is recorded."""
+    edit("modelica/Dog/Links/Left_thigh.mo", "  annotation", MINE)
+    edit("modelica/Dog/Links/TrunkParameters.mo", "9", "8")
+    Path("dog.urdf").write_text(dog("l", "r").replace("9.0", "7.0"))
+    declare('left_hip = "r_hip"')
+    execute("build", "-q", code=Exit.CONFLICT)
+    assert renames(execute)["link left_thigh"] == "r_thigh"
+    declare()
+    assert renames(execute) == {}
+    declare('left_hip = "l_hip"')
+    assert renames(execute) == LEGS
