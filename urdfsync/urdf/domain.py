@@ -72,7 +72,7 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 6
+    revision = 7
     fits_since = 5
     warnings = WARNINGS
     options = Options

@@ -5,63 +5,63 @@ model Menagerie "Robot Menagerie"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b end_linkFrame
     "Frame of link \"end\""
-    annotation (Placement(transformation(extent={{68, -10}, {88, 10}}), iconTransformation(extent={{92, 272}, {108, 288}})));
+    annotation (Placement(transformation(extent={{44, -10}, {64, 10}}), iconTransformation(extent={{92, 272}, {108, 288}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b pinionFrame
     "Frame of link \"pinion\""
-    annotation (Placement(transformation(extent={{68, -100}, {88, -80}}), iconTransformation(extent={{92, 252}, {108, 268}})));
+    annotation (Placement(transformation(extent={{44, -100}, {64, -80}}), iconTransformation(extent={{92, 252}, {108, 268}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b gelenk__Frame
     "Frame of link \"Gelenk_ä\""
-    annotation (Placement(transformation(extent={{68, -190}, {88, -170}}), iconTransformation(extent={{92, 232}, {108, 248}})));
+    annotation (Placement(transformation(extent={{44, -190}, {64, -170}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b time_linkFrame
     "Frame of link \"time\""
-    annotation (Placement(transformation(extent={{68, -280}, {88, -260}}), iconTransformation(extent={{92, 212}, {108, 228}})));
+    annotation (Placement(transformation(extent={{44, -280}, {64, -260}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b cON_linkFrame
     "Frame of link \"CON\""
-    annotation (Placement(transformation(extent={{68, -358}, {88, -338}}), iconTransformation(extent={{92, 192}, {108, 208}})));
+    annotation (Placement(transformation(extent={{-4, -358}, {16, -338}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b l_arm_linkFrame
     "Frame of link \"L_arm\""
-    annotation (Placement(transformation(extent={{68, -468}, {88, -448}}), iconTransformation(extent={{92, 172}, {108, 188}})));
+    annotation (Placement(transformation(extent={{44, -468}, {64, -448}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b nutFrame
     "Frame of link \"nut\""
-    annotation (Placement(transformation(extent={{68, -558}, {88, -538}}), iconTransformation(extent={{92, 152}, {108, 168}})));
+    annotation (Placement(transformation(extent={{44, -558}, {64, -538}}), iconTransformation(extent={{92, 152}, {108, 168}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b a_b___c_______1_0______d____eFrame
     "Frame of link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
-    annotation (Placement(transformation(extent={{68, -620}, {88, -600}}), iconTransformation(extent={{92, 132}, {108, 148}})));
+    annotation (Placement(transformation(extent={{44, -620}, {64, -600}}), iconTransformation(extent={{92, 132}, {108, 148}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b balloonFrame
     "Frame of link \"balloon\""
-    annotation (Placement(transformation(extent={{68, -682}, {88, -662}}), iconTransformation(extent={{92, 112}, {108, 128}})));
+    annotation (Placement(transformation(extent={{-4, -682}, {16, -662}}), iconTransformation(extent={{92, 112}, {108, 128}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_a liftAxis
     "Axis of joint \"lift\""
-    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 276}, {-96, 284}})));
+    annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 156}, {-96, 164}})));
 
   Modelica.Mechanics.Translational.Interfaces.Flange_b liftSupport
     "Housing of the drive of joint \"lift\""
-    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 266}, {-96, 274}})));
+    annotation (Placement(transformation(extent={{-66, 14}, {-54, 26}}), iconTransformation(extent={{-104, 146}, {-96, 154}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a rotationalAxis_2
     "Axis of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
+    annotation (Placement(transformation(extent={{-52, -334}, {-40, -322}}), iconTransformation(extent={{-104, 136}, {-96, 144}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b rotationalSupport_2
     "Housing of the drive of joint \"rotational\""
-    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-104, 246}, {-96, 254}})));
+    annotation (Placement(transformation(extent={{-66, -334}, {-54, -322}}), iconTransformation(extent={{-104, 126}, {-96, 134}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a shoulderAxis
     "Axis of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-104, 236}, {-96, 244}})));
+    annotation (Placement(transformation(extent={{-52, -444}, {-40, -432}}), iconTransformation(extent={{-104, 116}, {-96, 124}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_b shoulderSupport
     "Housing of the drive of joint \"shoulder\""
-    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-104, 226}, {-96, 234}})));
+    annotation (Placement(transformation(extent={{-66, -444}, {-54, -432}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
     chassis.m +
@@ -443,9 +443,9 @@ equation
   connect(pinion_joint.frame_b, pinion.frame_a)
     annotation (Line(points={{16, -90}, {24, -90}, {24, -116}, {28, -116}}, color={95, 95, 95}, thickness=0.5));
   connect(end_link.frame_a, end_linkFrame)
-    annotation (Line(points={{28, -26}, {24, -26}, {24, 0}, {78, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -26}, {24, -26}, {24, 0}, {54, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(pinion.frame_a, pinionFrame)
-    annotation (Line(points={{28, -116}, {24, -116}, {24, -90}, {78, -90}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -116}, {24, -116}, {24, -90}, {54, -90}}, color={95, 95, 95}, thickness=0.5));
   connect(name_link.frame_a, held_slide.frame_a)
     annotation (Line(points={{-20, -206}, {-24, -206}, {-24, -180}, {-4, -180}}, color={95, 95, 95}, thickness=0.5));
   connect(held_slide.frame_b, gelenk__.frame_a)
@@ -455,11 +455,11 @@ equation
   connect(held_turn.frame_b, time_link.frame_a)
     annotation (Line(points={{16, -270}, {24, -270}, {24, -296}, {28, -296}}, color={95, 95, 95}, thickness=0.5));
   connect(gelenk__.frame_a, gelenk__Frame)
-    annotation (Line(points={{28, -206}, {24, -206}, {24, -180}, {78, -180}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -206}, {24, -206}, {24, -180}, {54, -180}}, color={95, 95, 95}, thickness=0.5));
   connect(time_link.frame_a, time_linkFrame)
-    annotation (Line(points={{28, -296}, {24, -296}, {24, -270}, {78, -270}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -296}, {24, -296}, {24, -270}, {54, -270}}, color={95, 95, 95}, thickness=0.5));
   connect(cON_link.frame_a, cON_linkFrame)
-    annotation (Line(points={{-20, -374}, {-24, -374}, {-24, -348}, {78, -348}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -374}, {-24, -374}, {-24, -348}, {6, -348}}, color={95, 95, 95}, thickness=0.5));
   connect(upper_arm.frame_a, elbow.frame_a)
     annotation (Line(points={{-20, -484}, {-24, -484}, {-24, -458}, {-4, -458}}, color={95, 95, 95}, thickness=0.5));
   connect(elbow.frame_b, l_arm_link.frame_a)
@@ -469,17 +469,17 @@ equation
   connect(lead_screw.frame_b, nut.frame_a)
     annotation (Line(points={{16, -548}, {24, -548}, {24, -574}, {28, -574}}, color={95, 95, 95}, thickness=0.5));
   connect(l_arm_link.frame_a, l_arm_linkFrame)
-    annotation (Line(points={{28, -484}, {24, -484}, {24, -458}, {78, -458}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -484}, {24, -484}, {24, -458}, {54, -458}}, color={95, 95, 95}, thickness=0.5));
   connect(nut.frame_a, nutFrame)
-    annotation (Line(points={{28, -574}, {24, -574}, {24, -548}, {78, -548}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -574}, {24, -574}, {24, -548}, {54, -548}}, color={95, 95, 95}, thickness=0.5));
   connect(table.frame_a, puck.frame_a)
     annotation (Line(points={{-20, -636}, {-24, -636}, {-24, -610}, {-4, -610}}, color={95, 95, 95}, thickness=0.5));
   connect(puck.frame_b, a_b___c_______1_0______d____e.frame_a)
     annotation (Line(points={{16, -610}, {24, -610}, {24, -636}, {28, -636}}, color={95, 95, 95}, thickness=0.5));
   connect(a_b___c_______1_0______d____e.frame_a, a_b___c_______1_0______d____eFrame)
-    annotation (Line(points={{28, -636}, {24, -636}, {24, -610}, {78, -610}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{28, -636}, {24, -636}, {24, -610}, {54, -610}}, color={95, 95, 95}, thickness=0.5));
   connect(balloon.frame_a, balloonFrame)
-    annotation (Line(points={{-20, -698}, {-24, -698}, {-24, -672}, {78, -672}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-20, -698}, {-24, -698}, {-24, -672}, {6, -672}}, color={95, 95, 95}, thickness=0.5));
   connect(lift.axis, liftAxis)
     annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 127, 0}));
   connect(lift.support, liftSupport)
@@ -516,9 +516,9 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={44, 82, 130}, lineThickness=0.5, radius=14, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
-      Text(extent={{-90, 266}, {0, 284}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
-      Text(extent={{-90, 246}, {0, 264}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
-      Text(extent={{-90, 226}, {0, 244}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
+      Text(extent={{-90, 146}, {0, 164}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="lift"),
+      Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rotational"),
+      Text(extent={{-90, 106}, {0, 124}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="shoulder"),
       Text(extent={{0, 273}, {88, 287}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="end_link"),
       Text(extent={{0, 253}, {88, 267}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="pinion"),
       Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="gelenk__"),

@@ -8,6 +8,7 @@ from collections import defaultdict
 from typing import TypeAlias
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.robots import random_robot
@@ -16,7 +17,7 @@ from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, JointType
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot
 
 TYPES: tuple[JointType, ...] = ("fixed", "fixed", "revolute", "revolute", "prismatic", "continuous", "planar")
 
@@ -133,7 +134,9 @@ def test_any_robot_is_drawn_well(random_: random.Random, links: int, reach: int,
     assert crossed(diagram) == []
     assert overlaid(diagram) == []
     assert diagram.placements["frame_a"].x1 == x1
-    assert {diagram.placements[names.frames[leaf.name]].x2 for leaf in tree.leaves()} == {x2}
+    for leaf in tree.leaves():
+        (x, y), link = diagram.placements[names.frames[leaf.name]].centre, diagram.placements[leaf.name]
+        assert (x > link.centre[0], y > link.y2) == (True, True), "at the end of the row that its link hangs on"
 
 
 def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
@@ -144,3 +147,34 @@ def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
         assert set(diagram.lines) == connections(tree, names)
         assert touching(dict(diagram.placements)) == []
         assert max(len(points) for _, points in diagram.lines.values()) <= 7
+
+
+def arm(*leaves: str) -> Diagram:
+    """A chain of seven links, one of two links that starts at the fifth, and fixed leaves, named `PARENT_…`."""
+    chains = ("l0", "l1", "l2", "l3", "l4", "l5", "l6"), ("l4", "side", "sole")
+    joints = [Joint(f"j_{b}", "revolute", a, b) for chain in chains for a, b in itertools.pairwise(chain)]
+    joints += [Joint(f"a_{leaf}", "fixed", leaf.partition("_")[0], leaf) for leaf in leaves]
+    links = [Link(name) for name in ("l0", *(joint.child for joint in joints))]
+    tree = KinematicTree.of(Robot("arm", tuple(links), tuple(joints)))
+    return layout(tree, connector_names(tree, Options()))
+
+
+def moved(before: Diagram, after: Diagram) -> set[str]:
+    """The components that are there before and after, in different places."""
+    common = before.placements.keys() & after.placements.keys()
+    return {name for name in common if before.placements[name] != after.placements[name]}
+
+
+@pytest.mark.parametrize("leaf", ["l6_tip", "sole_tip", "l0_lamp", "l2_lamp"])
+def test_a_leaf_in_a_free_place_moves_nothing(leaf: str) -> None:
+    """At the end of a chain, or below a chain beside another one."""
+    before, after = arm(), arm(leaf)
+    assert moved(before, after) == set()
+    assert all(after.lines[ends] == line for ends, line in before.lines.items() if ends in after.lines)
+    assert before.extent[3] - before.extent[1] == after.extent[3] - after.extent[1], "it takes no row of its own"
+
+
+def test_a_leaf_moves_only_what_is_below_it() -> None:
+    before, after = arm("l2_lamp", "l5_lamp"), arm("l2_lamp", "l3_lamp", "l5_lamp")
+    assert moved(before, after) == {"a_l2_lamp", "l2_lamp", "l2_lampFrame"}
+    assert {"side", "l5_lamp"} <= before.placements.keys()

@@ -1,20 +1,21 @@
 """Layout of the robot model's diagram: places of links, joints and couplings, and paths of the lines between them.
 
-A row shows one chain, from left to right, and ends at the connector of its last link. A link's first child
-joint continues the link's row; every other one starts a row of its own, below all rows of the joints before it:
+A chain runs from left to right and ends at the connector of its last link. One child joint of a link continues the
+link's chain: the first that leads to more than a leaf, else the first. Every other one starts a chain below those of
+the joints before it, in the first row where its columns are free:
 
-    frame_a ──┬── joint ──┬── joint ──┬──────── handFrame
-              ├ link      ├ link      └ link
-              │           └── joint ──┬──────── cameraFrame
-              │                       └ link
-              └────── joint ──┬──────────────── tailFrame
-                              └ link
+    frame_a ──┬── joint ──┬── joint ──┬── joint ──┬── handFrame
+              ├ link      ├ link      ├ link      └ link
+              │           │           └── joint ──┬── cameraFrame
+              │           │                       └ link
+              └── joint ──┬── tailFrame
+                          └ link
 
-Components keep to columns. A link hangs on a vertical trunk at the left of its column, and the joints
-that start at it stand on the spines of their rows, right of the trunk: so a trunk only passes rows
-that lie right of it. Above a joint that can be driven stand the connectors of its axis and its support.
-A mimic coupling stands above its follower; the line from its leader runs through the gap between two columns,
-on a track that no other line has there.
+So a new leaf moves only what stands below a place that it takes. Components keep to columns. A link hangs on a
+vertical trunk at the left of its column, and the joints that start at it stand on the spines of their rows, right of
+the trunk: so a trunk passes nothing of its own column. Above a joint that can be driven stand the connectors of its
+axis and its support. A mimic coupling stands above its follower; the line from its leader runs through the gap between
+two columns, on a track that no other line has there.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
@@ -28,7 +29,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import MOTION_KINDS
+from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 Point: TypeAlias = tuple[int, int]
 Path: TypeAlias = tuple[Point, ...]
@@ -50,7 +51,7 @@ PORTS: Mapping[str, Point] = {
 FRAME_A: Point = (-100, 0)
 """Middle of the connector `frame_a` in every robot's diagram."""
 
-_SIZE = 20  # width and height of a component, and of the frame connectors at the right
+_SIZE = 20  # width and height of a component, and of the frame connectors at the ends of rows
 _CONNECTOR = 12  # width and height of a connector that stands beside a component
 _FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
 _COLUMN = 48  # from trunk to trunk, as long as one track is enough in the gap between
@@ -62,7 +63,7 @@ _LINK_Y = 26  # from a row's spine down to the middle of its links
 _BELOW = 44  # from a row's spine down to its end: link, its name, a gap
 _ABOVE = 20  # from a row's spine up to the connectors of its joints
 _TRUNK = 8  # from the connector of the root frame to the first trunk
-_MARGIN = 44  # from the last trunk to the connectors at the right: a link and its name
+_MARGIN = 64  # from the last trunk to the right edge: a connector and its name
 _ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's own
 
 
@@ -175,22 +176,38 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         couplings=couplings,
         detours=detours,
         top=tops[0],
-        right=trunks[-1] + _MARGIN + _SIZE,
+        right=trunks[-1] + _MARGIN,
         bottom=y,
     )
 
 
 def _cells(tree: KinematicTree) -> tuple[Mapping[str, _Cell], Mapping[str, _Cell]]:
     """Return row and column of each link and joint: a joint stands in its parent's column and in its child's row."""
-    links, joints = {tree.links[0].name: (0, 0)}, {}
-    last, parents = 0, set()
+    root, parents = tree.links[0].name, {joint.parent for joint in tree.joints}
+    columns, children = {root: 0}, dict[str, list[Joint]]()
     for joint in tree.joints:
+        columns[joint.child] = columns[joint.parent] + 1
+    for link, starting in tree.children().items():
+        first = next((joint for joint in starting if joint.child in parents), starting[0])
+        children[link] = [first, *(joint for joint in starting if joint is not first)]
+    ends = dict(columns)  # the last column of the row that goes on from a link
+    for joint in reversed(tree.joints):
+        if joint is children[joint.parent][0]:
+            ends[joint.parent] = ends[joint.child]
+
+    links, joints = {root: (0, 0)}, {}
+    lowest = [0] * (max(columns.values()) + 1)  # the last row that has something in a column
+    todo = children.get(root, [])[::-1]
+    while todo:
+        joint = todo.pop()
         row, column = links[joint.parent]
-        if joint.parent in parents:
-            row = last = last + 1
-        parents.add(joint.parent)
+        if joint is not children[joint.parent][0]:
+            across = slice(column, ends[joint.child] + 1)
+            row = 1 + max(lowest[across])
+            lowest[across] = [row] * len(lowest[across])
         joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
-    return links, joints
+        todo += children.get(joint.child, [])[::-1]
+    return {link.name: links[link.name] for link in tree.links}, joints
 
 
 def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
@@ -205,7 +222,8 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
     leaves = {leaf.name for leaf in tree.leaves()}
     for name, frame in names.frames.items():
         if name in leaves:
-            placements[frame] = Placement.around((grid.right - _SIZE // 2, grid.links[name][1]))
+            x, y = grid.links[name]
+            placements[frame] = Placement.around((x + _JOINT_X, y))
         else:
             placements[frame] = Placement.around((links[name].centre[0], links[name].y1 - _CONNECTOR), _CONNECTOR)
     placements |= {tree.link(name).component: place for name, place in links.items()}

@@ -107,10 +107,13 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
 
 
 def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
-    """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there."""
-    top = _icon_top(names)
+    """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there.
+
+    They stand on the picture: another frame at the other side does not move them.
+    """
+    top = _PICTURE + _ROW * len(names.drives)
     return [
-        {"joint": tree.joint(name).component, "name": name, "y": top - 10 - _ROW * row, **msgspec.structs.asdict(drive)}
+        {"joint": tree.joint(name).component, "name": name, "y": top - _ROW * row, **msgspec.structs.asdict(drive)}
         for row, (name, drive) in enumerate(names.drives.items())
     ]
 

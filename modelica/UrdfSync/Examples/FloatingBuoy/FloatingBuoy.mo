@@ -5,7 +5,7 @@ model FloatingBuoy "Robot FloatingBuoy"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b clapperFrame
     "Frame of link \"clapper\""
-    annotation (Placement(transformation(extent={{64, -10}, {84, 10}}), iconTransformation(extent={{92, 112}, {108, 128}})));
+    annotation (Placement(transformation(extent={{40, -10}, {60, 10}}), iconTransformation(extent={{92, 112}, {108, 128}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a clapper_swingAxis
     "Axis of joint \"clapper_swing\""
@@ -73,7 +73,7 @@ equation
   connect(clapper_swing.frame_b, clapper.frame_a)
     annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper.frame_a, clapperFrame)
-    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {74, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {50, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(clapper_swing.axis, clapper_swingAxis)
     annotation (Line(points={{2, 10}, {2, 20}}, color={0, 0, 0}));
   connect(clapper_swing.support, clapper_swingSupport)

@@ -5,7 +5,7 @@ model PlanarPlatform "Robot PlanarPlatform"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b boomFrame
     "Frame of link \"boom\""
-    annotation (Placement(transformation(extent={{64, -10}, {84, 10}}), iconTransformation(extent={{92, 112}, {108, 128}})));
+    annotation (Placement(transformation(extent={{40, -10}, {60, 10}}), iconTransformation(extent={{92, 112}, {108, 128}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a boom_swingAxis
     "Axis of joint \"boom_swing\""
@@ -73,7 +73,7 @@ equation
   connect(boom_swing.frame_b, boom.frame_a)
     annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(boom.frame_a, boomFrame)
-    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {74, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {50, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(boom_swing.axis, boom_swingAxis)
     annotation (Line(points={{2, 10}, {2, 20}}, color={0, 0, 0}));
   connect(boom_swing.support, boom_swingSupport)

@@ -9,19 +9,19 @@ model SixAxisArm "Robot SixAxisArm"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_rightFrame
     "Frame of link \"finger_right\""
-    annotation (Placement(transformation(extent={{400, -10}, {420, 10}}), iconTransformation(extent={{92, 212}, {108, 228}})));
+    annotation (Placement(transformation(extent={{376, -10}, {396, 10}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b grasp_pointFrame
     "Frame of link \"grasp_point\""
-    annotation (Placement(transformation(extent={{400, -88}, {420, -68}}), iconTransformation(extent={{92, 192}, {108, 208}})));
+    annotation (Placement(transformation(extent={{376, -88}, {396, -68}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b finger_leftFrame
     "Frame of link \"finger_left\""
-    annotation (Placement(transformation(extent={{400, -170}, {420, -150}}), iconTransformation(extent={{92, 172}, {108, 188}})));
+    annotation (Placement(transformation(extent={{376, -170}, {396, -150}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b drive_pinionFrame
     "Frame of link \"drive_pinion\""
-    annotation (Placement(transformation(extent={{400, -260}, {420, -240}}), iconTransformation(extent={{92, 152}, {108, 168}})));
+    annotation (Placement(transformation(extent={{376, -260}, {396, -240}}), iconTransformation(extent={{92, 152}, {108, 168}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a turretAxis
     "Axis of joint \"turret\""
@@ -397,13 +397,13 @@ equation
   connect(pinion_coupling.frame_b, drive_pinion.frame_a)
     annotation (Line(points={{348, -250}, {356, -250}, {356, -276}, {360, -276}}, color={95, 95, 95}, thickness=0.5));
   connect(finger_right.frame_a, finger_rightFrame)
-    annotation (Line(points={{360, -26}, {356, -26}, {356, 0}, {410, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -26}, {356, -26}, {356, 0}, {386, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(grasp_point.frame_a, grasp_pointFrame)
-    annotation (Line(points={{360, -104}, {356, -104}, {356, -78}, {410, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -104}, {356, -104}, {356, -78}, {386, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(finger_left.frame_a, finger_leftFrame)
-    annotation (Line(points={{360, -186}, {356, -186}, {356, -160}, {410, -160}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -186}, {356, -186}, {356, -160}, {386, -160}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_pinion.frame_a, drive_pinionFrame)
-    annotation (Line(points={{360, -276}, {356, -276}, {356, -250}, {410, -250}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{360, -276}, {356, -276}, {356, -250}, {386, -250}}, color={95, 95, 95}, thickness=0.5));
   connect(turret.axis, turretAxis)
     annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
   connect(turret.support, turretSupport)

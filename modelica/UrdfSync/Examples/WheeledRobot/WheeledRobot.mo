@@ -5,23 +5,23 @@ model WheeledRobot "Robot WheeledRobot"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b caster_wheelFrame
     "Frame of link \"caster_wheel\""
-    annotation (Placement(transformation(extent={{208, -10}, {228, 10}}), iconTransformation(extent={{92, 252}, {108, 268}})));
+    annotation (Placement(transformation(extent={{40, -10}, {60, 10}}), iconTransformation(extent={{92, 252}, {108, 268}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b wheel_leftFrame
     "Frame of link \"wheel_left\""
-    annotation (Placement(transformation(extent={{208, -88}, {228, -68}}), iconTransformation(extent={{92, 232}, {108, 248}})));
+    annotation (Placement(transformation(extent={{-8, -88}, {12, -68}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b wheel_rightFrame
     "Frame of link \"wheel_right\""
-    annotation (Placement(transformation(extent={{208, -166}, {228, -146}}), iconTransformation(extent={{92, 212}, {108, 228}})));
+    annotation (Placement(transformation(extent={{-8, -166}, {12, -146}}), iconTransformation(extent={{92, 212}, {108, 228}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b camera_optical_frameFrame
     "Frame of link \"camera_optical_frame\""
-    annotation (Placement(transformation(extent={{208, -244}, {228, -224}}), iconTransformation(extent={{92, 192}, {108, 208}})));
+    annotation (Placement(transformation(extent={{184, -244}, {204, -224}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b lidarFrame
     "Frame of link \"lidar\""
-    annotation (Placement(transformation(extent={{208, -322}, {228, -302}}), iconTransformation(extent={{92, 172}, {108, 188}})));
+    annotation (Placement(transformation(extent={{40, -322}, {60, -302}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_swivelAxis
     "Axis of joint \"caster_swivel\""
@@ -322,11 +322,11 @@ equation
   connect(caster_roll.frame_b, caster_wheel.frame_a)
     annotation (Line(points={{12, 0}, {20, 0}, {20, -26}, {24, -26}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_wheel.frame_a, caster_wheelFrame)
-    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {218, 0}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -26}, {20, -26}, {20, 0}, {50, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(wheel_left.frame_a, wheel_leftFrame)
-    annotation (Line(points={{-24, -104}, {-28, -104}, {-28, -78}, {218, -78}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -104}, {-28, -104}, {-28, -78}, {2, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(wheel_right.frame_a, wheel_rightFrame)
-    annotation (Line(points={{-24, -182}, {-28, -182}, {-28, -156}, {218, -156}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{-24, -182}, {-28, -182}, {-28, -156}, {2, -156}}, color={95, 95, 95}, thickness=0.5));
   connect(column_guide.frame_a, lift.frame_a)
     annotation (Line(points={{-24, -260}, {-28, -260}, {-28, -234}, {-8, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(lift.frame_b, column.frame_a)
@@ -344,13 +344,13 @@ equation
   connect(camera_mount.frame_b, camera_optical_frame.frame_a)
     annotation (Line(points={{156, -234}, {164, -234}, {164, -260}, {168, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(camera_optical_frame.frame_a, camera_optical_frameFrame)
-    annotation (Line(points={{168, -260}, {164, -260}, {164, -234}, {218, -234}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{168, -260}, {164, -260}, {164, -234}, {194, -234}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_mast.frame_a, lidar_spin.frame_a)
     annotation (Line(points={{-24, -338}, {-28, -338}, {-28, -312}, {-8, -312}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar_spin.frame_b, lidar.frame_a)
     annotation (Line(points={{12, -312}, {20, -312}, {20, -338}, {24, -338}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar.frame_a, lidarFrame)
-    annotation (Line(points={{24, -338}, {20, -338}, {20, -312}, {218, -312}}, color={95, 95, 95}, thickness=0.5));
+    annotation (Line(points={{24, -338}, {20, -338}, {20, -312}, {50, -312}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_swivel.axis, caster_swivelAxis)
     annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
   connect(caster_swivel.support, caster_swivelSupport)
