@@ -73,7 +73,7 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
         if stays:
             message = f"the source still has {stays[0]} `{old}`"
         elif not kinds:
-            message, near = f"the source has no `{new}`", nearest(new, sorted(name for _, name in after - before))
+            message, near = f"the source has no `{new}`", nearest(new, sorted(name for _, name in after))
         elif news and not olds:
             message, hint = f"the last build has `{new}` already", f"take `{old}` out of `renamed`"
             yield Diagnostic(Severity.NOTE, "rename-done", f"robot `{robot.name}`: {message}", *place, hint=hint)
