@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -341,6 +342,16 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     Path("step.csv").rmdir()
     Path("step.csv").write_text("0,1\n")
     assert kinds(run()) == {"Resources/step.txt": Kind.CREATE, "Ladder.mo": Kind.UPDATE}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+def test_a_dependency_that_cant_be_opened_is_not_called_missing(project: Path) -> None:
+    Path("step.csv").unlink()
+    os.mkfifo("step.csv")
+    assert said(run()) == [
+        "ladder.json:3: warning: table `step.csv` can't be read: it is no regular file; left out; "
+        "replace it by a table that can be read [table-unreadable]"
+    ]
 
 
 def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path) -> None:

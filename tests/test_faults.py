@@ -164,6 +164,7 @@ def mode(path: Path, bits: int) -> Iterator[None]:
 denying = pytest.mark.skipif(not CAN_CHANGE_MODES, reason="modes mean nothing on this system")
 DENIED = [
     (LADDER, 0o500, f"{LADDER}"),
+    ("modelica", 0o000, "modelica/package.mo: error: "),
     (f"{LADDER}/Elements", 0o500, f"{LADDER}/Elements/"),
     (f"{LADDER}/Elements", 0o000, f"{LADDER}/Elements/"),
     (RECORD, 0o000, f"{RECORD}: error: "),

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.networks import edit, failure, run
+from support.networks import edit, failure, kinds, run
 
 from urdfsync import cli
+from urdfsync.engine.actions import Kind
 from urdfsync.engine.parents import merge_order
 
 
@@ -47,6 +48,16 @@ def test_a_build_begins_no_order_file_beside_classes_that_it_does_not_know(proje
     assert cli.main(["build", "--quiet"]) == 0
     assert not (plant / "package.order").exists()
     assert cli.main(["build", "--check"]) == 0
+
+
+@pytest.mark.parametrize(("order", "kind"), [("Inner\n", Kind.UPDATE), ("Inner\nFilters\n", None)])
+def test_the_order_of_a_package_further_above_is_told_if_it_changes(
+    project: Path, order: str, kind: Kind | None
+) -> None:
+    plant = package(project / "modelica/Plant", order)
+    edit("urdfsync.toml", '"Ladder"', '"Plant.Filters.Ladder"\ncreate_parents = true')
+    assert kinds(run()).get("modelica/Plant/package.order") is kind
+    assert (plant / "package.order").read_text() == "Inner\nFilters\n"
 
 
 # Lines of `package.order`: ours follow the package, the user's stay

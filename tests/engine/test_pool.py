@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import json
 import os
 import shutil
 import signal
+from collections.abc import Callable
+from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.networks import edit, run_all
@@ -79,6 +84,36 @@ def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Pat
     with Dependencies() as failed:
         run_all(jobs=2)
     assert not failed.complete
+
+
+class LastComeFirst(Executor):
+    """Does its jobs in this process: the last one first, and each not before it is told to."""
+
+    def __init__(self) -> None:
+        self.jobs: list[tuple[Future[Any], Callable[[], Any]]] = []
+
+    def submit(self, job: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        self.jobs.append((future, functools.partial(job, *arguments, **named)))
+        return future
+
+    def work(self) -> None:
+        future, job = self.jobs.pop()
+        future.set_result(job())
+
+
+def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (robots / "n2.json").write_text((robots / "n1.json").read_text())
+    executor, told = LastComeFirst(), list[tuple[int, int]]()
+
+    def progress(what: str, done: int, total: int) -> None:
+        if what == "reading":
+            told.append((done, total))
+            executor.work()
+
+    monkeypatch.setattr(pool, "workers", lambda _: contextlib.nullcontext(Workers(executor, None)))
+    run_all(jobs=2, progress=progress)
+    assert told == [(number, COUNT) for number in range(COUNT)]
 
 
 def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,9 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
+from support.networks import kinds, rename, run
 
+from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Exit
 from urdfsync.state import file_operations
 
@@ -88,3 +90,13 @@ def test_a_first_build_keeps_what_somebody_puts_in_its_way(
     execute("build", code=Exit.CONFLICT)
     assert (project / R1).read_text() == MINE
     assert "80" in (project / R2).read_text()
+
+
+def test_what_went_before_the_save_was_seen_is_told(project: Path, save_in_between: SaveInBetween) -> None:
+    source = project / "ladder.json"
+    run()
+    set_ohms(source, 70)
+    rename("R2", "R3")
+    save_in_between(lambda: None)
+    told = kinds(run())
+    assert (told[R2], told[R1]) == (Kind.DELETE, Kind.CONFLICT)

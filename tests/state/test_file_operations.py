@@ -57,6 +57,7 @@ def test_what_is_written_takes_no_place_and_follows_no_link(tmp_path: Path, old:
 def test_a_file_is_bound_to_its_place(tmp_path: Path) -> None:
     path, copy = tmp_path / "bound", tmp_path / "copy"
     file_operations.write_bound(path, file_operations.Bound())
+    assert not path.stat().st_mode & 0o111
     content = msgspec.json.decode(path.read_bytes(), type=file_operations.Bound)
     assert file_operations.is_bound(path, content)
     copy.write_bytes(path.read_bytes())
@@ -83,6 +84,15 @@ def test_two_files_are_swapped(system: str, old: Path, tmp_path: Path) -> None:
     assert contents(tmp_path) == {"old": b"other", "other": b"old"}
     with pytest.raises(FileNotFoundError):
         file_operations.exchange(old, tmp_path / "none")
+    assert contents(tmp_path) == {"old": b"other", "other": b"old"}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux swaps files")
+def test_two_files_are_swapped_at_once(old: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The target is never missing, as it would be between renames."""
+    (tmp_path / "other").write_bytes(b"other")
+    monkeypatch.setattr(file_operations, "replace", mock.Mock(side_effect=AssertionError))
+    file_operations.exchange(old, tmp_path / "other")
     assert contents(tmp_path) == {"old": b"other", "other": b"old"}
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
-from urdfsync.state import file_operations
+from urdfsync.state import file_operations, planned
 from urdfsync.state.planned import is_interrupted
 from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError
 
@@ -125,3 +125,13 @@ def test_what_cant_be_finished_is_finished_later(
     assert note.message == "the last build of robot `arm` was interrupted; it is finished"
     assert contents(tmp_path) == DONE
     assert transactions.recover() == ()
+
+
+def test_planned_hashes_that_were_cut_short_before_anything_changed_leave_no_trace(
+    tmp_path: Path, transactions: Transactions
+) -> None:
+    (tmp_path / "state").mkdir()
+    (tmp_path / "state" / planned.DRAFT).write_bytes(b'{"robot": "cut sh')
+    assert transactions.is_pending()
+    assert transactions.recover() == ()
+    assert not transactions.is_pending()
