@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.files import unchanged
@@ -205,6 +206,24 @@ def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, mo
         ("outdated-file", f"{LADDER}/Elements/R1Parameters.mo")
     ]
     assert run().diagnostics == ()
+
+
+def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run()
+    domain = type(registry.domain("rcnetwork"))
+    real = domain.artifacts
+
+    def artifacts(self: Any, model: Any, *others: Any) -> Any:
+        if model["elements"]["R1"]["ohm"] == 100:
+            raise KeyError("siemens")
+        return real(self, model, *others)
+
+    monkeypatch.setattr(domain, "artifacts", artifacts)
+    resistor(120)
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.UPDATE}
+    assert run().in_step
 
 
 def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:

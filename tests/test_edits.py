@@ -295,6 +295,15 @@ def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) 
     assert found.merge.text is not None
 
 
+def test_a_lost_base_is_rendered_by_the_options_that_it_was_written_with(project: Path) -> None:
+    run()
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    configure('prefix = "pin"\n')
+    (found,) = run().conflict_texts
+    assert found.base is not None
+    assert found.merge is not None
+
+
 def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     run()
     edit(RECORD, "end R1", MAY)

@@ -162,6 +162,14 @@ def test_passive_joints_are_noted(cart: Path) -> None:
     assert not run(cart).diagnostics
 
 
+def test_a_package_inside_of_the_library_does_not_need_it(cart: Path) -> None:
+    (cart / "modelica/UrdfSync").mkdir(parents=True)
+    top = cart / "modelica/UrdfSync/package.mo"
+    top.write_text('package UrdfSync\n  annotation (uses(Modelica(version="4.1.0")));\nend UrdfSync;\n')
+    (cart / "urdfsync.toml").write_text(CART_CONFIGURATION.replace('"Cart"', '"UrdfSync.Cart"'))
+    assert [found.code for found in run(cart).diagnostics] == ["passive-joints"]
+
+
 def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None:
     """The configuration was right until the source lost the link."""
     (cart / "urdfsync.toml").write_text(CART_CONFIGURATION + 'frames = ["tyre"]')

@@ -29,6 +29,7 @@ def test_paths_that_leave_the_package_or_are_none_everywhere(path: str) -> None:
         (["A.mo", "A.mo"], "`A.mo` and `A.mo`"),
         (["A.mo", "a.mo"], "`A.mo` and `a.mo`"),
         (["Links/A.mo", "links/B.mo"], "`Links` and `links`"),
+        (["Links/Left/A.mo", "links/Right/B.mo"], "`Links` and `links`"),
         (["Links.mo", "Links/package.mo"], "`Links.mo` and `Links/`"),
         (["links.mo", "Links/package.mo"], "`links.mo` and `Links/`"),
     ],

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import kinds, rename, run
+from support.networks import edit, kinds, rename, run
 
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Exit
@@ -100,3 +100,13 @@ def test_what_went_before_the_save_was_seen_is_told(project: Path, save_in_betwe
     save_in_between(lambda: None)
     told = kinds(run())
     assert (told[R2], told[R1]) == (Kind.DELETE, Kind.CONFLICT)
+
+
+def test_what_is_kept_since_its_place_is_taken_is_told(project: Path, save_in_between: SaveInBetween) -> None:
+    rename("R1", "R9")
+    run()
+    edit(R1.replace("R1", "R9"), "100", "101")
+    rename("R9", "R1")
+    save_in_between(lambda: None, "place")
+    assert [(found.code, found.file) for found in run().diagnostics] == [("kept-save", R1)]
+    assert "101" in (project / f"{R1}.saved").read_text()

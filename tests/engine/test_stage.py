@@ -47,11 +47,31 @@ def block_moved_package() -> str:
 
 def test_a_renewed_import_keeps_its_own_facts_when_its_source_goes(conflict: str) -> None:
     table = Path("step.csv")
+    assert Path(MANIFEST).read_text().count("source_hash") == 1
     table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
     assert kinds(run())[f"{LADDER}/Resources/step.txt"] is Kind.UPDATE
+    assert Path(MANIFEST).read_text().count("source_hash") == 2
     table.unlink()
     run(choices={conflict: Choice.TAKE})
     assert '"Voltage over time, 5 rows"' in Path(f"{LADDER}/Ladder.mo").read_text()
+
+
+def test_a_base_is_rendered_with_the_import_that_it_was_written_with(conflict: str) -> None:
+    table, whole = Path("step.csv"), f"{LADDER}/Ladder.mo"
+    table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
+    run()
+    edit(whole, "end Ladder;", "// mine\nend Ladder;")
+    bases = {one.path: one.base for one in run().conflict_texts}
+    assert "4 rows" in (bases[whole] or "")
+
+
+def test_an_element_that_was_away_for_a_while_is_known_by_its_other_name(conflict: str) -> None:
+    edit(R1, "end R1", "  // mine\nend R1")
+    text = Path("ladder.json").read_text()
+    take_out("R1")
+    run()
+    Path("ladder.json").write_text(text.replace('"R1"', '"R9"'))
+    assert R1 in {action.origin for action in run().actions}
 
 
 def test_an_element_may_get_the_name_of_one_that_is_gone(conflict: str) -> None:

@@ -6,6 +6,8 @@ import errno
 import os
 import sys
 from pathlib import Path
+from typing import Any
+from unittest import mock
 
 import msgspec
 import pytest
@@ -101,6 +103,55 @@ def test_nothing_is_written_outside(tmp_path: Path, changes: list[FileChange], p
     before = contents(tmp_path)
     with pytest.raises(OutputError):
         Transactions(root, root / "state").apply("arm", [FileChange(root / place, b"", None)])
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere an exchange is three renames")
+def test_each_step_is_on_the_disk_before_the_next(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A power failure may lose whatever was not synced."""
+    steps: list[str | set[str]] = []
+
+    def note(name: str) -> None:
+        real = getattr(file_operations, name)
+
+        def operation(*arguments: Any) -> None:
+            is_sync = name == "sync"
+            steps.append({path.relative_to(tmp_path).as_posix() for path in arguments[0]} if is_sync else name)
+            real(*arguments)
+
+        monkeypatch.setattr(file_operations, name, operation)
+
+    for name in ("sync", "exchange", "place", "replace"):
+        note(name)
+    transactions.apply("arm", changes)
+    draft, temporaries, begin, state_folder, *targets, folders = steps
+    assert draft == {f"state/{planned.DRAFT}"}
+    assert {Path(name).parent.as_posix() for name in temporaries} == {".", "b/c", "state/robots"}
+    assert (begin, state_folder) == ("replace", {"state"})
+    assert targets == ["exchange", "place", "replace", "place"], "renewed, made, deleted, and recorded as the last"
+    assert folders == {".", "a", "b/c", "state/robots"}
+
+
+@pytest.mark.parametrize("name", [planned.FILE, planned.DRAFT])
+def test_planned_hashes_are_no_link(tmp_path: Path, transactions: Transactions, name: str) -> None:
+    (tmp_path / "state").mkdir()
+    (tmp_path / "state" / name).symlink_to(tmp_path / "nothing")
+    assert transactions.is_pending()
+    with pytest.raises(OutputError, match="symbolic link"):
+        transactions.recover()
+
+
+def test_what_cant_be_written_leaves_no_trace(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "state").mkdir()
+    before = contents(tmp_path)
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    monkeypatch.setattr(file_operations, "write", mock.Mock(side_effect=full))
+    with pytest.raises(OutputError, match="No space left"):
+        transactions.apply("arm", changes)
     assert contents(tmp_path) == before
 
 
