@@ -83,6 +83,21 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     assert run().in_step
 
 
+def test_a_full_build_generates_what_is_recorded_as_generated(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As after a change of the program that nobody has raised the revision for."""
+    run()
+    domain = type(registry.domain("rcnetwork"))
+    real = domain.artifacts
+
+    def artifacts(self: Any, model: Any, *others: Any) -> Any:
+        elements = {name: {**element, "ohm": 7} for name, element in model["elements"].items()}
+        return real(self, {**model, "elements": elements}, *others)
+
+    monkeypatch.setattr(domain, "artifacts", artifacts)
+    assert run().in_step
+    assert kinds(run(full=True))["Elements/R1Parameters.mo"] is Kind.UPDATE
+
+
 def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(project: Path) -> None:
     run()
     (project / LADDER / "Bench.mo").write_text("within Ladder;\nmodel Bench\nend Bench;\n")

@@ -9,6 +9,7 @@ from pathlib import Path
 from unittest import mock
 
 import msgspec
+import psutil
 import pytest
 
 from urdfsync.state import file_operations
@@ -40,6 +41,7 @@ def test_a_written_file_is_new_and_has_the_permissions_of_another(tmp_path: Path
     assert (tmp_path / "new").stat().st_mode == old.stat().st_mode
     file_operations.write(tmp_path / "newer", b"", tmp_path / "none")
     assert contents(tmp_path) == {"old": b"old", "new": b"new", "newer": b""}
+    assert not any(Path(one.path).is_relative_to(tmp_path) for one in psutil.Process().open_files())
 
 
 @pytest.mark.parametrize("target", ["old", "none"])
