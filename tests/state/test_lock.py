@@ -79,6 +79,15 @@ def test_a_lock_whose_file_is_deleted_is_taken_again(tmp_path: Path) -> None:
             other.acquire()
 
 
+def test_who_takes_a_lock_after_another_process_is_named_alone(tmp_path: Path) -> None:
+    file = tmp_path / ".urdfsync/lock"
+    file.parent.mkdir()
+    file.write_text("123456789012\n")
+    with build_lock(file.parent, 0) as lock:
+        lock.acquire()
+        assert file.read_text() == f"{os.getpid()}\n"
+
+
 def test_a_build_with_something_to_write_waits_and_then_gives_up(project: Path) -> None:
     with holder(project) as process:
         with unchanged(project):
