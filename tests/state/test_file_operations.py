@@ -36,12 +36,17 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+def is_open(path: Path) -> bool:
+    return str(path) in {file.path for file in psutil.Process().open_files()}
+
+
 def test_a_written_file_is_new_and_has_the_permissions_of_another(tmp_path: Path, old: Path) -> None:
     file_operations.write(tmp_path / "new", b"new", old)
     assert (tmp_path / "new").stat().st_mode == old.stat().st_mode
     file_operations.write(tmp_path / "newer", b"", tmp_path / "none")
     assert contents(tmp_path) == {"old": b"old", "new": b"new", "newer": b""}
-    assert not any(Path(one.path).is_relative_to(tmp_path) for one in psutil.Process().open_files())
+    assert not is_open(old)
+    assert not is_open(tmp_path / "new")
 
 
 @pytest.mark.parametrize("target", ["old", "none"])
@@ -125,6 +130,7 @@ def test_a_few_files_are_synced_alone_and_many_together(
     monkeypatch.setattr(os, "sync", lambda: synced.append(0), raising=False)
     file_operations.sync([old, tmp_path])
     assert synced == [old.stat().st_ino, tmp_path.stat().st_ino]
+    assert not is_open(old)
     file_operations.sync([old] * 40)
     assert synced[2:] == ([0] if hasattr(os, "sync") else [old.stat().st_ino] * 40)
     with pytest.raises(FileNotFoundError) as caught:
