@@ -27,14 +27,32 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(project: Path, execute: Execute) -> None:
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    assert (
-        'link arm frame was arm_linkFrame list "arm" in `frames` to keep it'
-        in execute("diff", "arm.urdf", code=1).words
-    )
-    note = 'note: link arm: its frame `arm_linkFrame` is gone; list "arm" in `frames` to keep it [connector-changed]'
-    assert note in execute("build").words
+    hint = '`frames = ["arm"]` brings it back'
+    printed = execute("diff", "arm.urdf", code=1)
+    assert f"link arm frame was arm_linkFrame {hint} link hand frame now handFrame" in printed.words
+    assert printed.err == "", "what the effects say is not said twice"
+    notes = [
+        "arm.urdf: note: there is more to connect to: `handFrame` [connector-added]",
+        f"arm.urdf:4: note: link arm: its frame `arm_linkFrame` is gone; {hint} [connector-changed]",
+    ]
+    assert execute("status").errors == notes
+    assert execute("build").errors == notes
     assert "arm_linkFrame" not in (project / "modelica/Arm/Arm.mo").read_text()
     assert "connector-changed" not in execute("build").words
+
+
+def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_number(
+    project: Path, execute: Execute
+) -> None:
+    (project / "arm.urdf").write_text(urdfs.robot(LINKS[0]))
+    found = execute("build").words
+    assert all(f"its {name} is gone" in found for name in ("frame `arm_linkFrame`", "axis `swingAxis`"))
+    joints = [urdfs.joint(f"j{number}", "continuous", "base", f"l{number}") for number in range(2)]
+    (project / "arm.urdf").write_text(urdfs.robot(LINKS[0], *(urdfs.link(f"l{n}", 1.0) for n in range(2)), *joints))
+    words = (
+        "more to connect to: `l0Frame`, `l1Frame`, `j0Axis`, `j0Support`, `j0_phi`, `j0_tau`, 4 more [connector-added]"
+    )
+    assert words in execute("build").words
 
 
 def configure(project: Path, lines: str) -> None:
@@ -46,7 +64,7 @@ def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Pa
     configure(project, "driven = []\n")
     found = execute("build").words
     for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
-        assert f'joint swing: its {variable} is gone; list "swing" in `driven`' in found
+        assert f'joint swing: its {variable} is gone; `driven = ["swing"]` brings it back' in found
     assert "swingAxis" not in found, "the robot keeps its connectors"
 
 
@@ -54,7 +72,7 @@ def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(p
     configure(project, 'approach = ["record"]\n')
     found = execute("build", "--explain").words
     assert "the option `approach` changed" in found
-    assert 'robot: its model `Arm` is gone; list "package" in `approach` to keep it, with its connectors' in found
+    assert 'robot: its model `Arm` is gone; `approach = ["package", "record"]` brings it back' in found
 
 
 def test_options_are_named_only_if_nothing_else_changed(project: Path, execute: Execute) -> None:

@@ -392,7 +392,7 @@ class Domain(Protocol):
         return ""
 
     def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
-        """Return the option that gives the main model a connector; empty if none does, or if it has the connector."""
+        """Return the option that brings a connector, input or output of a model; empty if none does, or it is there."""
         return ""
 
     # Differences
@@ -475,6 +475,11 @@ class Domain(Protocol):
         made up. It runs in a process of its own. Raises SourceError if the reference can't be had or can't read it.
         """
         return "there is no reference for such packages"
+
+
+def brings_back(option: str, new_name: str = "") -> str:
+    """Return the hint that names the option by which something comes back, and its new name; empty without option."""
+    return f"`{option}` brings it back{f' as `{new_name}`' if new_name else ''}" if option else ""
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:

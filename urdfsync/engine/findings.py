@@ -17,8 +17,12 @@ from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.record import Choice
 from urdfsync.state.store import Store
 
+CONNECTOR_CODES = ("connector-added", "connector-changed")
+"""Codes of the notes on what users may connect to."""
 _FEW = 3
 """So many files are named; of more, only their number."""
+_NEW = 6
+"""So many new connectors are named; of more, only their number."""
 
 
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
@@ -31,7 +35,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
     if decision.is_complete:
-        found += _lost_connectors(generation)
+        found += _changed_connectors(generation)
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
@@ -58,13 +62,18 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
 
 
-def _lost_connectors(generation: Generation) -> Iterator[Diagnostic]:
-    """Notes on what users may have connected to, and what has another name now, or none."""
+def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
+    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
-    for one in inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options):
+    found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
+    if new := [f"`{one.new}`" for one in found if one.old is None]:
+        named = new if len(new) <= _NEW else [*new[:_NEW], f"{len(new) - _NEW} more"]
+        message = f"there is more to connect to: {', '.join(named)}"
+        yield Diagnostic(Severity.NOTE, "connector-added", message, shown(robot.source))
+    for one in found:
         element, connector = one.path
         if one.old is not None:
             now = f"is now `{one.new}`" if one.new else "is gone"

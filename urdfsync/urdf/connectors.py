@@ -6,7 +6,7 @@ with a number; so a new connector never renames an element, whose name is that o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import msgspec
 
@@ -75,6 +75,33 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         drives,
         {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
     )
+
+
+def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
+    """Return the option that brings each connector, and each variable of Run, that the options leave out.
+
+    It is a line as the configuration has it.
+    """
+    has, every = connector_names(tree, options), every_connector(tree, options)
+    named = () if isinstance(options.frames, str) else options.frames
+    found = {frame: _option("frames", (*named, link)) for link, frame in every.frames.items() if link not in has.frames}
+    for joint, drive in every.drives.items():
+        if not has.drives[joint].effort:
+            driven = (name for name, one in has.drives.items() if one.effort or name == joint)
+            found |= dict.fromkeys(filter(None, (drive.position, drive.effort)), _option("driven", driven))
+        elif drive.position and options.inputs == "vector":
+            found[drive.position] = 'inputs = "names"'
+    return found if options.inputs == "vector" else {"positions": 'inputs = "vector"', **found}
+
+
+def every_connector(tree: KinematicTree, options: Options) -> Connectors:
+    """Return the names for a robot with all frames, and with a Run that drives all that can be driven."""
+    joints = tuple(joint.name for joint in tree.joints)
+    return connector_names(tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names"))
+
+
+def _option(key: str, names: Iterable[str]) -> str:
+    return f"{key} = [{', '.join(msgspec.json.encode(name).decode() for name in names)}]"
 
 
 def taken_names(tree: KinematicTree) -> frozenset[str]:

@@ -6,8 +6,6 @@ import functools
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-import msgspec
-
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import (
     Artifact,
@@ -26,7 +24,7 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
-from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.connectors import connector_options
 from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects, interface
 from urdfsync.urdf.diff.meanings import describe
@@ -135,16 +133,8 @@ class UrdfDomain(Domain):
         return 'approach = ["package", "record"]' if is_left_out else ""
 
     def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
-        """Return the option that brings the frame of a link that `frames` does not name."""
-        tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
-        if name in connector_names(tree, options).frames.values():
-            return ""
-        frames = connector_names(tree, msgspec.structs.replace(options, frames="all")).frames
-        links = [link for link, frame in frames.items() if frame == name]
-        named = [] if isinstance(options.frames, str) else options.frames
-        return (
-            f"frames = [{', '.join(msgspec.json.encode(link).decode() for link in (*named, *links))}]" if links else ""
-        )
+        """Return the option that brings a frame of a link, or a variable of Run, that the options leave out."""
+        return connector_options(KinematicTree.of(from_snapshot(snapshot), (target.name,)), options).get(name, "")
 
     renames = staticmethod(find_renames)
     comparable = staticmethod(comparable)

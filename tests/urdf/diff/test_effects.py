@@ -23,6 +23,11 @@ def changed(
     return {" / ".join(one.path): (one.old, one.new) for one in found}
 
 
+def kept(found: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:
+    """What becomes of names that there were."""
+    return {path: names for path, names in found.items() if names[0] is not None}
+
+
 def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
     old = version(*STAR[:1], *STAR[2:], joint("jb", "continuous", "base", "b"), joint("jc", "revolute", "base", "c"))
     new = version(
@@ -31,11 +36,15 @@ def test_a_connector_keeps_its_name_whatever_comes_and_goes_beside_it() -> None:
         joint("jb", "continuous", "base", "b"),
         joint("jc", "prismatic", "base", "c"),
     )
-    assert changed(old, new) == {
+    changes = {
         "joint jc / motion": ("rotational", "translational"),
         "joint jc / position in Run": ("jc_phi", "jc_s"),
         "joint jc / effort in Run": ("jc_tau", "jc_f"),
     }
+    added = {"link a / frame": "aFrame", "joint ja / axis": "jaAxis", "joint ja / support": "jaSupport"}
+    added |= {"joint ja / position in Run": "ja_phi", "joint ja / effort in Run": "ja_tau"}
+    assert changed(old, new) == {**changes, **{path: (None, name) for path, name in added.items()}}
+    assert [*changed(old, new)][-5:] == [*added], "what is new comes last"
     assert "joint jc / position in Run" not in changed(old, new, inputs="vector")  # one input for all joints
 
 
@@ -43,7 +52,7 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
     joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
     drive = '<transmission name="t"><joint name="wheel"/></transmission>'
     old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
-    hint = 'list "caster" in `driven`, with all others that are driven, to keep it'
+    hint = '`driven = ["caster", "wheel"]` brings it back'
     assert {one.hint for one in interface(old, new, {}, TARGET, Options())} == {hint}
     vector = changed(old, new, inputs="vector")
     assert vector["robot / order of positions"] == ("caster, wheel", "wheel")
@@ -56,33 +65,67 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
 def test_a_link_that_is_no_leaf_any_more_loses_its_frame_unless_it_is_listed() -> None:
     first = joint("ja", "fixed", "base", "a")
     old, new = version(*STAR[:2], first), version(*STAR[:3], first, joint("jb", "fixed", "a", "b"))
-    hint = 'list "a" in `frames` to keep it'
-    assert interface(old, new, {}, TARGET, Options()) == [Effect(("link a", "frame"), "aFrame", None, hint=hint)]
-    assert interface(new, old, {}, TARGET, Options()) == [Effect(("link a", "frame"), None, "aFrame")]
-    assert changed(old, new, frames=("a",)) == {}
+    hint, more = '`frames = ["a"]` brings it back', Effect(("link b", "frame"), None, "bFrame")
+    assert interface(old, new, {}, TARGET, Options()) == [Effect(("link a", "frame"), "aFrame", None, hint=hint), more]
+    back = [Effect(("link b", "frame"), "bFrame", None), Effect(("link a", "frame"), None, "aFrame")]
+    assert interface(new, old, {}, TARGET, Options()) == back
+    assert changed(old, new, frames=("a",)) == {"link b / frame": (None, "bFrame")}
+    hint = '`frames = ["base", "a"]` brings it back'
+    assert interface(old, new, {}, TARGET, Options(frames=("base",)))[0].hint == hint
 
 
-def test_a_joint_that_gets_an_axis_gets_no_more_and_one_that_loses_it_loses_all() -> None:
+def test_a_frame_that_goes_when_its_link_gets_another_name_comes_back_by_the_new_one() -> None:
+    old = version(*STAR[:2], joint("ja", "fixed", "base", "a"))
+    new = version(STAR[0], *STAR[2:], joint("ja", "fixed", "base", "b"), joint("jc", "fixed", "b", "c"))
+    found = interface(old, new, {("link", "a"): "b"}, TARGET, Options())[0]
+    assert found == Effect(("link b", "frame"), "aFrame", None, hint='`frames = ["b"]` brings it back as `bFrame`')
+
+
+def test_a_joint_that_gets_an_axis_gets_all_and_one_that_loses_it_loses_all() -> None:
     still, turning = (version(*STAR[:2], joint("j", kind, "base", "a")) for kind in ("fixed", "continuous"))
-    flanges = {"joint j / axis": "jAxis", "joint j / support": "jSupport"}
-    assert changed(still, turning) == {path: (None, name) for path, name in flanges.items()}
-    gone = flanges | {"joint j / position in Run": "j_phi", "joint j / effort in Run": "j_tau"}
-    assert changed(turning, still) == {path: (name, None) for path, name in gone.items()}
+    names = {"joint j / axis": "jAxis", "joint j / support": "jSupport"}
+    names |= {"joint j / position in Run": "j_phi", "joint j / effort in Run": "j_tau"}
+    assert changed(still, turning) == {path: (None, name) for path, name in names.items()}
+    assert changed(turning, still) == {path: (name, None) for path, name in names.items()}
     assert {one.hint for one in interface(turning, still, {}, TARGET, Options())} == {""}
 
 
-def test_an_element_that_goes_is_no_news_about_its_connectors() -> None:
+def test_an_element_that_goes_takes_its_connectors_along() -> None:
     old, new = version(*STAR[:2], joint("j", "continuous", "base", "a")), version(STAR[0])
-    assert changed(old, new) == {"link base / frame": (None, "baseFrame")}
-    assert changed(old, new, inputs="vector")["robot / order of positions"] == ("j", None)
+    assert changed(old, new) == {
+        "link a / frame": ("aFrame", None),
+        "joint j / axis": ("jAxis", None),
+        "joint j / support": ("jSupport", None),
+        "joint j / position in Run": ("j_phi", None),
+        "joint j / effort in Run": ("j_tau", None),
+        "link base / frame": (None, "baseFrame"),
+    }
+    assert {one.hint for one in interface(old, new, {}, TARGET, Options())} == {""}
+    assert changed(old, new, inputs="vector")["robot / input of Run"] == ("positions", None)
+
+
+def test_an_element_whose_name_another_one_has_now_is_gone() -> None:
+    first, second = joint("ja", "fixed", "base", "a"), joint("jb", "fixed", "base", "b")
+    found = interface(
+        version(*STAR[:3], first, second), version(*STAR[:2], first), {("link", "b"): "a"}, TARGET, Options()
+    )
+    assert [(one.path[0], one.old, one.new) for one in found] == [
+        ("link a", "aFrame", None),
+        ("link a", "bFrame", "aFrame"),
+    ]
 
 
 def test_positions_by_name_take_the_place_of_a_vector() -> None:
     robot = version(*STAR[:2], joint("j", "continuous", "base", "a"))
-    assert changed(msgspec.structs.replace(robot, options=Options(inputs="vector")), robot) == {
-        "joint j / position in Run": (None, "j_phi"),
-        "robot / input of Run": ("positions", None),
-    }
+    vector = Options(inputs="vector")
+    assert interface(msgspec.structs.replace(robot, options=vector), robot, {}, TARGET, Options()) == [
+        Effect(("robot", "input of Run"), "positions", None, hint='`inputs = "vector"` brings it back'),
+        Effect(("joint j", "position in Run"), None, "j_phi"),
+    ]
+    assert interface(msgspec.structs.replace(robot, options=Options()), robot, {}, TARGET, vector) == [
+        Effect(("joint j", "position in Run"), "j_phi", None, hint='`inputs = "names"` brings it back'),
+        Effect(("robot", "input of Run"), None, "positions"),
+    ]
 
 
 def test_without_the_package_approach_the_model_goes() -> None:
@@ -93,7 +136,7 @@ def test_without_the_package_approach_the_model_goes() -> None:
 def test_a_connector_that_gives_way_to_a_new_element_is_named() -> None:
     turning = *STAR[:2], joint("turn", "continuous", "base", "a")
     old, new = version(*turning), version(*turning, link("turnAxis"), joint("f", "fixed", "base", "turnAxis"))
-    assert changed(old, new) == {"joint turn / axis": ("turnAxis", "turnAxis_2")}
+    assert kept(changed(old, new)) == {"joint turn / axis": ("turnAxis", "turnAxis_2")}
 
 
 def test_a_renamed_joint_shows_its_new_connectors() -> None:
@@ -121,15 +164,15 @@ def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
         joint("jb", "continuous", "base", "a"),
         joint("jc", "continuous", "base", "b"),
     )
-    assert changed(old, new) == {}
+    assert kept(changed(old, new)) == {}
     assert changed(old, old, inputs="vector") == {}
-    assert changed(old, new, inputs="vector") == {"robot / order of positions": ("jb, jc", "ja, jb, jc")}
+    assert kept(changed(old, new, inputs="vector")) == {"robot / order of positions": ("jb, jc", "ja, jb, jc")}
     behind = version(
         *STAR, *(joint(f"j{n}", "continuous", "base", child) for n, child in zip("bcd", "abc", strict=True))
     )
-    assert changed(old, behind, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jc, jd")}
+    assert kept(changed(old, behind, inputs="vector")) == {"robot / order of positions": ("jb, jc", "jb, jc, jd")}
     another = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jz", "prismatic", "base", "b"))
-    assert changed(old, another, inputs="vector") == {"robot / order of positions": ("jb, jc", "jb, jz")}
+    assert changed(old, another, inputs="vector")["robot / order of positions"] == ("jb, jc", "jb, jz")
 
 
 def test_the_record_approach_has_no_names_to_connect_to() -> None:

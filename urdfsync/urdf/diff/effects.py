@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from urdfsync.domain import Effect, ElementKey, Target, Version
-from urdfsync.urdf.connectors import Drive, connector_names
+from urdfsync.domain import Effect, ElementKey, Target, Version, brings_back, displaced
+from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
@@ -50,52 +50,63 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
 def interface(
     old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
 ) -> Sequence[Effect]:
-    """Return the connectors that elements of both versions get, lose, or have by another name.
+    """Return the connectors and the variables of Run that go or have another name, then those that come.
 
-    Also variables of Run of joints that keep their axis: whose motion is another one, or that become passive or driven.
-    With positions in one vector, its order too, where that is another one for joints of both versions; and the vector
-    itself, where positions become inputs by name. `options` are those of the new version; the old one has its own if it
+    With positions in one vector, its order too. `options` are those of the new version; the old one has its own if it
     says so.
     """
     earlier = old.options if isinstance(old.options, Options) else options
     if "package" not in earlier.approach:
         return ()
     if "package" not in options.approach:
-        hint = 'list "package" in `approach` to keep it, with its connectors'
+        hint = brings_back('approach = ["package", "record"]')
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
-    was, now = connector_names(before, earlier), connector_names(after, options)
-    found: list[Effect] = []
-    for link in before.links:
-        name = renames.get(("link", link.name), link.name)
-        if ("link", name) in after.names:
-            one, other = was.frames.get(link.name), now.frames.get(name)
-            hint = "" if other else f'list "{name}" in `frames` to keep it'
-            found += [Effect((f"link {name}", "frame"), one, other, hint=hint)] if one != other else []
-    for joint in before.joints:
-        name = renames.get(("joint", joint.name), joint.name)
-        if ("joint", name) in after.names:
-            found += _of_drive(name, was.drives.get(joint.name), now.drives.get(name))
-    positions = [renames.get(("joint", name), name) for name, drive in was.drives.items() if drive.effort]
-    if earlier.inputs == "names" or not positions:
-        return found
-    if options.inputs == "names":
-        return [*found, Effect(("robot", "input of Run"), "positions", None)]
-    new_positions = [name for name, drive in now.drives.items() if drive.effort]
-    if positions != new_positions:
-        found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions) or None))
-    return found
+    was, now, every = connector_names(before, earlier), connector_names(after, options), every_connector(after, options)
+    lines, found = connector_options(after, options), list[Effect]()
+
+    def add(element: str, part: str, one: str | None, other: str | None, full: str | None) -> None:
+        """Add what becomes of a name; `full` is what it would be if no option left it out."""
+        if one != other:
+            hint = "" if other or not full else brings_back(lines.get(full, ""), full if full != one else "")
+            found.append(Effect((element, part), one, other, hint=hint))
+
+    links, new_links = ([link.name for link in tree.links] for tree in (before, after))
+    for old_name, name in _matches("link", links, new_links, renames):
+        frames = was.frames.get(old_name), now.frames.get(name), every.frames.get(name)
+        add(f"link {name or old_name}", "frame", *frames)
+    joints, new_joints = ([joint.name for joint in tree.joints] for tree in (before, after))
+    for old_name, name in _matches("joint", joints, new_joints, renames):
+        drives = was.drives.get(old_name), now.drives.get(name), every.drives.get(name)
+        element, (one, other, _) = f"joint {name or old_name}", drives
+        if one and other and one.axis == other.axis and one.motion != other.motion:
+            found.append(Effect((element, "motion"), one.motion, other.motion))
+        for field, part in _DRIVE.items():
+            add(element, part, *(getattr(drive, field, None) for drive in drives))
+    positions = [renames.get(("joint", name), name) for name in _driven(was)] if earlier.inputs == "vector" else []
+    new_positions = _driven(now) if options.inputs == "vector" else []
+    add(
+        "robot", "input of Run", "positions" if positions else None, "positions" if new_positions else None, "positions"
+    )
+    if positions and new_positions and positions != new_positions:
+        found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions)))
+    return sorted(found, key=lambda one: one.old is None)  # what users lose comes first
 
 
-def _of_drive(joint: str, old: Drive | None, new: Drive | None) -> Iterator[Effect]:
-    """Yield what becomes of the names of one joint. The variables of Run of a joint that gets an axis are left out."""
-    element, hint = f"joint {joint}", ""
-    if old and new and old.axis == new.axis and old.motion != new.motion:
-        yield Effect((element, "motion"), old.motion, new.motion)
-    if new and not new.effort:
-        hint = f'list "{joint}" in `driven`, with all others that are driven, to keep it'
-    for field, part in _DRIVE.items():
-        one, other = getattr(old, field, None), getattr(new, field, None)
-        is_of_run = field in ("position", "effort")
-        if one != other and (old or not is_of_run):
-            yield Effect((element, part), one, other, hint=hint if is_of_run else "")
+def _driven(connectors: Connectors) -> list[str]:
+    """Return the joints that Run drives."""
+    return [name for name, drive in connectors.drives.items() if drive.effort]
+
+
+def _matches(
+    kind: str, before: Iterable[str], after: Iterable[str], renames: Mapping[ElementKey, str]
+) -> Iterator[tuple[str, str]]:
+    """Yield old and new name of each element; empty for one that is new, or gone."""
+    gone, new_names = displaced(renames), dict.fromkeys(after)
+    for old_name in before:
+        name = renames.get((kind, old_name), old_name)
+        is_there = name in new_names and (kind, old_name) not in gone
+        yield old_name, name if is_there else ""
+        if is_there:
+            del new_names[name]
+    yield from (("", name) for name in new_names)
