@@ -41,6 +41,22 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
     assert "connector-changed" not in execute("build").words
 
 
+def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_back(
+    project: Path, execute: Execute
+) -> None:
+    (project / "Cell.mo").write_text(
+        "model Cell\n  Arm.Arm robot;\nequation\n  connect(robot.arm_linkFrame, x);\nend Cell;\n"
+    )
+    (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
+    words = "Cell.mo:4: warning: `robot.arm_linkFrame` is used here, but the package has no `arm_linkFrame` any more"
+    expected = f'{words}; `frames = ["arm"]` brings it back [vanished-name]'
+    for command, code in (("diff", 1), ("status", 0), ("build", 0)):
+        assert expected in execute(command, code=code).errors
+    with (project / "urdfsync.toml").open("a") as file:
+        file.write('frames = ["arm"]\n')
+    assert "vanished-name" not in execute("build").words
+
+
 def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_number(
     project: Path, execute: Execute
 ) -> None:

@@ -127,6 +127,7 @@ FITTING: Mapping[str, Sequence[Any]] = {
     "domain": ("urdf",),
     "templates": ("templates",),
     "package_paths": (["."], [OUTSIDE], ["link", "modelica"], []),
+    "users": (["."], [OUTSIDE], ["link", "bot.urdf"], []),
     "create_parents": (True, False),
     "on_conflict": ("keep", "merge"),
     "base": ("fixed", "floating"),
@@ -140,7 +141,7 @@ FITTING: Mapping[str, Sequence[Any]] = {
 }
 """Values of keys that are right, or nearly."""
 KEYS = (*FITTING, "on_build", "command", "library", "sources", "name", "", "x.y", "é")
-OF_PATHS = ("source", "output", "templates", "package_paths", "library", "command")
+OF_PATHS = ("source", "output", "templates", "package_paths", "users", "library", "command")
 NAMES = (
     *("bot", "Bot", "BOT", "other", "a.b", "-x", "..", ".", "", "con", "a/b", "é", "x" * 300, "\u202e", "a b"),
     *("__proto__", "\x1b[2J"),

@@ -178,6 +178,17 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     return os.listdir(folder)
 
 
+def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    """The entries of a folder, in no order. Raises OSError.
+
+    One that becomes a file instead of a folder changes the stat values of the folder that it is in.
+    """
+    if (dependencies := _current.get()) is not None:
+        _add(dependencies, folder)
+    with os.scandir(folder) as entries:
+        return list(entries)
+
+
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
     if (dependencies := _current.get()) is not None:

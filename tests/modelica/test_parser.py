@@ -93,8 +93,8 @@ end Arm;
 """
 
 
-def name(text: str, line: int, *, is_called: bool = False) -> Name:
-    return Name(tuple(text.lstrip(".").split(".")), line, text.startswith("."), is_called)
+def name(text: str, line: int, start: int) -> Name:
+    return Name((text,), line, starts=(start,))
 
 
 def class_in(body: str) -> Class:
@@ -133,10 +133,11 @@ def test_a_text_may_say_that_it_is_in_no_package() -> None:
 
 
 def test_classes_come_in_several_forms() -> None:
-    found = class_in(
+    text = (
         "type T = Real(min = a);\n type E = enumeration(one, two);\n replaceable package M = B constrainedby C;\n"
         "redeclare model extends S(k = 1)\n end S;\n function d = der(f, x);\n operator record O\n end O;"
     )
+    found = class_in(text)
     assert [(str(one.name), one.kind, one.literals, one.is_extension, one.is_derivative) for one in found.classes] == [
         ("T", "type", None, False, False),
         ("E", "type", ("one", "two"), False, False),
@@ -146,9 +147,16 @@ def test_classes_come_in_several_forms() -> None:
         ("O", "operator record", None, False, False),
     ]
     short, _, medium, extension, *_ = found.classes
-    assert short.alias == Extends(name("Real", 2), (Modifier(name("min", 2), uses=(name("a", 2),)),))
-    assert (medium.constraint, medium.prefixes) == (Extends(name("C", 4)), frozenset({"replaceable"}))
-    assert (extension.arguments, extension.prefixes) == ((Modifier(name("k", 5)),), frozenset({"redeclare"}))
+    real, least, a, c, k = (len("model A\n") + text.index(word) for word in ("Real", "min", "a)", "C;", "k ="))
+    assert short.alias == Extends(name("Real", 2, real), (Modifier(name("min", 2, least), uses=(name("a", 2, a),)),))
+    assert (medium.constraint, medium.prefixes) == (Extends(name("C", 4, c)), frozenset({"replaceable"}))
+    assert (extension.arguments, extension.prefixes) == ((Modifier(name("k", 5, k)),), frozenset({"redeclare"}))
+
+
+def test_each_part_of_a_name_has_its_place() -> None:
+    text = "model A\nequation\n  x = a . b[i.j].\n // a comment\n c;\nend A;\n"
+    found = {str(one): [text[start] for start in one.starts] for one in parse(text).classes[0].uses}
+    assert found == {"x": ["x"], "a.b.c": ["a", "b", "c"], "i.j": ["i", "j"]}
 
 
 def test_names_in_statements_and_external_functions() -> None:
@@ -160,7 +168,7 @@ def test_names_in_statements_and_external_functions() -> None:
 
 def test_what_is_taken_away_from_a_base_class() -> None:
     (base,) = class_in("extends B(break c, break connect(a, d));").extends
-    assert base.arguments == (Modifier(name("c", 2)),)
+    assert base.arguments == (Modifier(name("c", 2, len("model A\nextends B(break "))),)
 
 
 FAULTS = {

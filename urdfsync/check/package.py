@@ -21,8 +21,9 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
+from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import files_that_use, has_word
+from urdfsync.modelica.files import has_word
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
@@ -177,14 +178,8 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
 
 
 def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
-    """The Modelica files below the output folder, in no robot's package, that have to do with the robot's package.
-
-    They mention the package, or the class in another such file. Raises OutputError for a file that can't be read.
-    """
-    folders = {other.folder for other in config.robots}
-    read = read_files(robot.output, folders) if robot.output not in folders else {}
-    files = {path: content for path, content in read.items() if path.suffix == ".mo"}
-    return files_that_use(files, [robot.target.package.rpartition(".")[2]])
+    """The user's models in no robot's package that have to do with this robot's package."""
+    return find_users_files(config, robot, {other.folder for other in config.robots}, [robot.folder.name])
 
 
 def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:

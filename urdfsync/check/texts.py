@@ -16,6 +16,7 @@ from urdfsync.check.package import CheckedPackage, PackageTexts
 from urdfsync.check.results import listed
 from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import brings_back
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import ClassName, StoredClasses, class_path
 from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file
@@ -240,9 +241,9 @@ def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved
         if one.kind is UnresolvedKind.ELEMENT:
             message = f"{one.owner.rpartition('.')[2]} has no `{one.part}`"
             robot, snapshot = package.robot, package.rendering.snapshot
-            if one.owner == f"{robot.target.package}.{package.models[0]}":
+            if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
                 option = package.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)
-                hint = f"`{option}` in the configuration brings it back" if option else hint
+                hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {one.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
     if not file.is_relative_to(files.folder):

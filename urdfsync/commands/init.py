@@ -37,6 +37,7 @@ output = "modelica"  # the folder that the packages go into
 # on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
 {on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
 # package_paths = []  # folders in which `package://` is looked for
+# users = []  # where models of your own use the robots, beside this folder: a build names the uses of what is gone
 # templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
 """
 _LONGEST = 80

@@ -215,6 +215,7 @@ class _Reader:
             domain=keys.domain,
             templates=_absolute(self._root / keys.templates) if keys.templates else None,
             package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
+            users=tuple(_absolute(self._root / path) for path in keys.users),
             create_parents=keys.create_parents,
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",

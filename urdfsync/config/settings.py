@@ -32,6 +32,7 @@ class Keys(msgspec.Struct, frozen=True):
     domain: str = "urdf"
     templates: str = ""
     package_paths: tuple[str, ...] = ()
+    users: tuple[str, ...] = ()
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
     on_build: Literal["nothing", "check"] = "nothing"
@@ -58,6 +59,8 @@ class RobotConfig(msgspec.Struct, frozen=True):
     options: Any
     templates: Path | None = None
     package_paths: tuple[Path, ...] = ()
+    users: tuple[Path, ...] = ()
+    """Files and folders that hold models of the user's, beside the configuration's folder and `output`."""
     create_parents: bool = False
     merging: bool = False
     """Whether a file that both sides changed gets their merge, if that is without doubt."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfsync import registry
 from urdfsync.config.paths import templates_folder
 from urdfsync.config.settings import Config, RobotConfig
-from urdfsync.dependencies import is_folder, read_file, walk_files
+from urdfsync.dependencies import file_type, is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
@@ -23,11 +23,12 @@ def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagno
 
 
 def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
-    for folder in robot.package_paths:
-        if not is_folder(folder):
-            message = f"the folder {shown(folder)} of `package_paths` does not exist"
-            line, hint = robot.lines.get("package_paths", 0), "correct it, or take it out"
-            yield Diagnostic(Severity.WARNING, "no-package-path", message, shown(config.file), line, hint=hint)
+    gone = [("package_paths", "the folder ", path) for path in robot.package_paths if not is_folder(path)]
+    gone += [("users", "", path) for path in robot.users if not file_type(path)]
+    for key, noun, path in gone:
+        message, line = f"{noun}{shown(path)} of `{key}` does not exist", robot.lines.get(key, 0)
+        code, hint = "no-package-path" if key == "package_paths" else "no-users-path", "correct it, or take it out"
+        yield Diagnostic(Severity.WARNING, code, message, shown(config.file), line, hint=hint)
     if robot.templates is None or not is_folder(robot.templates):
         return
     known = set(_files(templates_folder(registry.domain(robot.domain))))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -101,6 +102,14 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         own = self.files.classes(self.folder) - {action.path for action in actions if not action.released}
         keys = {action.path for action in edited} | own
         return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
+
+    @cached_property
+    def users_files(self) -> Mapping[Path, bytes]:
+        """The user's models outside of the package that have to do with it, as it is and as it was."""
+        from urdfsync.engine.users_files import find_users_files  # the parser takes a tenth of a small build to load
+
+        packages = {self.files.path(folder) for folder in (self.folder, self.old_folder)}
+        return find_users_files(self.config, self.robot, packages, {package.name for package in packages})
 
     @cached_property
     def bases(self) -> Mapping[str, str]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from pathlib import Path
 from typing import NamedTuple
 
@@ -29,7 +28,7 @@ class PackageFiles:
     """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
 
     def __init__(self, config: Config, robot: RobotConfig) -> None:
-        self.root, self._output = config.root, robot.output
+        self.root = config.root
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
@@ -112,20 +111,6 @@ class PackageFiles:
         from urdfsync.modelica.files import modelica_files
 
         return {self.key(Path(path)) for path in modelica_files(self.path(folder))}
-
-    def users_files(self, folders: Iterable[str]) -> dict[Path, bytes]:
-        """Return the Modelica files below the output folder that have to do with the package in one of these folders.
-
-        They are outside of these folders. Files that can't be read are left out.
-        """
-        from urdfsync.modelica.files import files_that_use, modelica_files
-
-        packages, found = {self.path(folder) for folder in folders}, {}
-        for path in map(Path, modelica_files(self._output)):
-            if packages.isdisjoint(path.parents):
-                with contextlib.suppress(OSError):
-                    found[path] = dependencies.read_file(path)
-        return files_that_use(found, [package.name for package in packages])
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)

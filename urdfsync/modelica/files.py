@@ -9,13 +9,13 @@ import contextlib
 import functools
 import os
 import re
-import stat
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies import file_type, list_folder
+from urdfsync.dependencies import scan_folder
 from urdfsync.modelica.classes import OPAQUE, Node
+from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
 
@@ -46,12 +46,15 @@ class StoredClasses:
         `find` gives the folder or file of any other top-level class, None if there is none. `gone` is a package of
         which nothing counts that is on disk.
         """
-        self._find = functools.cache(find)
+        self._find = functools.cache(lambda name: find(name) or self._beside(name))
+        self._folders: dict[Path, None] = {}
         self._not_on_disk = [tuple(name.split(".")) for name in (package, gone) if name]
         self.own: dict[ClassName, tuple[bytes, Path]] = {}
         """The files of the robot's package by the full names of their classes."""
         self.users: dict[ClassName, Node] = {}
-        """The classes of the user's files, by their full names."""
+        """The classes of the user's files, by their full names; of several of one name the first."""
+        self.all_users: list[Node] = []
+        """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
         for path, content in texts.items():
@@ -61,13 +64,15 @@ class StoredClasses:
         for file, content in others.items():
             found = _parsed(content)
             around = tuple(found.within.split(".")) if found.within else ()
-            expected = _package_around(file, others)
+            folder_around, expected = _place(file, others)
+            self._folders[folder_around] = None
             if found.is_broken or (expected and around != expected):
                 self.unread.append(file)
                 continue
             for one in found.classes:
                 name = (*around, one.name.parts[0])
-                self.users.setdefault(name, Node(one, name, str(file)))
+                self.all_users.append(Node(one, name, str(file)))
+                self.users.setdefault(name, self.all_users[-1])
 
     def stored(self, name: ClassName) -> Node | None:
         """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
@@ -95,6 +100,12 @@ class StoredClasses:
                     found.add(entry.name.removesuffix(".mo"))
         return found
 
+    def _beside(self, name: str) -> Path | None:
+        """Return the folder or file of a top-level class that stands beside one of the user's; None for none."""
+        places = (folder / end for folder in self._folders for end in (f"{name}/{_PACKAGE}", f"{name}.mo"))
+        found = next((place for place in places if place.is_file()), None)
+        return found.parent if found and found.name == _PACKAGE else found
+
     def _file(self, name: ClassName) -> Path | None:
         """Return the file of a library in which a class is stored."""
         root = self._find(name[0])
@@ -104,35 +115,39 @@ class StoredClasses:
         return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if path.is_file()), None)
 
 
-def modelica_files(folder: Path) -> Iterator[str]:
+def modelica_files(folder: Path, others: Collection[str] = ()) -> Iterator[str]:
     """Yield all files of Modelica below a folder, but for links, hidden folders and `Resources`.
 
-    What is looked at is recorded as a dependency. What can't be looked at is left out.
+    Folders below it that hold a file of one of the names `others` are left out as well. What is looked at is recorded
+    as a dependency. What can't be looked at is left out.
     """
     waiting = [str(folder)]
     while waiting:
         current = waiting.pop()
-        inside: list[str] = []
+        inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(list_folder(current))
-        for name in inside:
-            path, found = f"{current}{os.sep}{name}", 0
-            if name.startswith(".") or name == _NOT_CLASSES:
+            inside = sorted(scan_folder(current), key=lambda entry: entry.name)
+        if current != str(folder) and any(entry.name in others for entry in inside):
+            continue
+        for entry in inside:
+            if entry.name.startswith(".") or entry.name == _NOT_CLASSES:
                 continue
-            with contextlib.suppress(OSError):
-                found = file_type(path, follow=False)
-            if found == stat.S_IFDIR:
-                waiting.append(path)
-            elif found == stat.S_IFREG and name.endswith(".mo"):
-                yield path
+            with contextlib.suppress(OSError):  # some file systems do not tell the type with the name
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(entry.path)
+                elif entry.name.endswith(".mo") and entry.is_file(follow_symlinks=False):
+                    yield entry.path
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """The files that mention one of these names, or the class of another such file, which is called like that file."""
+    """The files that use one of these names, or the class of another such file, which is called like that file.
+
+    Strings and comments do not count: a library of words about robots is no user.
+    """
     waiting, unused, found = dict(files), list(names), {}
     while unused:
-        word = unused.pop().encode()
-        for path in [path for path, content in waiting.items() if has_word(content, word)]:
+        word = unused.pop()
+        for path in [path for path, content in waiting.items() if _is_used(word, content)]:
             found[path] = waiting.pop(path)
             unused.append(_class_name(path))
     return dict(sorted(found.items()))
@@ -143,8 +158,17 @@ def has_word(text: bytes, name: bytes) -> bool:
     return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
 
+def text_of(content: bytes) -> str:
+    """The text of a file as it is parsed; bytes that are not UTF-8 survive in it."""
+    return content.decode(errors="surrogateescape").replace("\r\n", "\n")
+
+
+def _is_used(name: str, content: bytes) -> bool:
+    return has_word(content, name.encode()) and any(token.text == name for token in lex(text_of(content))[0])
+
+
 def _parsed(content: bytes) -> StoredText:
-    return parse(content.decode(errors="replace").replace("\r\n", "\n"))
+    return parse(text_of(content))
 
 
 def _class_in(content: bytes, file: Path, name: ClassName) -> Node:
@@ -158,11 +182,11 @@ def _class_name(path: Path) -> str:
     return path.parent.name if path.name == _PACKAGE else path.stem
 
 
-def _package_around(path: Path, files: Mapping[Path, bytes]) -> tuple[str, ...]:
-    """Return the full name of the package that a file is in, by the folders around it; empty if it is in none."""
+def _place(path: Path, files: Mapping[Path, bytes]) -> tuple[Path, ClassName]:
+    """Return the folder of a file's top-level class, and the name of the package that the file is in by its folders."""
     folder = path.parent.parent if path.name == _PACKAGE else path.parent
     parts: list[str] = []
     while folder / _PACKAGE in files or (folder / _PACKAGE).is_file():
         parts.insert(0, folder.name)
         folder = folder.parent
-    return tuple(parts)
+    return folder, tuple(parts)

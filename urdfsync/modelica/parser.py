@@ -127,9 +127,9 @@ class SyntaxParser:
 
     def _declared_name(self, names: set[str]) -> Name:
         """The name of something that is declared beside `names`."""
-        line, text = self.line, self._identifier()
+        token, text = self.tokens[self.at], self._identifier()
         self._once(names, text, f"declares `{text}` twice")
-        return Name((text,), line)
+        return Name((text,), token.line, starts=(token.start,))
 
     def _enter(self) -> None:
         if self._depth == _DEEPEST:
@@ -172,12 +172,13 @@ class SyntaxParser:
     def _name(self, subscripts: list[Name] | None = None) -> Name:
         """A name with dots. If it may have subscripts, `subscripts` gets the names in them."""
         line, is_global = self.line, bool(self._accept("."))
-        parts: list[str] = []
+        parts, starts = list[str](), list[int]()
         while not parts or (self.word == "." and is_name(self.following) and self._step()):
+            starts.append(self.tokens[self.at].start)
             parts.append(self._identifier())
             if subscripts is not None:
                 subscripts += self._subscripts()
-        return Name(tuple(parts), line, is_global)
+        return Name(tuple(parts), line, is_global, starts=tuple(starts))
 
     def _reference(self) -> list[Name]:
         """A component or function, after the names in its subscripts."""

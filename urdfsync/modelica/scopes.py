@@ -51,6 +51,8 @@ class Missing(NamedTuple):
     """The classes that lack it; empty if it is the first part, which was looked for in all scopes."""
     is_certain: bool = True
     """False if one of the classes on the way extends one that is not at hand."""
+    number: int = 0
+    """Of the part in the name, from 0."""
 
 
 ANYTHING = Element((Type(OPAQUE),))
@@ -75,6 +77,12 @@ class Scopes:
             found = found and self._child(found, part)
         return None if found is OPAQUE else found
 
+    def users(self) -> Iterator[Node]:
+        """Yield the classes of the user's files at their places, in the order of the files."""
+        for node in self._sources.all_users:
+            node.parent = node.parent or self.node(node.name[:-1])
+            yield node
+
     def _top(self, name: str) -> Node | None:
         if name not in self._tops:
             self._tops[name] = self._sources.stored((name,))
@@ -98,10 +106,12 @@ class Scopes:
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
         """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
         found = self._first(name.parts[0], None if name.is_global else scope)
-        for part in name.parts[1:]:
+        for number, part in enumerate(name.parts[1:], start=1):
             if isinstance(found, Missing):
                 break
             found = self.part(found.types, part)
+            if isinstance(found, Missing):
+                found = found._replace(number=number)
         return found
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing:

@@ -23,6 +23,8 @@ class Name(NamedTuple):
     """Whether it begins with a dot, so that it is looked for among the top-level classes alone."""
     is_called: bool = False
     """Whether it is called as a function or record constructor."""
+    starts: tuple[int, ...] = ()
+    """Where its parts begin in the text, from 0; those of `import A.{B}` lack the last one."""
 
     def __str__(self) -> str:
         return ".".join(self.parts)

@@ -41,6 +41,10 @@ class Unresolved(NamedTuple):
     line: int
     near: str = ""
     """The known name that is most like the part; empty if none is."""
+    start: int = -1
+    """Where the part begins in the text; -1 if that is not known."""
+    known: Collection[str] = ()
+    """The names that mean something there."""
 
     @property
     def meant(self) -> str:
@@ -107,10 +111,10 @@ class _Walk:
         """Yield what is wrong with modifiers of something that may have one of these types."""
         for one in arguments:
             found: Element | Missing = Element(types)
-            for part in one.name.parts:
+            for part, start in zip(one.name.parts, one.name.starts, strict=True):
                 if isinstance(found, Element):
-                    found = self._scopes.part(found.types, part)
-                    yield from self._missing(Name((part,), one.name.line), found, scope, UnresolvedKind.ELEMENT)
+                    found, name = self._scopes.part(found.types, part), Name((part,), one.name.line, starts=(start,))
+                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT)
             for used in filter(None, (one.type, one.constraint)):
                 yield from self._used(used, scope)
             if isinstance(found, Element) and found is not ANYTHING:
@@ -135,4 +139,5 @@ class _Walk:
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(found.part, sorted(candidates - {found.part}), least)
         if near or not is_library or found.part in self._doubtful:  # else a compiler tells whether there is a library
-            yield Unresolved(kind, str(name), found.part, owner, name.line, near)
+            start = name.starts[found.number] if found.number < len(name.starts) else -1
+            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates)
