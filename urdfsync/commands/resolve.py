@@ -64,11 +64,20 @@ def add(commands: arguments.Commands) -> None:
         choices=["mine", "generated"],
         help="with --merge: which side counts where both changed the same",
     )
+    words = "give names in your own models the new ones that the next build brings, or that an earlier one brought"
+    parser.add_argument("--rename-uses", nargs="*", metavar="OLD=NEW", help=words)
+    parser.add_argument("--yes", action="store_true", help="with --rename-uses: write without asking")
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Find the files that the user means, and build their robots with the user's choice."""
+    if args.rename_uses is not None:
+        if args.paths or args.all or args.choice:
+            raise arguments.UsageError(args.parser, "--rename-uses goes without paths, --all and choices")
+        from urdfsync.commands import rename_uses  # the parser takes a while to load
+
+        return rename_uses.run(args, console)
     loaded = arguments.configuration(args)
     found = list(build(loaded, loaded.select(args.robot or []), arguments.request(args, console, dry=True)))
     choice = _choice(args, find_conflicts(found))

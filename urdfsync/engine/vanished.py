@@ -77,8 +77,9 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
         old_name = class_name(old_package, inputs.old_path(texts.places.get(key, key)))
         in_package[key] = vanished(after.node(class_name(package, inputs.path(key))), before.node(old_name))
     elsewhere: dict[Path, list[Unresolved]] = {}
-    for node, old_node in zip(after.users(), before.users(), strict=True):
-        elsewhere.setdefault(Path(node.file), []).extend(vanished(node, old_node))
+    old_nodes = {(node.file, node.name): node for node in before.users()}
+    for node in after.users():
+        elsewhere.setdefault(Path(node.file), []).extend(vanished(node, old_nodes.get((node.file, node.name))))
     return VanishedNames(
         {key: found for key, found in in_package.items() if found},
         {file: found for file, found in elsewhere.items() if found},
@@ -165,21 +166,33 @@ def _generated(generation: Generation) -> dict[str, str]:
 
 
 def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnostic]:
-    """A warning for each name that is gone in each text: where, and what it is now."""
+    """A warning for each name that is gone in each text: where, and what it is now; a note on what writes new names."""
     files = generation.inputs.files
     uses = [*((files.path(key), one) for key, one in found.in_package.items()), *found.elsewhere.items()]
     renamed = renamed_identifiers(generation) if uses else {}
     known = known_names(generation) if uses else frozenset()
+    followed, places = dict[str, str](), list[tuple[str, int]]()
     for file, all_uses in uses:
         by_part: dict[str, list[Unresolved]] = {}
         for use in all_uses:
             by_part.setdefault(use.part, []).append(use)
         for part, (first, *more) in by_part.items():
             hint = _hint(generation, part, renamed, known)
+            if new_name(part, renamed, known):
+                old = next(old for old in renamed if part.lower().startswith(old.lower()))
+                followed[old] = renamed[old]
+                places.append((shown(file), first.line))
             if lines := sorted({use.line for use in more} - {first.line}):
                 hint += f"; also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}"
             message = f"`{first.name}` is used here, but the package has no `{part}` any more"
             yield Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first.line, hint=hint)
+    if followed:
+        command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in followed.items())))
+        message, hint = (
+            "your models can get the new names",
+            f"`{command}` shows the lines, and writes them if you agree",
+        )
+        yield Diagnostic(Severity.NOTE, "rename-uses", message, *max(places), hint=hint)
 
 
 def _hint(generation: Generation, part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:

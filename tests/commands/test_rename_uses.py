@@ -1,0 +1,202 @@
+"""`urdfsync resolve --rename-uses`: models of the user's follow what the source renames."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+import support.urdfs as urdfs
+from support.commands import Execute
+from support.files import unchanged
+
+CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\nusers = ["../plant"]\n'
+CELL = """\
+within;\r
+model Cell "robot.elbowAxis"\r
+  Arm.Arm robot; Real elbow = 1 "elbow";\r
+equation\r
+  connect(robot.elbowAxis, motor); // robot.elbowAxis\r
+  connect(
+    robot.
+      elbowSupport, housing);
+end Cell;\r
+"""
+MINE = """\
+within Arm.Links;
+model Mine
+  extends Arm(redeclare Joints.Elbow elbow(checkLimits = false));
+  Joints.ElbowParameters numbers;
+  Real angle = elbow.phi;
+end Mine;
+"""
+BENCH = "model Bench\n  Arm.Links.Mine mine(elbow(fixedStart = true));\n  Real angle = mine.elbow.phi;\nend Bench;\n"
+FILES = {"Cell.mo": CELL, "../plant/Bench.mo": BENCH, "modelica/Arm/Links/Mine.mo": MINE}
+RENAMED = {
+    "Cell.mo": CELL.replace("connect(robot.elbowAxis", "connect(robot.wristAxis").replace("elbowS", "wristS"),
+    "../plant/Bench.mo": BENCH.replace("elbow", "wrist"),
+    "modelica/Arm/Links/Mine.mo": MINE.replace("elbow", "wrist").replace("Elbow", "Wrist"),
+}
+COMMAND = ("resolve", "--rename-uses")
+NAMES = (*COMMAND, "elbow=wrist")
+
+
+def write_source(joint: str, other: str = "swing") -> None:
+    joints = (urdfs.joint(joint, "continuous", "base", "limb"), urdfs.joint(other, "revolute", "limb", "hand"))
+    Path("arm.urdf").write_text(urdfs.robot(*(urdfs.link(name, 1.0) for name in ("base", "limb", "hand")), *joints))
+
+
+def texts() -> dict[str, str]:
+    return {path: Path(path).read_bytes().decode() for path in FILES}
+
+
+@pytest.fixture
+def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
+    """A project whose joint `elbow` is used in models around the package and in it; now the source calls it `wrist`."""
+    project = tmp_path / "cell"
+    project.mkdir()
+    (tmp_path / "plant").mkdir()
+    monkeypatch.chdir(project)
+    Path("urdfsync.toml").write_text(CONFIG)
+    write_source("elbow")
+    execute("build")
+    for path, text in FILES.items():
+        Path(path).write_bytes(text.encode())
+    write_source("wrist")
+    return project
+
+
+def answer(monkeypatch: pytest.MonkeyPatch, words: str, meanwhile: str = "") -> None:
+    """Somebody at a terminal answers, and saves one of the files before."""
+
+    def reply(question: str) -> str:
+        assert question == "write 7 lines in 3 files, and build arm? [y/N] "
+        if meanwhile:
+            Path(meanwhile).write_text("saved")
+        return words
+
+    monkeypatch.setattr("builtins.input", reply)
+    monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
+
+
+def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, execute: Execute) -> None:
+    printed = execute(*COMMAND, "--yes")
+    assert printed.lines[:3] == [
+        "Cell.mo",
+        "     5 - connect(robot.elbowAxis, motor); // robot.elbowAxis",
+        "       + connect(robot.wristAxis, motor); // robot.elbowAxis",
+    ]
+    assert "7 lines in 3 files written" in printed.lines
+    assert "vanished-name" not in printed.err
+    assert texts() == RENAMED
+    assert Path("modelica/Arm/Joints/Wrist.mo").exists()
+    execute("build", "--check")
+    assert "no model of yours uses an old name" in execute(*COMMAND).err
+
+
+def test_what_an_earlier_build_renamed_is_renamed_by_its_names(user: Path, execute: Execute) -> None:
+    hint = "`urdfsync resolve --rename-uses elbow=wrist` shows the lines, and writes them if you agree [rename-uses]"
+    assert f"note: your models can get the new names; {hint}" in execute("build").words
+    note = "no model of yours uses an old name; what an earlier build renamed has to be named: --rename-uses OLD=NEW"
+    assert f"note: {note} [no-uses]" in execute(*COMMAND).errors
+    with unchanged(user / "modelica/Arm/Joints"):
+        assert execute(*NAMES, "--yes").lines[-1] == "7 lines in 3 files written"
+    assert texts() == RENAMED
+
+
+def test_bytes_that_are_no_utf8_and_marks_of_the_encoding_stay(user: Path, execute: Execute) -> None:
+    around = b"\xef\xbb\xbf", b"// \xe9t\xe9 \xe2\x82 robot.elbowAxis\r\n"
+    Path("Cell.mo").write_bytes(CELL.encode().join(around))
+    execute(*COMMAND, "--yes")
+    assert Path("Cell.mo").read_bytes() == RENAMED["Cell.mo"].encode().join(around)
+
+
+@pytest.mark.parametrize("options", [(), ("--json",), ("--dry-run",)])
+def test_without_a_word_of_the_user_the_lines_are_only_shown(
+    user: Path, execute: Execute, options: tuple[str, ...]
+) -> None:
+    with unchanged(user.parent):
+        printed = execute(*COMMAND, *options, code=0 if "--dry-run" in options else 1)
+    message = "nothing was written, since nobody agreed"
+    if "--json" in options:
+        *notes, last = printed.json["diagnostics"]
+        assert (notes[0]["file"], notes[0]["line"], notes[0]["code"]) == ("Cell.mo", 5, "renamed-use")
+        assert len(notes) == 7
+        assert last["message"] == message
+        return
+    assert "       + connect(robot.wristAxis, motor); // robot.elbowAxis" in printed.lines
+    hint = "with --yes the lines are written without asking"
+    assert printed.errors == ([] if options else [f"warning: {message}; {hint} [not-agreed]"])
+
+
+@pytest.mark.parametrize(("words", "code"), [("y", 0), ("Yes ", 0), ("", 1), ("no", 1)])
+def test_somebody_at_a_terminal_is_asked(
+    user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, words: str, code: int
+) -> None:
+    answer(monkeypatch, words)
+    execute(*COMMAND, code=code)
+    assert texts() == (FILES if code else RENAMED)
+
+
+def test_a_file_that_is_saved_meanwhile_stops_all(
+    user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    answer(monkeypatch, "y", "../plant/Bench.mo")
+    found = execute(*COMMAND, code=2).words
+    assert "Bench.mo: error: it has changed since it was read, so nothing was written; " in found
+    assert texts() == {**FILES, "../plant/Bench.mo": "saved"}
+    assert Path("modelica/Arm/Joints/Elbow.mo").exists()
+
+
+def test_a_robot_in_conflict_keeps_its_names_and_its_users(user: Path, execute: Execute) -> None:
+    robot = Path("modelica/Arm/Arm.mo")
+    robot.write_text(robot.read_text().replace("equation", "  Real mine;\n\nequation", 1))
+    with unchanged(user.parent):
+        printed = execute(*COMMAND, "--yes", code=3)
+    assert "files of `arm` are in conflict, so its names stay as they are" in printed.words
+
+
+def test_an_output_elsewhere_is_asked_for_before_anything_is_written(
+    user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(user))
+    Path("../elsewhere").mkdir()
+    Path("urdfsync.toml").write_text(CONFIG + 'output = "../elsewhere"\n')
+    Path("arm.urdf").write_text(Path("arm.urdf").read_text().replace("wrist", "elbow"))
+    execute("build", "--trust")
+    write_source("wrist")
+    Path("modelica/Arm/Links/Mine.mo").unlink()
+    Path("../plant/Bench.mo").unlink()
+    assert "untrusted-output" in execute(*COMMAND, "--yes", code=2).err
+    assert Path("Cell.mo").read_bytes() == CELL.encode()
+    execute(*COMMAND, "--yes", "--trust")
+    assert Path("Cell.mo").read_bytes() == RENAMED["Cell.mo"].encode()
+
+
+def test_a_name_that_may_mean_either_of_two_is_left_to_the_user(user: Path, execute: Execute) -> None:
+    """What was `elbow` is `swing`, and what was `swing` is `wrist`."""
+    write_source("swing", "wrist")
+    with unchanged(user.parent):
+        assert "no model of yours uses an old name" in execute(*COMMAND, "--yes").err
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (("elbow=wirst",), "no package has a name that begins with `wirst`"),
+        (("elbow",), "`elbow` is not OLD=NEW; for example --rename-uses elbow=wrist"),
+        (("--all",), "--rename-uses goes without paths, --all and choices"),
+    ],
+)
+def test_arguments_that_make_no_sense(user: Path, execute: Execute, given: tuple[str, ...], message: str) -> None:
+    assert f"error: {message}" in execute(*COMMAND, *given, code=2).words
+
+
+def test_another_name_of_the_package_is_followed(user: Path, execute: Execute) -> None:
+    write_source("elbow")
+    Path("modelica/Arm/Links/Mine.mo").unlink()
+    Path("../plant/Bench.mo").unlink()
+    Path("urdfsync.toml").write_text(CONFIG.replace('"Arm"', '"Robot"'))
+    execute("build")
+    execute(*COMMAND, "Arm=Robot", "--yes")
+    assert Path("Cell.mo").read_bytes().decode() == CELL.replace("Arm.Arm robot", "Robot.Robot robot")

@@ -1,0 +1,128 @@
+"""`urdfsync resolve --rename-uses`: the user's models follow new names, after they have been shown."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.commands import arguments
+from urdfsync.commands.build import build_and_check
+from urdfsync.config import RobotConfig
+from urdfsync.config.trust import find_untrusted_output
+from urdfsync.dependencies import read_unrecorded
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.engine.rename_uses import RenamedUses, rename_uses
+from urdfsync.engine.result import Exit, exit_code
+from urdfsync.files import failure, rewrite, shown
+from urdfsync.output.console import Console, StyledLine, line
+from urdfsync.output.phrases import counted
+from urdfsync.output.results import show_results
+
+
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Show the lines that change; if the user agrees, write them and build the robots whose names are new by that."""
+    given = dict(_pair(args.parser, text) for text in args.rename_uses)
+    loaded = arguments.configuration(args)
+    robots = loaded.select(args.robot or [])
+    found = rename_uses(loaded, robots, arguments.request(args, console, dry=True), given)
+    if found.unknown:
+        names = " or ".join(f"`{name}`" for name in sorted(found.unknown))
+        raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
+    told, code = list(_conflicting(found)), Exit.CONFLICT if found.conflicting else Exit.IN_STEP
+    if not found.texts and not found.conflicting:
+        hint = "" if given else "what an earlier build renamed has to be named: --rename-uses OLD=NEW"
+        told.append(Diagnostic(Severity.NOTE, "no-uses", "no model of yours uses an old name", hint=hint))
+    if console.json:
+        told += _notes(found)
+    elif not console.quiet:
+        console.print(_lines(found))
+    if not found.texts or args.dry_run:
+        console.end("resolve", code, told)
+        return code
+    count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
+    if not (args.yes or _agrees(count, found.robots, console)):
+        message, hint = "nothing was written, since nobody agreed", "with --yes the lines are written without asking"
+        console.end(
+            "resolve", Exit.OUT_OF_STEP, [*told, Diagnostic(Severity.WARNING, "not-agreed", message, hint=hint)]
+        )
+        return Exit.OUT_OF_STEP
+    if untrusted := [] if args.trust else [*filter(None, (find_untrusted_output(loaded, one) for one in found.robots))]:
+        raise ConfigError(*untrusted)
+    _write(found.texts)
+    if not (console.json or console.quiet):
+        console.print([line((f"{count} written", ""))])
+    code = (
+        exit_code(show_results(console, build_and_check(loaded, found.robots, arguments.request(args, console))))
+        or code
+    )
+    console.end("resolve", code, told)
+    return code
+
+
+def _pair(parser: argparse.ArgumentParser, text: str) -> tuple[str, str]:
+    """The old name and the new one."""
+    old, sign, new = text.partition("=")
+    if not (old and sign and new):
+        raise arguments.UsageError(parser, f"`{text}` is not OLD=NEW", "for example --rename-uses elbow=wrist")
+    return old, new
+
+
+def _conflicting(found: RenamedUses) -> Iterator[Diagnostic]:
+    for robot in found.conflicting:
+        message = f"files of `{robot}` are in conflict, so its names stay as they are"
+        hint = "resolve them first; the build that follows says which uses are left"
+        yield Diagnostic(Severity.WARNING, "conflicts-first", message, hint=hint)
+
+
+def _changed_lines(found: RenamedUses) -> Iterator[tuple[Path, int, str, str]]:
+    """Each line that changes: its file, its number, its old and its new text."""
+    for path, contents in found.texts.items():
+        old, new = (content.decode(errors="replace").split("\n") for content in contents)
+        for number, (one, other) in enumerate(zip(old, new, strict=True), start=1):
+            if one != other:
+                yield path, number, one.strip(), other.strip()
+
+
+def _notes(found: RenamedUses) -> Iterator[Diagnostic]:
+    for path, number, old, new in _changed_lines(found):
+        yield Diagnostic(Severity.NOTE, "renamed-use", f"`{old}` becomes `{new}`", shown(path), number)
+
+
+def _lines(found: RenamedUses) -> Iterator[StyledLine]:
+    last = None
+    for path, number, old, new in _changed_lines(found):
+        if path != last:
+            yield line((shown(path), "bold"))
+        yield line((f"{number:>6} ", "dim"), (f"- {old}", "red"))
+        yield line(("       ", ""), (f"+ {new}", "green"))
+        last = path
+
+
+def _agrees(count: str, robots: Sequence[RobotConfig], console: Console) -> bool:
+    """Whether somebody at a terminal says yes."""
+    if console.json or not (sys.stdin and sys.stdin.isatty()):
+        return False
+    builds = f", and build {', '.join(robot.name for robot in robots)}" if robots else ""
+    try:
+        return input(f"write {count}{builds}? [y/N] ").strip().lower() in ("y", "yes")
+    except EOFError:
+        return False
+
+
+def _write(texts: Mapping[Path, tuple[bytes, bytes]]) -> None:
+    """Write all files, unless one of them is not what was shown. Raises OutputError."""
+    for path, (old, _) in texts.items():
+        try:
+            is_same = read_unrecorded(path) == old
+        except OSError as error:
+            raise failure(error, path, "it can't be read") from error
+        if not is_same:
+            message, hint = "it has changed since it was read, so nothing was written", "save it, then try again"
+            raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(path), hint=hint))
+    for path, (_, new) in texts.items():
+        try:
+            rewrite(path, new)
+        except OSError as error:
+            raise failure(error, path) from error
