@@ -189,7 +189,7 @@ def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapp
     """Keep what texts of the user's need."""
     used: Collection[str] = ()
     if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
-        from urdfsync.engine.vanished import mentioned_files
+        from urdfsync.engine.needed import mentioned_files
 
         used = mentioned_files(generation, actions, merged)
     return keep_needed(actions, generation.inputs.files.has_classes, used)
