@@ -44,19 +44,16 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
     if not (args.yes or _agrees(count, found.robots, console)):
         message, hint = "nothing was written, since nobody agreed", "with --yes the lines are written without asking"
-        console.end(
-            "resolve", Exit.OUT_OF_STEP, [*told, Diagnostic(Severity.WARNING, "not-agreed", message, hint=hint)]
-        )
+        told.append(Diagnostic(Severity.WARNING, "not-agreed", message, hint=hint))
+        console.end("resolve", Exit.OUT_OF_STEP, told)
         return Exit.OUT_OF_STEP
     if untrusted := [] if args.trust else [*filter(None, (find_untrusted_output(loaded, one) for one in found.robots))]:
         raise ConfigError(*untrusted)
     _write(found.texts)
     if not (console.json or console.quiet):
         console.print([line((f"{count} written", ""))])
-    code = (
-        exit_code(show_results(console, build_and_check(loaded, found.robots, arguments.request(args, console))))
-        or code
-    )
+    results = build_and_check(loaded, found.robots, arguments.request(args, console))
+    code = exit_code(show_results(console, results)) or code
     console.end("resolve", code, told)
     return code
 
