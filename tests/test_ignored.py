@@ -13,7 +13,16 @@ from urdfsync.diagnostics import IGNORABLE
 from urdfsync.urdf.domain import WARNINGS
 
 REPOSITORY = Path(__file__).parents[1]
-UNRELATED = {"conflict", "edit-left", "exec", "no-conflict", "not-watched"}
+UNRELATED = {
+    "conflict",
+    "conflicts-first",
+    "edit-left",
+    "exec",
+    "no-conflict",
+    "no-old-names",
+    "not-watched",
+    "renamed-use",
+}
 """Warnings of commands, not of what a configuration is about."""
 WORDS = "no node is called `ground`"
 

@@ -9,9 +9,9 @@ import msgspec
 
 IGNORABLE = frozenset(
     "byte-order-mark connector-changed does-not-compile does-not-fit dotted-modifier kept-save left-behind "
-    "names-unread nested-redeclare no-package-path no-uses not-checked order-lacks order-twice outdated-file "
-    "outdated-package recovered rename-done renamed-robot repeated same-but-for-case stray-state stray-template "
-    "taken-back unknown-build vanished-name".split()
+    "names-unread nested-redeclare no-package-path no-users-path no-uses not-checked order-lacks order-twice "
+    "outdated-file outdated-package recovered rename-done rename-uses renamed-robot repeated same-but-for-case "
+    "stray-state stray-template taken-back unknown-build vanished-name".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
 

@@ -87,7 +87,7 @@ def test_without_a_terminal_it_wants_a_word(plant: Path, execute: Execute) -> No
         printed = execute("remove", "filter", code=2)
         assert printed.lines[0].startswith("filter: its table in urdfsync.toml goes")
         assert printed.errors == [
-            "error: nothing was removed: there is no terminal to ask on; look at what goes, then give --yes "
+            "error: nothing was removed: there is no terminal to ask on; look at what is shown, then give --yes "
             "[not-confirmed]"
         ]
         assert execute("remove", "filter", "--json", code=2).json["robots"][0]["actions"]

@@ -66,17 +66,19 @@ def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> P
     return project
 
 
-def answer(monkeypatch: pytest.MonkeyPatch, words: str, meanwhile: str = "") -> None:
-    """Somebody at a terminal answers, and saves one of the files before."""
+class Terminal:
+    """Somebody who answers, and saves one of the files before."""
 
-    def reply(question: str) -> str:
-        assert question == "write 7 lines in 3 files, and build arm? [y/N] "
-        if meanwhile:
-            Path(meanwhile).write_text("saved")
-        return words
+    def __init__(self, words: str, meanwhile: str = "") -> None:
+        self._words, self._meanwhile = words, meanwhile
 
-    monkeypatch.setattr("builtins.input", reply)
-    monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
+    def isatty(self) -> bool:
+        return True
+
+    def readline(self) -> str:
+        if self._meanwhile:
+            Path(self._meanwhile).write_text("saved")
+        return self._words
 
 
 def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, execute: Execute) -> None:
@@ -98,7 +100,7 @@ def test_what_an_earlier_build_renamed_is_renamed_by_its_names(user: Path, execu
     hint = "`urdfsync resolve --rename-uses elbow=wrist` shows the lines, and writes them if you agree [rename-uses]"
     assert f"note: your models can get the new names; {hint}" in execute("build").words
     note = "no model of yours uses an old name; what an earlier build renamed has to be named: --rename-uses OLD=NEW"
-    assert f"note: {note} [no-uses]" in execute(*COMMAND).errors
+    assert f"note: {note} [no-old-names]" in execute(*COMMAND).errors
     with unchanged(user / "modelica/Arm/Joints"):
         assert execute(*NAMES, "--yes").lines[-1] == "7 lines in 3 files written"
     assert texts() == RENAMED
@@ -116,8 +118,8 @@ def test_without_a_word_of_the_user_the_lines_are_only_shown(
     user: Path, execute: Execute, options: tuple[str, ...]
 ) -> None:
     with unchanged(user.parent):
-        printed = execute(*COMMAND, *options, code=0 if "--dry-run" in options else 1)
-    message = "nothing was written, since nobody agreed"
+        printed = execute(*COMMAND, *options, code=0 if "--dry-run" in options else 2)
+    message = "nothing was written: there is no terminal to ask on"
     if "--json" in options:
         *notes, last = printed.json["diagnostics"]
         assert (notes[0]["file"], notes[0]["line"], notes[0]["code"]) == ("Cell.mo", 5, "renamed-use")
@@ -125,23 +127,23 @@ def test_without_a_word_of_the_user_the_lines_are_only_shown(
         assert last["message"] == message
         return
     assert "       + connect(robot.wristAxis, motor); // robot.elbowAxis" in printed.lines
-    hint = "with --yes the lines are written without asking"
-    assert printed.errors == ([] if options else [f"warning: {message}; {hint} [not-agreed]"])
+    hint = "look at what is shown, then give --yes"
+    assert printed.errors == ([] if options else [f"error: {message}; {hint} [not-confirmed]"])
 
 
 @pytest.mark.parametrize(("words", "code"), [("y", 0), ("Yes ", 0), ("", 1), ("no", 1)])
 def test_somebody_at_a_terminal_is_asked(
     user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, words: str, code: int
 ) -> None:
-    answer(monkeypatch, words)
-    execute(*COMMAND, code=code)
+    monkeypatch.setattr(sys, "stdin", Terminal(words))
+    assert "Write 7 lines in 3 files, and build arm? [y/N] " in execute(*COMMAND, code=code).out
     assert texts() == (FILES if code else RENAMED)
 
 
 def test_a_file_that_is_saved_meanwhile_stops_all(
     user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    answer(monkeypatch, "y", "../plant/Bench.mo")
+    monkeypatch.setattr(sys, "stdin", Terminal("y", "../plant/Bench.mo"))
     found = execute(*COMMAND, code=2).words
     assert "Bench.mo: error: it has changed since it was read, so nothing was written; " in found
     assert texts() == {**FILES, "../plant/Bench.mo": "saved"}

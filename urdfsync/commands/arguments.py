@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
@@ -115,3 +116,13 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
         executor=getattr(args, "executor", ""),
         **options,
     )
+
+
+def is_confirmed(question: str, done: str, console: Console) -> bool:
+    """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
+    if console.json or sys.stdin is None or not sys.stdin.isatty():
+        message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "not-confirmed", message, hint=hint))
+    sys.stdout.write(f"{question} [y/N] ")
+    sys.stdout.flush()
+    return sys.stdin.readline().strip().lower() in ("y", "yes")

@@ -18,7 +18,7 @@ from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import CONFLICTS, Kind
-from urdfsync.engine.findings import CONNECTOR_CODES
+from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import shown_path
@@ -75,7 +75,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             console.add_robot(_to_json(one))
             continue
-        console.findings([found for found in one.result.diagnostics if found.code not in CONNECTOR_CODES])
+        console.findings([found for found in one.result.diagnostics if found.code != CONNECTORS])
         if not console.quiet or one.result.conflicts:
             head = headline(one.result, _summary(one), is_fine=one.in_step)
             console.print([head, *_lines(one, console.verbose)], error=one.result.failed)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from urdfsync import tomlfile
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -57,7 +56,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if not args.yes:
         (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
         _show(console, result, f"its table in {shown(configuration.file)} goes", with_files=True)
-    if args.yes or not (args.dry_run or result.failed or not _is_confirmed(console)):
+    if args.yes or not (args.dry_run or result.failed or not arguments.is_confirmed("Remove it?", "removed", console)):
         # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
         for result in build(configuration, robots, arguments.request(args, console, removes=True)):
             if not result.failed:
@@ -98,16 +97,6 @@ def _reason(action: Action) -> str:
     if action.kind is Kind.NEEDED:
         return "your own files need it"
     return "you edited it" if action.mine != action.base else "it is in a former folder, and may be yours"
-
-
-def _is_confirmed(console: Console) -> bool:
-    """Ask the user. Raises UrdfsyncError if nobody is there to answer."""
-    if console.json or sys.stdin is None or not sys.stdin.isatty():
-        message, hint = "nothing was removed: there is no terminal to ask on", "look at what goes, then give --yes"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "not-confirmed", message, hint=hint))
-    sys.stdout.write("Remove it? [y/N] ")
-    sys.stdout.flush()
-    return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 
 def _without_robot(configuration: Config, robot: str) -> bytes:

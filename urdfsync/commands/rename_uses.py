@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from urdfsync.commands import arguments
 from urdfsync.commands.build import build_and_check
-from urdfsync.config import RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
@@ -33,19 +31,17 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     told, code = list(_conflicting(found)), Exit.CONFLICT if found.conflicting else Exit.IN_STEP
     if not found.texts and not found.conflicting:
         hint = "" if given else "what an earlier build renamed has to be named: --rename-uses OLD=NEW"
-        told.append(Diagnostic(Severity.NOTE, "no-uses", "no model of yours uses an old name", hint=hint))
-    if console.json:
-        told += _notes(found)
-    elif not console.quiet:
+        told.append(Diagnostic(Severity.NOTE, "no-old-names", "no model of yours uses an old name", hint=hint))
+    console.warnings([*told, *(_notes(found) if console.json else ())])
+    if not (console.json or console.quiet):
         console.print(_lines(found))
     if not found.texts or args.dry_run:
-        console.end("resolve", code, told)
+        console.end("resolve", code)
         return code
     count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
-    if not (args.yes or _agrees(count, found.robots, console)):
-        message, hint = "nothing was written, since nobody agreed", "with --yes the lines are written without asking"
-        told.append(Diagnostic(Severity.WARNING, "not-agreed", message, hint=hint))
-        console.end("resolve", Exit.OUT_OF_STEP, told)
+    builds = f", and build {', '.join(robot.name for robot in found.robots)}" if found.robots else ""
+    if not (args.yes or arguments.is_confirmed(f"Write {count}{builds}?", "written", console)):
+        console.end("resolve", Exit.OUT_OF_STEP)
         return Exit.OUT_OF_STEP
     if untrusted := [] if args.trust else [*filter(None, (find_untrusted_output(loaded, one) for one in found.robots))]:
         raise ConfigError(*untrusted)
@@ -54,7 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.print([line((f"{count} written", ""))])
     results = build_and_check(loaded, found.robots, arguments.request(args, console))
     code = exit_code(show_results(console, results)) or code
-    console.end("resolve", code, told)
+    console.end("resolve", code)
     return code
 
 
@@ -95,17 +91,6 @@ def _lines(found: RenamedUses) -> Iterator[StyledLine]:
         yield line((f"{number:>6} ", "dim"), (f"- {old}", "red"))
         yield line(("       ", ""), (f"+ {new}", "green"))
         last = path
-
-
-def _agrees(count: str, robots: Sequence[RobotConfig], console: Console) -> bool:
-    """Whether somebody at a terminal says yes."""
-    if console.json or not (sys.stdin and sys.stdin.isatty()):
-        return False
-    builds = f", and build {', '.join(robot.name for robot in robots)}" if robots else ""
-    try:
-        return input(f"write {count}{builds}? [y/N] ").strip().lower() in ("y", "yes")
-    except EOFError:
-        return False
 
 
 def _write(texts: Mapping[Path, tuple[bytes, bytes]]) -> None:

@@ -12,7 +12,7 @@ from urdfsync.commands import arguments
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
-from urdfsync.engine.findings import CONNECTOR_CODES
+from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
@@ -93,7 +93,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         # notes about the source are for whoever builds it
         source, found = sources[result.robot], result.diagnostics
         quiet = [one for one in found if one.file == source and one.severity is Severity.NOTE]
-        told = [one for one in found if console.verbose or one not in quiet or one.code in CONNECTOR_CODES]
+        told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
         console.findings(told)
         console.stop_progress()
         if not console.quiet or result.conflicts:

@@ -17,8 +17,8 @@ from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.record import Choice
 from urdfsync.state.store import Store
 
-CONNECTOR_CODES = ("connector-added", "connector-changed")
-"""Codes of the notes on what users may connect to."""
+CONNECTORS = "connector-changed"
+"""Code of the notes on what users may connect to."""
 _FEW = 3
 """So many files are named; of more, only their number."""
 _NEW = 6
@@ -72,14 +72,14 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
     if new := [f"`{one.new}`" for one in found if one.old is None]:
         named = new if len(new) <= _NEW else [*new[:_NEW], f"{len(new) - _NEW} more"]
         message = f"there is more to connect to: {', '.join(named)}"
-        yield Diagnostic(Severity.NOTE, "connector-added", message, shown(robot.source))
+        yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
     for one in found:
         element, connector = one.path
         if one.old is not None:
             now = f"is now `{one.new}`" if one.new else "is gone"
             message = f"{element}: its {connector} `{one.old}` {now}"
             place = shown(robot.source), generation.lines.get(element, 0)
-            yield Diagnostic(Severity.NOTE, "connector-changed", message, *place, hint=one.hint)
+            yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=one.hint)
 
 
 def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
