@@ -45,7 +45,8 @@ def add(commands: arguments.Commands) -> None:
         "Then the files that waited for that are written.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
         "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge\n\n"
-        "exit codes: 0 no conflict left, 2 error, 3 conflicts left, 4 another build is running, 130 interrupted",
+        "exit codes: 0 no conflict left, 1 you said no, 2 error, 3 conflicts left, 4 another build is running, "
+        "130 interrupted",
     )
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file, or a folder for all conflicts below it")
     parser.add_argument("--all", action="store_true", help="all conflicts; with --merge, those that can be merged")
