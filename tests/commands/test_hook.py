@@ -213,7 +213,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
     edit(RECORD, "100", "140")
     repo.git("add", ".")
     for mode in ("check", "build"):
-        assert f"  urdfsync resolve {RECORD} --keep" in "\n".join(said(capsys, mode, code=3))
+        assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
     lines = said(capsys, "check")
     assert lines[0] == "ladder: in step, but not staged: 1 file"

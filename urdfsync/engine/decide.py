@@ -103,7 +103,7 @@ def _renamed(generation: Generation) -> Mapping[str, str]:
     """Return new names by the old ones, of all that has got another one since the last complete build."""
     if not _takes_names_away(generation):
         return {}
-    from urdfsync.engine.renamed import renamed_names
+    from urdfsync.engine.package_names import renamed_names
 
     return renamed_names(generation)
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Kind
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.renamed import class_of
+from urdfsync.engine.package_names import class_of
 from urdfsync.modelica.files import text_of
 from urdfsync.modelica.lexer import lex
 from urdfsync.state.record import Choice

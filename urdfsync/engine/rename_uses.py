@@ -13,7 +13,7 @@ from urdfsync.engine.decide import Decision, decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.renamed import known_names, new_names, renamed_identifiers, renamed_names
+from urdfsync.engine.package_names import known_names, new_names, renamed_identifiers, renamed_names
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.engine.vanished import class_name, package_after, users_texts
 from urdfsync.modelica.files import replace_words

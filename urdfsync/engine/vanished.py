@@ -17,7 +17,14 @@ from urdfsync.domain import Target, brings_back
 from urdfsync.engine.actions import USERS, Action, Kind
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode
-from urdfsync.engine.renamed import class_of, declared_names, known_names, new_name, new_names, renamed_identifiers
+from urdfsync.engine.package_names import (
+    class_of,
+    declared_names,
+    known_names,
+    new_name,
+    new_names,
+    renamed_identifiers,
+)
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import ClassName, StoredClasses, class_path
