@@ -407,6 +407,18 @@ def test_a_merge_that_mentions_what_is_gone_is_a_conflict(project: Path) -> None
         assert found.rejected == f"the merge mentions `elementC1`, which is no longer in the package (line {line})"
 
 
+def test_a_merge_that_brings_in_a_use_of_what_the_user_removed_is_a_conflict(project: Path) -> None:
+    """Even if the class might inherit it from a library that builds do not read."""
+    merging()
+    run()
+    model = Path(f"{LADDER}/Ladder.mo")
+    lines = [line for line in model.read_text().splitlines(keepends=True) if "node_middle" not in line]
+    lines.insert(2, "  extends Modelica.Icons.Example;\n")
+    model.write_text("".join(lines))
+    source('"farad": 4.7e-6}', '"farad": 4.7e-6},\n    {"name": "R7", "between": ["middle", "out"], "ohm": 1}')
+    assert_rejected_again_and_again("node_middle")
+
+
 def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(project: Path) -> None:
     own_model(f"<% if element.name == 'R1' %>\n{POWER}<% endif %>\n")
     run()

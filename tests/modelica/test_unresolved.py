@@ -190,6 +190,19 @@ def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
     assert told(body) == []
 
 
+def test_the_standard_library_is_no_misspelled_name() -> None:
+    """Builds do not read it, and a package may have a name that is like it."""
+    library = {
+        Path(
+            "/nowhere/package.mo"
+        ): b"package OurModelica\n model M\n  extends Modelica.Icons.Example;\n end M;\nend OurModelica;"
+    }
+    sources = StoredClasses("None", Path("None"), {}, library, lambda name: None)
+    scopes = Scopes(sources)
+    nodes = [scopes.node(name) for name in sources.users]
+    assert [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)] == []
+
+
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
     assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)

@@ -16,6 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Target, brings_back
 from urdfsync.engine.actions import USERS, Action, Kind
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.needed import code_words
 from urdfsync.engine.package_files import encode
 from urdfsync.engine.package_names import (
     class_of,
@@ -68,17 +69,22 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     after = Scopes(package_after(generation, actions, merged, texts))
     doubtful = _lost_parts(generation, _recorded(generation), _generated(generation))
 
-    def vanished(node: Node | None, old_node: Node | None) -> list[Unresolved]:
+    def vanished(node: Node | None, old_node: Node | None, brought: Collection[str] = ()) -> list[Unresolved]:
         known = {one.name for one in unresolved(old_node, before, doubtful)} if old_node else set()
         found = unresolved(node, after, doubtful) if node else ()
-        new = (one for one in found if one.kind not in _LEGAL and one.name not in known)
+        new = [one for one in found if one.kind not in _LEGAL and one.name not in known]
+        if node and brought:  # is not taken for inherited from a library that is not at hand
+            more = (one for one in unresolved(node, after, brought) if one.owner == str(node))
+            new += [one for one in more if one not in new and one.name.partition(".")[0] == one.part in brought]
         return sorted(new, key=lambda one: one.line)
 
     package, old_package = inputs.robot.target.package, inputs.old_target.package
     in_package = {}
     for key in (*texts.own, *texts.edited):
         old_name = class_name(old_package, inputs.old_path(texts.places.get(key, key)))
-        in_package[key] = vanished(after.node(class_name(package, inputs.path(key))), before.node(old_name))
+        brought = code_words(merged[key]) - code_words(texts.edited[key]) if key in merged else ()
+        node = after.node(class_name(package, inputs.path(key)))
+        in_package[key] = vanished(node, before.node(old_name), brought)
     elsewhere: dict[Path, list[Unresolved]] = {}
     old_nodes = {(node.file, node.name): node for node in before.users()}
     for node in after.users():

@@ -209,6 +209,8 @@ class Scopes:
         top = _TYPES.get(name) or self._top(name)
         if top is not None:
             return Element((Type(top),)) if top is not OPAQUE else ANYTHING
+        if name == "Modelica":  # builds do not read it
+            return ANYTHING
         return Missing(name, (), is_certain)
 
     def _in_scope(self, scope: Node, name: str) -> Element | Missing:
