@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -111,6 +112,37 @@ def test_what_is_kept_compiles(arm: Path, execute: Execute, modelica_library: Pa
     assert (PACKAGE / "Links/Forearm.mo").exists()
     (outcome,) = compile_all(modelica_library, [PACKAGE.absolute()], [compile_task("Arm.Arm")])
     assert not outcome.error
+
+
+def test_a_connection_follows_its_part_although_another_one_takes_its_name(folder: Path, execute: Execute) -> None:
+    export(link("hand"), joint("hand", "base", "hand"))
+    execute("init", "arm.urdf", "--merge")
+    execute("build")
+    robot = PACKAGE / "Arm.mo"
+    assert {"hand", "hand_joint"} <= set(re.findall(r"\w+", robot.read_text()))
+    sensor = "Modelica.Mechanics.MultiBody.Sensors.AbsoluteSensor imu;"
+    connection = "connect(imu.frame_a, hand.frame_a);"
+    edited = robot.read_text().replace("\nequation", f"\n  {sensor}\n\nequation\n  {connection}", 1)
+    robot.write_text(edited)
+    export(link("hand_link"), joint("hand", "base", "hand_link"))
+    execute("build")
+    assert "connect(imu.frame_a, hand_link.frame_a);" in robot.read_text()
+    assert "hand_joint" not in robot.read_text()
+
+
+def test_what_is_kept_and_lacks_what_the_others_use_is_told(arm: Path, execute: Execute) -> None:
+    configuration = Path("urdfsync.toml")
+    configuration.write_text(configuration.read_text().replace('on_conflict = "merge"', 'on_conflict = "keep"'))
+    robot = PACKAGE / "Arm.mo"
+    robot.write_text(robot.read_text().replace('"Mass of the whole robot"', '"My mass"'))
+    export(*LARGER)
+    execute("build", code=3)
+    for arguments in (["resolve", str(robot), "--keep"], ["build"], ["status"]):
+        said = "kept, does not fit: it lacks `wristAxis`, which modelica/Arm/ArmRun.mo:"
+        assert said in execute(*arguments).err
+    execute("resolve", str(robot), "--merge")
+    assert "does not fit" not in execute("build").err
+    assert '"My mass"' in robot.read_text()
 
 
 @pytest.mark.slow

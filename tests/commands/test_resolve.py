@@ -166,7 +166,9 @@ def test_a_kept_file_that_does_not_fit_is_told_until_it_does(misfit: Path, execu
         said = "warning: kept, does not fit: it mentions `C1`, which the package does not have"
         assert line.startswith(f"{Path(MODEL)}:")
         assert said in line
-        assert line.endswith("change that, or `urdfsync resolve modelica/Ladder/Ladder.mo --merge` [does-not-fit]")
+        assert line.endswith(
+            "change that, or `urdfsync resolve modelica/Ladder/Ladder.mo --merge` (or --edit) [does-not-fit]"
+        )
     edit(MODEL, "  Elements.C1 other;\n", "")
     edit(MODEL, "  Elements.C1 elementC1", "  Elements.C3 elementC1")
     assert execute("build").err == ""
@@ -487,6 +489,26 @@ def test_an_old_buffer_of_a_file_that_nobody_had_edited_is_told(execute: Execute
     assert FRESH not in Path(MODEL).read_text()
 
 
+def test_a_save_that_takes_back_a_build_is_not_forgotten_by_the_next_one(execute: Execute, project: Path) -> None:
+    execute("build")
+    opened = Path(MODEL).read_text()
+    more("R3")
+    execute("build")
+    Path(MODEL).write_text(opened.replace("equation", "  Real mine = 1;\nequation"))
+    edit("ladder.json", "220.5", "330")
+    for _ in range(2):
+        assert "[taken-back]" in execute("build").err
+    execute("resolve", MODEL, "--merge")
+    assert FRESH in Path(MODEL).read_text()
+
+
+def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
+    for name in ("..mo", ".base.mo", "x"):
+        (merged / ".urdfsync/replaced/ladder" / name).write_text("model X end X;")
+    edit(MODEL, "Real mine = 1", "Real mine = 2")
+    execute("build")
+
+
 # The user's editor
 
 Editor: TypeAlias = Callable[[str], object]
@@ -549,6 +571,76 @@ def test_an_edited_text_that_cannot_be_used_changes_nothing(
         error = execute("resolve", MODEL, "--edit", code=2).err
     assert words in error
     assert "nothing was changed" in error
+
+
+def test_an_edited_text_waits_for_other_conflicts(contradictory: Path, execute: Execute, editor: Editor) -> None:
+    element = f"{LADDER}/Elements/R1.mo"
+    edit(element, '"Resistor R1"', '"My resistor R1"')
+    edit("ladder.json", '"R1"', '"R8"')
+    mine = Path(MODEL).read_text()
+    execute("build", code=3)
+    editor(SETTLE)
+    printed = execute("resolve", MODEL, "--edit", code=3)
+    assert printed.err == ""
+    assert Path(MODEL).read_text() == mine
+    assert "resolved, waits until the other conflicts are resolved" in execute("status", "--verbose", code=3).out
+    execute("resolve", "--all", "--keep")
+    assert 'Real mine "1 %";' in Path(MODEL).read_text()
+    execute("build", "--check")
+
+
+def test_what_is_saved_while_the_editor_is_open_stays(contradictory: Path, execute: Execute, editor: Editor) -> None:
+    editor(f'{SETTLE}\nmine = Path({str(Path(MODEL).absolute())!r})\nmine.write_text(mine.read_text() + "// saved\\n")')
+    printed = execute("resolve", MODEL, "--edit", code=3)
+    assert "this edited text was not taken over" in printed.err
+    assert Path(MODEL).read_text().endswith("// saved\n")
+
+
+def test_a_header_and_other_line_ends_are_no_other_class(contradictory: Path, execute: Execute, editor: Editor) -> None:
+    text = Path(MODEL).read_bytes().replace(b"model Ladder", b"// mine\n\n  model Ladder")
+    Path(MODEL).write_bytes(text.replace(b"\n", b"\r\n"))
+    editor(SETTLE)
+    execute("resolve", MODEL, "--edit")
+    assert b'Real mine "1 %";' in Path(MODEL).read_bytes()
+
+
+def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
+    contradictory: Path, execute: Execute, editor: Editor
+) -> None:
+    editor("file.write_text(Path(names[2]).read_text())")
+    execute("resolve", MODEL, "--edit")
+    assert Path(f"{LADDER}/Elements/R2.mo").exists(), "the file uses it"
+
+
+def test_a_text_that_is_not_taken_is_named(contradictory: Path, execute: Execute, editor: Editor) -> None:
+    edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
+    edit("ladder.json", '"R1"', '"R8"')
+    editor("if file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text(Path(names[3]).read_text())")
+    with unchanged(contradictory, but=".urdfsync/lock"):
+        error = execute("resolve", "--all", "--edit", code=2).err
+    assert "the editor ended with exit code 1" in error
+    assert "R8.mo: note: this edited text was not taken over" in error
+
+
+def test_git_of_a_hook_does_not_lead_the_merge_tool_astray(
+    contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    editor("file.write_text(Path(names[1]).read_text())")
+    settings, other = tmp_path / "gitconfig", tmp_path / "other.git"
+    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
+    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
+    monkeypatch.setenv("GIT_DIR", str(other))
+    execute("resolve", MODEL, "--edit")
+    assert FRESH in Path(MODEL).read_text()
+    assert not other.exists()
+
+
+def test_a_command_that_cannot_be_read_is_no_bug(
+    contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("VISUAL", "it's")
+    assert "`it's` is no command: no closing quotation" in execute("resolve", MODEL, "--edit", code=2).err
 
 
 def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(

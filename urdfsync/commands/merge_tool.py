@@ -16,6 +16,8 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
 _SETTINGS = r"^(merge\.tool|mergetool\..*)$"
 
+_REPOSITORY = ("GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_PREFIX", "GIT_OBJECT_DIRECTORY", "GIT_COMMON_DIR")
+
 
 class Versions(NamedTuple):
     """The texts of one file, as bytes."""
@@ -47,21 +49,34 @@ def edit(name: str, versions: Versions, root: Path) -> Path:
         for side, content in zip(Versions._fields, versions[:3], strict=False):
             others.append(folder / f"{path.stem}.{side}{path.suffix}")
             others[-1].write_bytes(content)
-        code = _run([*shlex.split(command), str(file), *map(str, others)], folder)
+        code = _run([*_words(command), str(file), *map(str, others)], folder)
     if code:
         message = f"the editor ended with exit code {code}; nothing was changed"
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "editor-failed", message, hint=f"what it saved is in {folder}"))
     return file
 
 
+def _words(command: str) -> list[str]:
+    try:
+        return shlex.split(command)
+    except ValueError as error:
+        message, hint = f"`{command}` is no command: {str(error).lower()}", "correct $VISUAL or $EDITOR"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-editor", message, hint=hint)) from None
+
+
 def _run(command: Sequence[str], folder: Path) -> int:
     """Run a program on this terminal; its exit code. Raises UrdfsyncError if it can't be started."""
     try:
-        return subprocess.run(command, cwd=folder, check=False).returncode  # noqa: S603 - the user's own editor
+        return subprocess.run(command, cwd=folder, env=_environment(), check=False).returncode  # noqa: S603
     except OSError as error:
         message = f"`{command[0]}` can't be started: {error.strerror}"
         found = Diagnostic(Severity.ERROR, "no-editor", message, hint="set $VISUAL, or git's `merge.tool`")
         raise UrdfsyncError(found) from error
+
+
+def _environment() -> dict[str, str]:
+    """The environment without what makes git work in another repository, as it is set for hooks and aliases."""
+    return {name: value for name, value in os.environ.items() if name not in _REPOSITORY}
 
 
 def _git_settings(root: Path) -> list[str]:
@@ -83,7 +98,7 @@ def _run_git(git: str, settings: Sequence[str], file: Path, versions: Versions) 
     def call(*arguments: str, given: bytes = b"") -> str:
         command = [git, *arguments]
         return subprocess.run(  # noqa: S603
-            command, cwd=file.parent, input=given, capture_output=True, check=True
+            command, cwd=file.parent, env=_environment(), input=given, capture_output=True, check=True
         ).stdout.decode()
 
     try:

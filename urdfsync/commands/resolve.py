@@ -27,7 +27,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, line
 from urdfsync.output.results import show_result, show_results
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, sides_hash
 
 _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""
@@ -95,17 +95,23 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         _show_losses(loaded, robots, targets, planned, console)
     if choice is Choice.UNDO:
         _refuse_undo(targets, build(loaded, robots, planned))
-    edited = _edit(loaded, targets, build(loaded, robots, planned)) if choice is Choice.EDIT else {}
-    texts = {path: file.read_bytes().decode(errors="surrogateescape") for path, file in edited.items()}
+    edited = _edit(loaded, targets, list(build(loaded, robots, planned))) if choice is Choice.EDIT else {}
+    texts = {sides: file.read_bytes().decode(errors="surrogateescape") for sides, file in edited.items()}
     request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=texts)
     results = show_results(console, build_and_check(loaded, robots, request))
+    in_conflict = {target.action.path for target in find_conflicts(results)}
+    failed = {target.action.path for target in targets if target.result.robot in _failed(results)}
+    left = [file for (path, _), file in edited.items() if path in in_conflict | failed]
+    for file in edited.values() if not args.dry_run else ():
+        if file not in left:
+            shutil.rmtree(file.parent)
     code = exit_code(results)
-    done = {one.path for result in results for one in result.actions if one.choice is Choice.EDIT and not one.held}
-    left = [_left(file) for path, file in edited.items() if path not in done or code is Exit.CONFLICT]
-    for path in edited.keys() & done if not args.dry_run and not left else ():
-        shutil.rmtree(edited[path].parent)
-    console.end("resolve", code, left)
+    console.end("resolve", code, list(map(_left, left)))
     return code
+
+
+def _failed(results: Iterable[Result]) -> set[str]:
+    return {result.robot for result in results if result.failed}
 
 
 def _choice(args: argparse.Namespace, conflicts: Sequence[DisputedFile]) -> Choice:
@@ -168,26 +174,36 @@ def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> 
         raise UrdfsyncError(*found)
 
 
-def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Iterable[Result]) -> dict[str, Path]:
-    """Let the user edit each file; where its text is then, by key. Raises UrdfsyncError if it can't be used."""
+def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
+    """Let the user edit each file; where its text is then, by key and `sides_hash`.
+
+    Raises UrdfsyncError if one can't be used; it names those that could, too.
+    """
     texts = {one.path: one for result in planned for one in result.conflict_texts}
-    edited = {}
-    for target in targets:
-        one = texts[target.action.path]
-        proposal = one.merge.proposal if one.merge else one.mine
-        sides = (one.base or "", one.mine, one.generated, proposal)
-        name = PurePosixPath(one.path).name
-        file = merge_tool.edit(name, merge_tool.Versions(*map(encode, sides)), loaded.root)
-        if flaw := _flaw(file.read_bytes().decode(errors="surrogateescape"), one):
-            message = f"the edited text {flaw}; nothing was changed"
-            raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, target.shown, hint=f"it is in {file}"))
-        edited[one.path] = file
+    sides = {one.path: sides_hash(one.mine, one.generated) for result in planned for one in result.actions}
+    edited = dict[tuple[str, str], Path]()
+    try:
+        for target in targets:
+            path = target.action.path
+            edited[path, sides[path]] = _edit_one(texts[path], target.shown, loaded.root)
+    except UrdfsyncError as error:
+        raise UrdfsyncError(*error.diagnostics, *map(_left, edited.values())) from error
     return edited
+
+
+def _edit_one(conflict: Conflict, place: str, root: Path) -> Path:
+    proposal = conflict.merge.proposal if conflict.merge else conflict.mine
+    texts = (conflict.base or "", conflict.mine, conflict.generated, proposal)
+    file = merge_tool.edit(PurePosixPath(conflict.path).name, merge_tool.Versions(*map(encode, texts)), root)
+    if flaw := _flaw(file.read_bytes().decode(errors="surrogateescape"), conflict):
+        message = f"the edited text {flaw}; nothing was changed"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, place, hint=f"it is in {file}"))
+    return file
 
 
 def _flaw(text: str, conflict: Conflict) -> str:
     """Why an edited text can't be used, as the end of a sentence; empty if it can."""
-    wanted, found = ([one.name for one in parse(one).classes] for one in (conflict.generated, text))
+    wanted, found = ([str(one.name) for one in parse(one).classes] for one in (conflict.generated, text))
     if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
         return flaw
     return "" if found == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"
@@ -195,7 +211,7 @@ def _flaw(text: str, conflict: Conflict) -> str:
 
 def _left(file: Path) -> Diagnostic:
     message = "this edited text was not taken over"
-    hint = "once the other conflicts are resolved, edit again"
+    hint = "put what you want of it into your file, or edit again"
     return Diagnostic(Severity.NOTE, "edit-left", message, shown(file), hint=hint)
 
 

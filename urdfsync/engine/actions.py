@@ -62,7 +62,7 @@ _REASONS = {
     Kind.INCLUDED: "you edited it, and it already has what is new",
     Kind.MERGE: "your edits and what is new, merged",
     Kind.MOVE: "its element was renamed; your edits move here",
-    Kind.UNDO: "the merge is undone; it is as you had it",
+    Kind.UNDO: "it is as you had it before the last build",
     Kind.LEAVE: "its element was renamed; your edits move to its new file",
 }
 

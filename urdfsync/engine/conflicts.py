@@ -119,6 +119,8 @@ def _outcome(
 ) -> tuple[Kind, Choice | None, str | None]:
     """Return what happens to a file, the choice that counts, and the text that it gets if that is not the generated."""
     merged = conflict.merged(choice) if conflict else None
+    if conflict and choice is Choice.EDIT and merged == conflict.mine:
+        choice, merged = Choice.KEEP, None
     if action.kind is Kind.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
             return Kind.DELETE, choice, None
@@ -131,7 +133,7 @@ def _outcome(
     if action.kind not in CONFLICTS:
         return action.kind, action.choice, None
     if conflict and merged == conflict.mine:  # by a preference for the user's side, which has to be remembered
-        return (Kind.KEEP, choice, None) if choice in (*PREFERENCES, Choice.EDIT) else (Kind.INCLUDED, None, None)
+        return (Kind.KEEP, choice, None) if choice in PREFERENCES else (Kind.INCLUDED, None, None)
     if choice is Choice.KEEP:
         return Kind.KEEP, choice, None
     if choice is Choice.TAKE and action.replaceable:

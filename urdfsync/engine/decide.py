@@ -19,7 +19,8 @@ from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remem
 from urdfsync.engine.undo import reconsider
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state.record import Choice
+from urdfsync.modelica.names import is_identifier
+from urdfsync.state.record import Choice, sides_hash
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
@@ -117,11 +118,19 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
     if mine is not None:
         found = find_conflict(action, bases, mine, generated, names)
-        return msgspec.structs.replace(found, edited=generation.inputs.options.edited.get(action.path))
+        return msgspec.structs.replace(found, edited=_edited_text(generation.inputs, action))
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
     texts = base, package, generated, None
     return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
+
+
+def _edited_text(inputs: Inputs, action: Action) -> str | None:
+    """Return what the user has made of both sides of a file, as they are: now, or while the file waited."""
+    if action.path in inputs.options.choices:
+        return inputs.options.edited.get((action.path, sides_hash(action.mine, action.generated)))
+    waiting = inputs.record.open.edited if inputs.record and inputs.record.open else {}
+    return waiting.get(inputs.path(action.path))
 
 
 def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple[Action, ...]:
@@ -174,13 +183,17 @@ def _find_vanished(
     found = vanished.find_vanished(generation, planned, merged)
     recorded = generation.inputs.recorded_files
     kept = [key for key in merged if key in recorded and recorded[key].kept]
-    in_vain = {**found.in_package, **vanished.find_misfits(generation, planned, merged, kept)}
+    flaws = {
+        key: f"mentions `{use.part}`, which is no longer in the package (line {use.line})"
+        for key, (use, *_) in found.in_package.items()
+    }
+    flaws |= {key: one.what for key, one in vanished.find_misfits(generation, planned, merged, kept).items()}
     sound = dict(conflicts)
-    for key in in_vain.keys() & merged.keys():
-        conflict, use = sound[key], in_vain[key][0]
+    for key in flaws.keys() & merged.keys():
+        conflict = sound[key]
         if conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
-            reason = f"the merge mentions `{use.part}`, which is no longer in the package (line {use.line})"
             merge = conflict.merge.rejected if conflict.merge else None
+            reason = f"the merge {flaws[key]}"
             sound[key] = msgspec.structs.replace(conflict, merge=merge, edited=None, rejected=reason)
     return sound, tuple(vanished.warnings(generation, found))
 
@@ -290,7 +303,7 @@ def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[s
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in inputs.files.classes(folder))
     found = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
-    return sorted(found.difference(names))
+    return sorted(name for name in found.difference(names) if is_identifier(name))
 
 
 def _decide_orders(

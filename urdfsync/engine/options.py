@@ -41,8 +41,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Seconds to wait for another build to finish."""
     choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
     """The user's decisions about files in conflict, by their keys."""
-    edited: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """What the user has made of files in conflict, by their keys."""
+    edited: Mapping[tuple[str, str], str] = msgspec.field(default_factory=dict)
+    """What the user has made of files in conflict, by their keys and by `sides_hash` of the texts that he had."""
     jobs: int | None = None
     """Processes that may work at once; None for one per core."""
     executor: str = ""

@@ -29,7 +29,7 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
 def renamed_names(generation: Generation) -> dict[str, str]:
     """Return new names by the old ones: of classes, and of what those at the top of the package declare.
 
-    Only names that the package has no more.
+    Only names that the package has no more, and those of elements that have left them to others.
     """
     inputs, renamed = generation.inputs, renamed_identifiers(generation)
     if not renamed:
@@ -37,9 +37,12 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     keys = [key for key, record in inputs.recorded_files.items() if record.hashes and key.endswith(".mo")]
     tops = (key for key in keys if "/" not in inputs.old_path(key))
     texts = (generation.base(key, inputs.recorded_files[key].generated) or "" for key in tops)
-    known = known_names(generation)
-    old = (declared_names(texts) | frozenset(map(class_of, keys))) - known
-    return {name: new for name in sorted(old) if (new := new_name(name, renamed, known))}
+    known, declared_before = known_names(generation), declared_names(texts)
+    old = (declared_before | frozenset(map(class_of, keys))) - known
+    # the same name is the class of a link, and of a joint: only names of parts are those of one element alone
+    left = {name: new for name, new in renamed.items() if name in declared_before & known and new in known}
+    left = {name: new for name, new in left.items() if name in renamed.values() and name != inputs.old_target.name}
+    return left | {name: new for name in sorted(old) if (new := new_name(name, renamed, known))}
 
 
 def known_names(generation: Generation) -> frozenset[str]:

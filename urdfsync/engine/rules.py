@@ -39,8 +39,6 @@ OnDisk: TypeAlias = str | ClassFolder | None
 """Hash of what is at a path; None for nothing."""
 
 _NEVER_WRITTEN = FileRecord()
-_AT_ONCE = frozenset({Choice.EDIT, Choice.UNDO})
-"""Choices that wait for nothing, and are not recorded."""
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
@@ -160,7 +158,7 @@ def hold(
     def waits(action: Action) -> bool:
         if not action.writes:
             return action.choice is not None and action.kind not in CONFLICTS
-        if action.choice in _AT_ONCE and not moves:
+        if action.choice is Choice.UNDO and not moves:
             return False
         if moves or action.origin is not None or action.path in origins:
             return True
@@ -212,7 +210,7 @@ def _renewed(action: Action) -> FileRecord:
 
 def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
     """Return the user's choices that wait, by path and by the two texts that they were made on."""
-    waiting = (one for one in actions if one.choice and one.held and one.choice not in _AT_ONCE)
+    waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
     return {(one.path, sides_hash(one.mine, one.generated)): one.choice for one in waiting if one.choice}
 
 
@@ -236,4 +234,4 @@ def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Itera
     """
     waiting = (one for one in actions if one.kind is not Kind.KEEP)
     found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in waiting}
-    return {path: choice for path, choice in found.items() if choice is not None and choice not in _AT_ONCE}
+    return {path: choice for path, choice in found.items() if choice is not None and choice is not Choice.UNDO}

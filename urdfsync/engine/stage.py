@@ -22,7 +22,7 @@ from urdfsync.engine.rules import files_after, pending_choices, renewed_files
 from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
 from urdfsync.state import replaced
-from urdfsync.state.record import RESOURCES, FileRecord, Open, Record, role_of
+from urdfsync.state.record import RESOURCES, Choice, FileRecord, Open, Record, role_of
 from urdfsync.state.store import BASE, CONFLICTS, REPLACED, Witness
 from urdfsync.state.transaction import FileChange
 
@@ -178,7 +178,13 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
         if files.get(inputs.key(one.target)) == FileRecord((one.target_hash,)) and record.imports.get(key) != (one,)
     }
     choices = {(inputs.path(key), sides): one for (key, sides), one in pending_choices(decision.actions).items()}
-    open_ = Open(choices, generation.now.snapshot, generation.recognised_renames, {**known, **imports})
+    edited = {
+        inputs.path(one.path): decision.texts[one.path]
+        for one in decision.actions
+        if one.held and one.choice is Choice.EDIT and one.path in decision.texts
+    }
+    seen = generation.now.snapshot
+    open_ = Open(choices, seen, generation.recognised_renames, edited, {**known, **imports})
     return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
 
 

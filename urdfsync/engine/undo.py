@@ -91,10 +91,11 @@ def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[
     found = {}
     is_writing = any(action.writes for action in actions)
     settled = {inputs.path(action.path) for action in actions if action.choice in (Choice.KEEP, Choice.UNDO)}
+    taken_back = {inputs.path(action.path) for action in actions if action.takes_back}
     for path, one in inputs.replaced.items():
         after = files.text(inputs.key(path))
         stands = after is not None and one.after in (None, after)
-        if path not in settled and (not is_writing or (one.is_users and stands)):
+        if path not in settled and (not is_writing or path in taken_back or (one.is_users and stands)):
             found[path] = one
     return found | new
 

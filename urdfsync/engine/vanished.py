@@ -95,30 +95,49 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     )
 
 
+class Misfit(msgspec.Struct, frozen=True):
+    """Why a text does not fit the package."""
+
+    what: str
+    """As the end of a sentence that begins with "it"."""
+    line: int
+
+
 def find_misfits(
     generation: Generation, actions: Sequence[Action], merged: Mapping[str, str], keys: Collection[str]
-) -> dict[str, list[Unresolved]]:
-    """Return the uses of names that mean nothing once all actions are done, by the key of the file; of some files."""
+) -> dict[str, Misfit]:
+    """Find out why some of the user's files, by their keys, do not fit the package once all actions are done.
+
+    Either they mention what the package has not, or they lack what its models at the top mention.
+    """
     if not keys:
         return {}
-    inputs, found = generation.inputs, dict[str, list[Unresolved]]()
+    inputs, found = generation.inputs, dict[str, Misfit]()
     scopes = Scopes(package_after(generation, actions, merged, users_texts(generation, actions)))
     doubtful = _lost_parts(generation, _recorded(generation), _generated(generation))
-    for key in keys:
-        node = scopes.node(class_name(inputs.robot.target.package, inputs.path(key)))
+    package = inputs.robot.target.package
+    owners = {".".join(class_name(package, inputs.path(key))): key for key in keys}
+    tops = [inputs.key(path) for path in generation.package.artifacts if "/" not in path and path.endswith(".mo")]
+    for key in dict.fromkeys((*keys, *tops)):
+        node = scopes.node(class_name(package, inputs.path(key)))
         uses = [one for one in unresolved(node, scopes, doubtful) if one.kind not in _LEGAL] if node else []
-        if uses:
-            found[key] = sorted(uses, key=lambda one: one.line)
+        for use in sorted(uses, key=lambda one: one.line):
+            if key in keys:
+                what = f"mentions `{use.part}`, which the package does not have"
+                found.setdefault(key, Misfit(what, use.line))
+            elif lacking := owners.get(use.owner):
+                place = f"{shown(inputs.files.path(key))}:{use.line}"
+                found.setdefault(lacking, Misfit(f"lacks `{use.part}`, which {place} mentions", 0))
     return found
 
 
-def misfit_warnings(generation: Generation, found: Mapping[str, Sequence[Unresolved]]) -> Iterator[Diagnostic]:
-    """A warning for each kept file that does not fit the package, with the first name that it mentions in vain."""
-    for key, (first, *_) in found.items():
+def misfit_warnings(generation: Generation, found: Mapping[str, Misfit]) -> Iterator[Diagnostic]:
+    """A warning for each kept file that does not fit the package."""
+    for key, misfit in found.items():
         file = shown(generation.inputs.files.path(key))
-        message = f"kept, does not fit: it mentions `{first.part}`, which the package does not have"
-        hint = f"change that, or `urdfsync resolve {file} --merge`"
-        yield Diagnostic(Severity.WARNING, "does-not-fit", message, file, first.line, hint=hint)
+        hint = f"change that, or `urdfsync resolve {file} --merge` (or --edit)"
+        message = f"kept, does not fit: it {misfit.what}"
+        yield Diagnostic(Severity.WARNING, "does-not-fit", message, file, misfit.line, hint=hint)
 
 
 def users_texts(generation: Generation, actions: Sequence[Action]) -> UsersTexts:

@@ -92,6 +92,8 @@ class Open(msgspec.Struct, frozen=True):
     """The model that the last build saw."""
     renamed: Mapping[ElementKey, str] = {}
     """Elements of the last complete build that have another name in the model last seen."""
+    edited: Mapping[str, str] = {}
+    """What the user has made of files that wait, by the path below the package."""
     imports: Mapping[str, Import] = {}
     """Imported files that were renewed since, as the build that renewed them read them."""
 

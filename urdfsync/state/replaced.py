@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import PurePosixPath
 
 import msgspec
 
@@ -37,7 +36,7 @@ def read(contents: Mapping[str, bytes]) -> dict[str, Replaced]:
 
 def _beside(path: str) -> tuple[str, str]:
     """Where base and result of a file are put aside."""
-    stem = PurePosixPath(path).with_suffix("").as_posix()
+    stem = path.removesuffix(".mo")
     return f"{stem}.base.mo", f"{stem}.after.mo"
 
 

@@ -45,6 +45,7 @@ _FACTS: Mapping[str, Any] = {
     "text": tuple[str, str],
     "kept": tuple[str, str],
     "choice": tuple[str, str, Choice],
+    "edited": tuple[str, str],
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
     "renewed": tuple[str, Import],
@@ -91,6 +92,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("kept", (key[below:], file.kept)) for key, file in record.files.items() if file.kept)
     if record.open:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
+        yield from (("edited", item) for item in record.open.edited.items())
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
         yield from (("renewed", item) for item in record.open.imports.items())
@@ -177,6 +179,7 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
             choices if once else {},
             seen[0] if is_known else {},
             renamed if is_known else {},
+            dict(found["edited"]) if once else {},
             dict(found["renewed"]),
         )
     return Record(
