@@ -58,7 +58,7 @@ def test_a_conflict(built: Path, execute: Execute) -> None:
     for option in ([], ["--quiet"]):
         found = execute("status", *option, code=3).lines
         assert any(line.startswith(conflict) for line in found)
-        assert "`urdfsync resolve FILE --keep`" in found[-1]
+        assert "`urdfsync resolve FILE --merge`" in found[-1]
 
 
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:

@@ -199,3 +199,12 @@ def test_any_text_is_right_if_a_side_is_the_same(parts: list[str], others: list[
 def test_a_merge_says_nothing_of_what_did_not_change() -> None:
     assert merge(MODEL, ADDED, MODEL, is_modelica=True) == Merge(ADDED, ADDED, ())
     assert merge(MODEL, MODEL, GENERATED, is_modelica=True) == Merge(GENERATED, GENERATED, ())
+
+
+def test_of_two_parts_of_one_name_neither_side_counts_more() -> None:
+    base = "model M\nequation\nend M;\n"
+    mine = "model M\n  Parts.Body payload;\nequation\n  connect(payload.a, hand.b);\nend M;\n"
+    generated = "model M\n  Links.Payload payload;\nequation\n  connect(payload.a, grip.b);\nend M;\n"
+    found = merge(base, mine, generated, is_modelica=True)
+    assert [one.what for one in found.conflicts]
+    assert (found.text, found.with_mine, found.with_generated) == (None, None, None)

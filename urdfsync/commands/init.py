@@ -38,6 +38,7 @@ output = "modelica"  # the folder that the packages go into
 {on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
 # package_paths = []  # folders in which `package://` is looked for
 # users = []  # where models of your own use the robots, beside this folder: a build names the uses of what is gone
+# ignore = []  # codes of warnings that are not told, as in ["mesh-not-found"]
 # templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
 """
 _LONGEST = 80

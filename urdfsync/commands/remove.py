@@ -36,7 +36,7 @@ def add(commands: arguments.Commands) -> None:
         help="take a robot out of urdfsync.toml, with its package",
         description="Take a robot's table out of urdfsync.toml, with all files of its package that nobody edited, its "
         "line in the package.order around, and its recorded state. What goes is shown before. Files that you edited, "
-        "or that your own files need, stay.",
+        "and records that your own files need, stay.",
         epilog="example: urdfsync remove gripper --dry-run",
     )
     parser.add_argument("robot", metavar="ROBOT", help="the robot of urdfsync.toml that leaves")

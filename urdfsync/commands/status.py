@@ -173,7 +173,8 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
             found[is_stale].append(file_line(path, status, _STYLES[status], _reason(action, result)))
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
-        yield line((RESOLVE_HINT, "dim"))
+        adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"
+        yield line((RESOLVE_HINT if is_built(result) else adopts, "dim"))
 
 
 def summary(result: Result) -> str:

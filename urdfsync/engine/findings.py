@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -35,7 +35,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
     if decision.is_complete:
-        found += _changed_connectors(generation)
+        found += _changed_connectors(generation, actions)
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
@@ -62,14 +62,18 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
 
 
-def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
-    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
+def _changed_connectors(generation: Generation, actions: Actions) -> Iterator[Diagnostic]:
+    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new.
+
+    Not on what is new if a model that should have it is kept as it is.
+    """
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
-    if new := [f"`{one.new}`" for one in found if one.old is None]:
+    is_kept = any(one.keeps_base and one.role is Role.MODEL for one in actions)
+    if (new := [f"`{one.new}`" for one in found if one.old is None]) and not is_kept:
         named = new if len(new) <= _NEW else [*new[:_NEW], f"{len(new) - _NEW} more"]
         message = f"there is more to connect to: {', '.join(named)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))

@@ -70,9 +70,16 @@ def merge(
     if not conflicts:
         flaw = find_flaw(merged, sides) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, conflicts, flaw)
+    if any(isinstance(one, Contradiction) and _is_new_part(one) for one in pieces):
+        return Merge(None, merged, conflicts)  # both added a part of this name: no side has what the other one means
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
     sound = [text if not is_modelica or not find_flaw(text, sides) else None for text in preferred]
     return Merge(None, merged, conflicts, "", sound[0], sound[1])
+
+
+def _is_new_part(found: Contradiction) -> bool:
+    """Whether both sides have added a component of this name."""
+    return not found.base and found.path[-1:] != () and found.path[-1].startswith("component ")
 
 
 def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:

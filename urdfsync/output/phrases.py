@@ -15,7 +15,7 @@ from urdfsync.output.outline import change_row, outline
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
-RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --keep` (or --take, --merge)"
+RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
 _NAMED = {
     Kind.UPDATE: "{}",
     Kind.MERGE: "{}; merged with your edits",
