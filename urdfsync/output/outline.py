@@ -125,7 +125,8 @@ def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
         value, relation, is_same = _pair(old, new), effect.hint or _percent(old, new), old == new
         if old is None or new is None:
             kind = ChangeKind.REMOVED if new is None else ChangeKind.ADDED
-            value, relation = f"{_value(old)} is gone" if new is None else f"now {_value(new)}", effect.hint
+            gone = f"{old} is gone" if isinstance(old, str) else f"was {_value(old)}"
+            value, relation = gone if new is None else f"now {_value(new)}", effect.hint
         elif _is_vector(old) and _is_vector(new) and len(old) == len(new):
             is_same = math.dist(old, new) <= _SAME * max(map(abs, (*old, *new)))
             relation = f"by {math.dist(old, new):.3g} {effect.unit}".rstrip()
