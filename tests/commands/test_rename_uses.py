@@ -52,7 +52,14 @@ def texts() -> dict[str, str]:
 
 @pytest.fixture
 def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
-    """A project whose joint `elbow` is used in models around the package and in it; now the source calls it `wrist`."""
+    """A project whose joint `elbow` is used in models around the package and in it; now the source calls it `wrist`.
+
+    The user trusts it with what lies outside of its folder.
+    """
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "settings"))
+    trusted = tmp_path / "settings/urdfsync/trusted.toml"
+    trusted.parent.mkdir(parents=True)
+    trusted.write_text(f"folders = ['{tmp_path / 'cell'}']\n")
     project = tmp_path / "cell"
     project.mkdir()
     (tmp_path / "plant").mkdir()
@@ -202,3 +209,81 @@ def test_another_name_of_the_package_is_followed(user: Path, execute: Execute) -
     execute("build")
     execute(*COMMAND, "Arm=Robot", "--yes")
     assert Path("Cell.mo").read_bytes().decode() == CELL.replace("Arm.Arm robot", "Robot.Robot robot")
+
+
+CART = """\
+model Cart
+  extends Modelica.Mechanics.MultiBody.Parts.BodyShape;
+  Arm.Arm wrist;
+  Real speed = elbow.w;
+  Real own = wrist.elbow.w;
+end Cart;
+"""
+
+
+@pytest.mark.parametrize("is_built", [False, True])
+def test_a_name_that_may_come_from_a_library_is_not_the_robots(user: Path, execute: Execute, is_built: bool) -> None:
+    """Behind the robot it is."""
+    Path("Cart.mo").write_text(CART)
+    if is_built:
+        execute("build")
+    found = execute(*COMMAND, *(["elbow=wrist"] if is_built else []), "--yes")
+    assert Path("Cart.mo").read_text() == CART.replace("wrist.elbow", "wrist.wrist")
+    left = "Cart.mo:4: warning: `elbow` in `elbow.w` stays: `wrist` may not be what it was; "
+    assert (left in found.words) == is_built
+
+
+def test_a_name_that_the_user_declares_is_not_the_robots(user: Path, execute: Execute) -> None:
+    """`elbow` meant nothing before, and `wrist` is no part of a robot."""
+    own = "model Own\n  Arm.Arm wrist;\n  Real angle = elbow.phi;\nend Own;\n"
+    Path("Own.mo").write_text(own)
+    execute("build")
+    assert "`elbow` in `elbow.phi` stays" in execute(*NAMES, "--yes").words
+    assert Path("Own.mo").read_text() == own
+
+
+def test_several_names_in_one_line_are_known_from_before(user: Path, execute: Execute) -> None:
+    """They begin elsewhere once the first has been replaced."""
+    mine = "model Mine\n  extends Arm.Links.Mine; {0} a(elbow(c = 1)); Real b = {1}.phi; Real x = {1}.w;\nend Mine;\n"
+    Path("Mine.mo").write_text(mine.format("Arm.Joints.Elbow", "elbow"))
+    execute(*COMMAND, "--yes")
+    assert Path("Mine.mo").read_text() == mine.format("Arm.Joints.Wrist", "wrist")
+
+
+@pytest.mark.parametrize("is_linked", [False, True])
+def test_files_elsewhere_are_written_only_with_the_users_word(
+    user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, is_linked: bool
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(user))
+    if is_linked:
+        Path("Bench.mo").symlink_to(user.parent / "plant/Bench.mo")
+        Path("urdfsync.toml").write_text(CONFIG.replace("../plant", "Bench.mo"))
+    with unchanged(user.parent):
+        found = execute(*COMMAND, "--yes", code=2)
+    assert f"leads out of the configuration's folder, to {user.parent}/plant/Bench.mo; " in found.words
+    execute(*COMMAND, "--yes", "--trust")
+    assert texts() == RENAMED
+
+
+@pytest.mark.parametrize(
+    "clause", ["Joints.Elbow", "Joints.{Elbow, Swing}", "Joints.{Swing, mine = Elbow}", "Joints.*"]
+)
+def test_imported_classes_are_renamed(user: Path, execute: Execute, clause: str) -> None:
+    short = "mine" if "mine" in clause else "Elbow"
+    model = f"model Imports\n  import Arm.{clause};\n  {short} one;\nend Imports;\n"
+    Path("Imports.mo").write_text(model)
+    assert "--rename-uses elbow=wrist" in execute("build").words
+    execute(*NAMES, "--yes")
+    assert Path("Imports.mo").read_text() == model.replace("Elbow", "Wrist")
+
+
+def test_a_package_that_moves_into_another_one_is_left_to_the_user(user: Path, execute: Execute) -> None:
+    write_source("elbow")
+    Path("modelica/Arm/Links/Mine.mo").unlink()
+    Path("../plant/Bench.mo").unlink()
+    Path("urdfsync.toml").write_text(CONFIG.replace('"Arm"', '"Plant.Robot"\ncreate_parents = true'))
+    printed = execute("build").words
+    assert "use `Plant.Robot` instead" in printed
+    assert "--rename-uses" not in printed
+    left = "Cell.mo:3: warning: `Arm` in `Arm.Arm` stays: `Robot` means nothing there; "
+    assert left in execute(*COMMAND, "Arm=Robot", "--yes").words

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfsync.commands import arguments
 from urdfsync.commands.build import build_and_check
-from urdfsync.config.trust import find_untrusted_output
+from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.rename_uses import RenamedUses, rename_uses
@@ -28,8 +28,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if found.unknown:
         names = " or ".join(f"`{name}`" for name in sorted(found.unknown))
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
-    told, code = list(_conflicting(found)), Exit.CONFLICT if found.conflicting else Exit.IN_STEP
-    if not found.texts and not found.conflicting:
+    told, code = [*_conflicting(found), *_left(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
+    if not (found.texts or found.conflicting or found.left):
         hint = "" if given else "what an earlier build renamed has to be named: --rename-uses OLD=NEW"
         told.append(Diagnostic(Severity.NOTE, "no-old-names", "no model of yours uses an old name", hint=hint))
     console.warnings([*told, *(_notes(found) if console.json else ())])
@@ -38,13 +38,15 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if not found.texts or args.dry_run:
         console.end("resolve", code)
         return code
+    if not args.trust:
+        outputs = (find_untrusted_output(loaded, one) for one in found.robots)
+        if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in found.texts)))]:
+            raise ConfigError(*untrusted)
     count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
     builds = f", and build {', '.join(robot.name for robot in found.robots)}" if found.robots else ""
     if not (args.yes or arguments.is_confirmed(f"Write {count}{builds}?", "written", console)):
         console.end("resolve", Exit.OUT_OF_STEP)
         return Exit.OUT_OF_STEP
-    if untrusted := [] if args.trust else [*filter(None, (find_untrusted_output(loaded, one) for one in found.robots))]:
-        raise ConfigError(*untrusted)
     _write(found.texts)
     if not (console.json or console.quiet):
         console.print([line((f"{count} written", ""))])
@@ -67,6 +69,14 @@ def _conflicting(found: RenamedUses) -> Iterator[Diagnostic]:
         message = f"files of `{robot}` are in conflict, so its names stay as they are"
         hint = "resolve them first; the build that follows says which uses are left"
         yield Diagnostic(Severity.WARNING, "conflicts-first", message, hint=hint)
+
+
+def _left(found: RenamedUses) -> Iterator[Diagnostic]:
+    for path, use, new in found.left:
+        why = "may not be what it was" if new in use.known else "means nothing there"
+        message = f"`{use.part}` in `{use.name}` stays: `{new}` {why}"
+        hint = "change it by hand if it means the robot"
+        yield Diagnostic(Severity.WARNING, "old-name-left", message, shown(path), use.line, hint=hint)
 
 
 def _changed_lines(found: RenamedUses) -> Iterator[tuple[Path, int, str, str]]:

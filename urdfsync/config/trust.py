@@ -1,4 +1,4 @@
-"""Whether the user trusts a configuration whose `output` leads out of its own folder."""
+"""Whether the user trusts a configuration that leads out of its own folder."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from urdfsync import dependencies, tomlfile
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.files import shown
+
+_OUT = "out of the configuration's folder, to "
 
 
 class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
@@ -27,6 +29,19 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     """
     if robot.output.is_relative_to(config.root):
         return None
+    return _find_untrusted(config, f"`output` leads {_OUT}{shown(robot.output)}", robot.lines.get("output", 0))
+
+
+def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
+    """An error if a file of the user's lies outside of the configuration's folder, as for an output."""
+    place = Path(os.path.realpath(path))
+    if place.is_relative_to(os.path.realpath(config.root)):
+        return None
+    return _find_untrusted(config, f"{shown(path)} leads {_OUT}{place}", 0)
+
+
+def _find_untrusted(config: Config, message: str, line: int) -> Diagnostic | None:
+    """An error with this message if the user has not named the configuration's folder. Raises ConfigError."""
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:
         text = dependencies.read_file(file).decode()
@@ -38,7 +53,5 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
         raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
     if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None
-    message = f"`output` leads out of the configuration's folder, to {shown(robot.output)}"
     hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'
-    line = robot.lines.get("output", 0)
     return Diagnostic(Severity.ERROR, "untrusted-output", message, shown(config.file), line, hint=hint)

@@ -65,7 +65,7 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     inputs, texts = generation.inputs, users_texts(generation, actions)
     if not (texts.own or texts.edited or texts.around):
         return VanishedNames({}, {})
-    before = Scopes(_package_before(generation, texts))
+    before = Scopes(package_before(generation, texts))
     after = Scopes(package_after(generation, actions, merged, texts))
     doubtful = _lost_parts(generation, _recorded(generation), _generated(generation))
 
@@ -168,7 +168,7 @@ def package_after(
     return _classes(generation, inputs.robot.target, inputs.folder, after, texts.around, now=True)
 
 
-def _package_before(generation: Generation, texts: UsersTexts) -> StoredClasses:
+def package_before(generation: Generation, texts: UsersTexts) -> StoredClasses:
     """Return the classes of the last complete build, with the user's texts."""
     inputs = generation.inputs
     before = _recorded(generation) | {place: texts.edited[key] for key, place in texts.places.items()}
@@ -205,8 +205,8 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
         for use in all_uses:
             by_part.setdefault(use.part, []).append(use)
         for part, (first, *more) in by_part.items():
-            hint = _hint(generation, part, renamed, known)
-            if new_name(part, renamed, known):
+            hint = _hint(generation, first, renamed, known)
+            if any(one.is_certain and new_name(part, renamed, known) in one.known for one in (first, *more)):
                 old = next(old for old in renamed if part.lower().startswith(old.lower()))
                 followed[old] = renamed[old]
                 places.append((shown(file), first.line))
@@ -223,11 +223,12 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
         yield Diagnostic(Severity.NOTE, "rename-uses", message, *max(places), hint=hint)
 
 
-def _hint(generation: Generation, part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
-    inputs = generation.inputs
+def _hint(generation: Generation, use: Unresolved, renamed: Mapping[str, str], known: Collection[str]) -> str:
+    inputs, part = generation.inputs, use.part
     domain, target, options = inputs.domain, inputs.robot.target, inputs.robot.options
     if name := new_name(part, renamed, known):
-        return f"use `{name}` instead"
+        # a package that is in another one now
+        return f"use `{target.package if name == target.name and name not in use.known else name}` instead"
     paths = (inputs.old_path(key) for key in inputs.recorded_files if class_of(key) == part)
     if option := next(filter(None, (domain.option_for(path, inputs.old_target, options) for path in paths)), ""):
         return brings_back(option)

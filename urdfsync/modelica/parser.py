@@ -411,9 +411,11 @@ class SyntaxParser:
             self._expect("*")
         else:
             for _ in self._list("{", "}"):
-                short = self._identifier()
-                member = self._identifier() if self._accept("=") else short
-                names[short] = name._replace(parts=(*name.parts, member))
+                line, start, short = self.line, self.tokens[self.at].start, self._identifier()
+                member = short
+                if self._accept("="):
+                    line, start, member = self.line, self.tokens[self.at].start, self._identifier()
+                names[short] = name._replace(parts=(*name.parts, member), line=line, starts=(*name.starts, start))
         self._comment()
         return ImportClause(name, names)
 

@@ -188,8 +188,11 @@ class Scopes:
         """The simple names that can be used in a class, as far as they are known; whether each is that of a class."""
         found = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
-            imported = (name for one in scope.definition.imports for name in one.names)
-            found = {**dict.fromkeys(imported, True), **self.names_in((Type(scope),)), **found}
+            for one in scope.definition.imports:
+                package = None if one.names else self.lookup(one.name, None)
+                found |= dict.fromkeys(one.names, True)
+                found |= self.names_in(package.types) if isinstance(package, Element) else {}
+            found = {**found, **self.names_in((Type(scope),))}
             scope = scope.parent
         return found
 

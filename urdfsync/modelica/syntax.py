@@ -24,7 +24,7 @@ class Name(NamedTuple):
     is_called: bool = False
     """Whether it is called as a function or record constructor."""
     starts: tuple[int, ...] = ()
-    """Where its parts begin in the text, from 0; those of `import A.{B}` lack the last one."""
+    """Where its parts begin in the text, from 0."""
 
     def __str__(self) -> str:
         return ".".join(self.parts)

@@ -45,6 +45,8 @@ class Unresolved(NamedTuple):
     """Where the part begins in the text; -1 if that is not known."""
     known: Collection[str] = ()
     """The names that mean something there."""
+    is_certain: bool = True
+    """False if the class may inherit the name from a library that is not at hand."""
 
     @property
     def meant(self) -> str:
@@ -75,8 +77,8 @@ class _Walk:
         for base in definition.extends:
             yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, UnresolvedKind.CLASS)
             yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
-        for one in definition.imports:
-            yield from self._missing(one.name, scopes.lookup(one.name, None), None, UnresolvedKind.CLASS)
+        for name in (name for one in definition.imports for name in one.names.values() or (one.name,)):
+            yield from self._missing(name, scopes.lookup(name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
             yield from self._component(component, node)
         yield from self._uses(definition.uses, node)
@@ -140,4 +142,4 @@ class _Walk:
         near = nearest(found.part, sorted(candidates - {found.part}), least)
         if near or not is_library or found.part in self._doubtful:  # else a compiler tells whether there is a library
             start = name.starts[found.number] if found.number < len(name.starts) else -1
-            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates)
+            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates, found.is_certain)
