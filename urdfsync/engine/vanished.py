@@ -6,6 +6,7 @@ it: what meant something in a text before, and means nothing now, has vanished.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
@@ -42,6 +43,8 @@ class VanishedNames(msgspec.Struct, frozen=True):
     """By the key of the file in which they are."""
     elsewhere: Mapping[Path, Sequence[Unresolved]]
     """In files outside of the package."""
+    reused: Sequence[tuple[Path, Unresolved]] = ()
+    """Uses, in files of the user's, of names that another element has now."""
 
 
 class UsersTexts(msgspec.Struct, frozen=True):
@@ -92,7 +95,34 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     return VanishedNames(
         {key: found for key, found in in_package.items() if found},
         {file: found for file, found in elsewhere.items() if found},
+        [*_find_reused(generation, actions, merged, before, after)],
     )
+
+
+def _find_reused(
+    generation: Generation, actions: Sequence[Action], merged: Mapping[str, str], before: Scopes, after: Scopes
+) -> Iterator[tuple[Path, Unresolved]]:
+    """Yield the uses of names that another element has now.
+
+    They mean something before and after, and nothing as soon as the package lacks these names.
+    """
+    known, reused = known_names(generation), _reused(renamed_identifiers(generation))
+    names = {name for name in known if new_name(name, reused, known)}
+    if not names:
+        return
+    scopes = Scopes(package_after(generation, actions, merged, users_texts(generation, actions), names))
+    old_nodes = {(node.file, node.name): node for node in before.users()}
+    for node, lacking in zip(after.users(), scopes.users(), strict=True):
+        old_node = old_nodes.get((node.file, node.name))
+        pairs = ((node, after), (old_node, before)) if old_node else ((node, after),)
+        missing = {use.start for one, places in pairs for use in unresolved(one, places, names)}
+        uses = (use for use in unresolved(lacking, scopes, names) if use.part in names)
+        yield from ((Path(node.file), use) for use in uses if use.start not in missing)
+
+
+def _reused(renamed: Mapping[str, str]) -> dict[str, str]:
+    """Return those new identifiers, by the old ones, whose old one is another element's new one."""
+    return {old: new for old, new in renamed.items() if old in renamed.values()}
 
 
 class Misfit(msgspec.Struct, frozen=True):
@@ -158,13 +188,24 @@ def users_texts(generation: Generation, actions: Sequence[Action]) -> UsersTexts
 
 
 def package_after(
-    generation: Generation, actions: Sequence[Action], merged: Mapping[str, str], texts: UsersTexts
+    generation: Generation,
+    actions: Sequence[Action],
+    merged: Mapping[str, str],
+    texts: UsersTexts,
+    hidden: Collection[str] = (),
 ) -> StoredClasses:
-    """Return the classes as this build leaves them; `merged` are the texts of merged files by key."""
+    """Return the classes as this build leaves them; `merged` are the texts of merged files by key.
+
+    Names that are `hidden` are taken out of what is generated.
+    """
     inputs, files = generation.inputs, generation.inputs.files
     staying = {action.path for action in actions if action.kind is Kind.NEEDED or action.released}
     kept = {key: files.any_text(key) for key in staying}
-    after = {**_generated(generation), **texts.own, **kept, **texts.edited, **merged}
+    generated = _generated(generation)
+    if hidden:
+        words = re.compile(rf"\b({'|'.join(map(re.escape, hidden))})\b")
+        generated = {key: words.sub("hidden", text) for key, text in generated.items()}
+    after = {**generated, **texts.own, **kept, **texts.edited, **merged}
     return _classes(generation, inputs.robot.target, inputs.folder, after, texts.around, now=True)
 
 
@@ -197,8 +238,8 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
     """A warning for each name that is gone in each text: where, and what it is now; a note on what writes new names."""
     files = generation.inputs.files
     uses = [*((files.path(key), one) for key, one in found.in_package.items()), *found.elsewhere.items()]
-    renamed = renamed_identifiers(generation) if uses else {}
-    known = known_names(generation) if uses else frozenset()
+    renamed = renamed_identifiers(generation) if uses or found.reused else {}
+    known = known_names(generation) if uses or found.reused else frozenset()
     followed, places = dict[str, str](), list[tuple[str, int]]()
     for file, all_uses in uses:
         by_part: dict[str, list[Unresolved]] = {}
@@ -206,7 +247,8 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
             by_part.setdefault(use.part, []).append(use)
         for part, (first, *more) in by_part.items():
             hint = _hint(generation, first, renamed, known)
-            if any(one.is_certain and new_name(part, renamed, known) in one.known for one in (first, *more)):
+            name = new_name(part, renamed, known)
+            if part not in known and any(one.is_certain and name in one.known for one in (first, *more)):
                 old = next(old for old in renamed if part.lower().startswith(old.lower()))
                 followed[old] = renamed[old]
                 places.append((shown(file), first.line))
@@ -214,6 +256,8 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
                 hint += f"; also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}"
             message = f"`{first.name}` is used here, but the package has no `{part}` any more"
             yield Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), first.line, hint=hint)
+    for file, use in found.reused:
+        yield _reused_warning(generation, file, use, renamed, known)
     if followed:
         command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in followed.items())))
         message, hint = (
@@ -221,6 +265,27 @@ def warnings(generation: Generation, found: VanishedNames) -> Iterator[Diagnosti
             f"`{command}` shows the lines, and writes them if you agree",
         )
         yield Diagnostic(Severity.NOTE, "rename-uses", message, *max(places), hint=hint)
+
+
+def _reused_warning(
+    generation: Generation, file: Path, use: Unresolved, renamed: Mapping[str, str], known: Collection[str]
+) -> Diagnostic:
+    """A warning that a name means another element than before."""
+    inputs, reused = generation.inputs, _reused(renamed)
+    identifier = next(old for old in reused if use.part.lower().startswith(old.lower()))
+    was = _element(inputs.domain.names(inputs.last.snapshot, inputs.old_target) if inputs.last else {}, identifier)
+    now = _element(inputs.domain.names(generation.now.snapshot, inputs.robot.target), identifier)
+    parts = use.name.split(".")
+    name = ".".join(parts[: parts.index(use.part) + 1])
+    message = f"`{name}` was {was} and is {now} now"
+    hint = f"use `{new_name(use.part, reused, known)}` instead"
+    return Diagnostic(Severity.WARNING, "vanished-name", message, shown(file), use.line, hint=hint)
+
+
+def _element(names: Mapping[str, Mapping[str, str]], identifier: str) -> str:
+    """Return the kind and the name of the element that has an identifier; it may be that of the package."""
+    found = ((kind, name) for kind, spellings in names.items() for name in spellings if spellings[name] == identifier)
+    return next((f"{kind.removesuffix('s')} {name}" for kind, name in found), "the package")
 
 
 def _hint(generation: Generation, use: Unresolved, renamed: Mapping[str, str], known: Collection[str]) -> str:
