@@ -92,6 +92,7 @@ BROKEN = {
     f"file {A[:9]}  Arm.mo": "this is not a state file of urdfsync: no hash and path",
     f"file {A}  ../Arm.mo": "the recorded path '../Arm.mo' does not belong to the package `Plant.Arm`",
     f"file {A}  .git/config.mo": "does not belong to the package",
+    f"file {A}  C:/Arm.mo": "the recorded path 'C:/Arm.mo' does not belong to the package",
     f"file {A}  package.order": "does not belong to the package",
     'import ["x",{"target":"../x","source_hash":"","target_hash":"","converter":1,"facts":{}}]': "'../x' does not",
     "format 2": "a newer urdfsync wrote this state (format 2; this one knows 1)",
