@@ -17,6 +17,7 @@ UNRELATED = {
     "conflict",
     "conflicts-first",
     "edit-left",
+    "old-name-left",
     "exec",
     "no-conflict",
     "no-old-names",
