@@ -19,6 +19,7 @@ from support.modelica import GRAVITY, Array, Run, Task, simulate
 from support.packages import read
 from support.replay import Project
 
+from urdfsync.diagnostics import Severity
 from urdfsync.domain import Target
 from urdfsync.engine.result import Result
 from urdfsync.urdf.domain import DOMAIN
@@ -83,8 +84,9 @@ HISTORIES = {
 
 
 def warnings(result: Result) -> list[str]:
-    """What a build says of the user's files."""
-    return [str(one) for one in result.diagnostics if "Mine" in one.file]
+    """What a build warns of in the user's files; how to follow a new name there is a note beside that."""
+    found = (one for one in result.diagnostics if "Mine" in one.file)
+    return [str(one) for one in found if one.severity is Severity.WARNING]
 
 
 @pytest.mark.slow
