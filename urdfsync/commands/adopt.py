@@ -7,7 +7,7 @@ import enum
 import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -19,8 +19,9 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.edits import EditedFile, find_edited
 from urdfsync.engine.package_files import key_of
+from urdfsync.engine.package_names import class_of
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.modelica.files import class_path, modelica_files
+from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine
 from urdfsync.output.results import file_line, headline, result_values, show_result
@@ -103,19 +104,15 @@ def adopted_files(result: Result, edited: Mapping[str, EditedFile]) -> list[Adop
     """Return all files of the package but `package.order` ones, in the order of their paths."""
     actions = {one.path: one for one in result.actions if one.role is not Role.ORDER and one.kind in _STATUSES}
     files = [AdoptedFile(path, _STATUSES[one.kind], one.owner, edited.get(path)) for path, one in actions.items()]
-    owners = {_class(path): one.owner for path, one in actions.items() if one.role in (Role.MODEL, Role.RECORD)}
+    owners = {class_of(path): one.owner for path, one in actions.items() if one.role in (Role.MODEL, Role.RECORD)}
     paths = (key_of(Path(place), result.root) for place in modelica_files(result.folder))
     files += [AdoptedFile(path, AdoptedStatus.UNKNOWN, _owner(path, owners)) for path in paths if path not in actions]
     return sorted(files, key=lambda file: file.path.rpartition("/"))
 
 
-def _class(path: str) -> str:
-    return class_path(PurePosixPath(path)).name
-
-
 def _owner(path: str, owners: Mapping[str, str]) -> str:
     """Return the element whose class an unknown file is called after, as in `ElbowParams`; empty if there is none."""
-    name = _class(path)
+    name = class_of(path)
     found = [one for one in owners if name == one or (name.startswith(one) and name[len(one)].isupper())]
     return owners[max(found, key=len)] if found else ""
 

@@ -16,7 +16,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
-from urdfsync.engine.conflicts import MERGES, Conflict
+from urdfsync.engine.conflicts import BOTH_SIDES, MERGES, Conflict
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import encode
@@ -272,7 +272,7 @@ def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
     if choice is Choice.TAKE and not target.replaceable:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
-    elif choice in (*MERGES, Choice.EDIT) and target.action.kind is Kind.ORPHAN:
+    elif choice in BOTH_SIDES and target.action.kind is Kind.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
     elif choice is Choice.EDIT and not (target.replaceable and (target.texts or target.is_decided)):

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.engine.actions import CONFLICTS, Action, Kind
-from urdfsync.engine.package_files import encode
-from urdfsync.files import text_digest
+from urdfsync.engine.package_files import text_hash
 from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
@@ -21,6 +20,8 @@ PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
 """Choices to take both sides' changes, and one side's where they contradict each other."""
 MERGES = PREFERENCES | {Choice.MERGE}
 """Choices to take both sides' changes."""
+BOTH_SIDES = MERGES | {Choice.EDIT}
+"""Choices that make one text of both sides."""
 
 
 class Conflict(msgspec.Struct, frozen=True):
@@ -107,7 +108,7 @@ def resolve(
         if text is not None:
             texts[action.path] = text
         if (kind, choice, text) != (action.kind, action.choice, None):
-            result = None if text is None else text_digest(encode(text))
+            result = None if text is None else text_hash(text)
             base = action.generated if kind is Kind.KEEP else action.base
             action = msgspec.structs.replace(action, kind=kind, base=base, choice=choice, result=result)
         found.append(action)
@@ -138,6 +139,6 @@ def _outcome(
         return Kind.KEEP, choice, None
     if choice is Choice.TAKE and action.replaceable:
         return Kind.UPDATE, choice, None
-    if merged is not None and (choice in (*MERGES, Choice.EDIT) or merging):
+    if merged is not None and (choice in BOTH_SIDES or merging):
         return Kind.MERGE, choice, merged
     return action.kind, choice, None

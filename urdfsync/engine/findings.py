@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -55,11 +55,16 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not is_inside:
         message, hint = f"{message}, but urdfsync may not delete files in the old folder", "delete it by hand"
     else:
-        named = rest if len(rest) <= _FEW else [*rest[:_FEW], f"{len(rest) - _FEW} more"]
-        message += f"; these files are not deleted, since urdfsync did not write them: {', '.join(named)}"
+        message += f"; these files are not deleted, since urdfsync did not write them: {_first(rest, _FEW)}"
         hint = "take over what you need, then delete the old folder"
     file, line = shown(inputs.config.file), inputs.robot.lines[""]
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
+
+
+def _first(names: Sequence[str], most: int) -> str:
+    """The names in a row; of more than `most` the first ones, and the number of the others."""
+    more = [f"{len(names) - most} more"] if len(names) > most else []
+    return ", ".join([*names[:most], *more])
 
 
 def _changed_connectors(generation: Generation, actions: Actions) -> Iterator[Diagnostic]:
@@ -74,8 +79,7 @@ def _changed_connectors(generation: Generation, actions: Actions) -> Iterator[Di
     found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
     is_kept = any(one.keeps_base and one.role is Role.MODEL for one in actions)
     if (new := [f"`{one.new}`" for one in found if one.old is None]) and not is_kept:
-        named = new if len(new) <= _NEW else [*new[:_NEW], f"{len(new) - _NEW} more"]
-        message = f"there is more to connect to: {', '.join(named)}"
+        message = f"there is more to connect to: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
     for one in found:
         element, connector = one.path

@@ -17,9 +17,9 @@ from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templa
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles, encode
+from urdfsync.engine.package_files import PackageFiles, text_hash
 from urdfsync.engine.parents import Parents
-from urdfsync.files import shown, text_digest
+from urdfsync.files import shown
 from urdfsync.state import replaced
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
 from urdfsync.state.replaced import Replaced
@@ -116,7 +116,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """The texts that urdfsync wrote last, by their hashes, as far as they are kept: those of edited files."""
         kept = self.store.bases(self.former_name or self.robot.name)
         aside = (one.base for one in self.replaced.values() if one.base)
-        return {text_digest(encode(text)): text for text in aside} | kept
+        return {text_hash(text): text for text in aside} | kept
 
     @cached_property
     def replaced(self) -> Mapping[str, Replaced]:

@@ -134,6 +134,11 @@ def state_of(content: bytes) -> FileState:
     return FileState(sha256, text_digest(content) if b"\r" in content else sha256)
 
 
+def text_hash(text: str) -> str:
+    """Return the hash of an edited text, as files are compared by."""
+    return text_digest(encode(text))
+
+
 def encode(text: str) -> bytes:
     """Return the bytes of a text that `PackageFiles.text` gave, or of an edited one."""
     return text.encode(errors="surrogateescape")

@@ -13,10 +13,10 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Kind
-from urdfsync.engine.conflicts import MERGES
+from urdfsync.engine.conflicts import BOTH_SIDES
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import encode
-from urdfsync.files import shown, text_digest
+from urdfsync.engine.package_files import text_hash
+from urdfsync.files import shown
 from urdfsync.state.record import Choice
 from urdfsync.state.replaced import Replaced
 
@@ -39,13 +39,13 @@ def reconsider(
         if action.mine and (action.kind is Kind.KEEP or choice is Choice.UNDO) and action.role is not Role.IMPORT:
             one = inputs.replaced.get(inputs.path(action.path))
             if one and choice is Choice.UNDO:
-                after = _hash(one.after) if one.after is not None else action.generated
+                after = text_hash(one.after) if one.after is not None else action.generated
                 if one.is_users and action.mine == after and action.base == action.generated:
                     now = _undone(action, one)
                     texts[action.path] = one.before
             elif one and one.base and _takes_back(generation, action, one):
-                if choice in (*MERGES, Choice.EDIT):
-                    now = msgspec.structs.replace(action, kind=Kind.CONFLICT, base=_hash(one.base))
+                if choice in BOTH_SIDES:
+                    now = msgspec.structs.replace(action, kind=Kind.CONFLICT, base=text_hash(one.base))
                 elif choice is Choice.KEEP:
                     now = msgspec.structs.replace(action, choice=choice)
                 elif choice is None:
@@ -56,9 +56,9 @@ def reconsider(
 
 
 def _undone(action: Action, one: Replaced) -> Action:
-    base = None if one.base is None else _hash(one.base)
+    base = None if one.base is None else text_hash(one.base)
     return msgspec.structs.replace(
-        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=_hash(one.before), keeps_base=True
+        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=text_hash(one.before), keeps_base=True
     )
 
 
@@ -70,7 +70,7 @@ def _takes_back(generation: Generation, action: Action, one: Replaced) -> bool:
     after = generation.content(action.path).decode() if one.after is None else one.after
     since_before, since_after = find_edits(one.before, mine), find_edits(after, mine)
     if since_before is None or since_after is None:
-        return _hash(mine) == _hash(one.before)
+        return text_hash(mine) == text_hash(one.before)
     return len(since_before) < len(since_after)
 
 
@@ -111,7 +111,3 @@ def _written_over(
             if base is None and action.base:
                 base = generation.base(action.path, action.base)
             yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
-
-
-def _hash(text: str) -> str:
-    return text_digest(encode(text))
