@@ -34,16 +34,16 @@ def edit(name: str, versions: Versions, root: Path) -> Path:
 
     `root` is where git looks for its settings. Raises UrdfsyncError if there is no tool, or if it fails.
     """
-    git, settings = shutil.which("git"), _git_settings(root)
+    git = _configured_git(root)
     command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or ""
-    if not settings and not command:
+    if not git and not command:
         hint = "set $VISUAL, or git's `merge.tool`"
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-editor", "there is no editor to open", hint=hint))
     folder = Path(tempfile.mkdtemp(prefix="urdfsync-edit-"))
     file, path = folder / name, PurePosixPath(name)
     file.write_bytes(versions.proposal)
-    if git and settings:
-        code = _run_git(git, settings, file, versions)
+    if git:
+        code = _run_git(git, file, versions)
     else:
         others = []
         for side, content in zip(Versions._fields, versions[:3], strict=False):
@@ -79,8 +79,8 @@ def _environment() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name not in _REPOSITORY}
 
 
-def _git_settings(root: Path) -> list[str]:
-    """The settings of git's merge tool as arguments of git; none if no tool is set."""
+def _configured_git(root: Path) -> list[str]:
+    """The command of git with the settings of its merge tool; empty if no tool is set."""
     git = shutil.which("git")
     if git is None:
         return []
@@ -89,14 +89,14 @@ def _git_settings(root: Path) -> list[str]:
     found = dict(line.split("\n", 1) for line in listed.split("\0") if "\n" in line)
     settings = {**found, "mergetool.keepBackup": "false", "mergetool.prompt": "false"}
     pairs = (("-c", f"{name}={value}") for name, value in settings.items())
-    return list(itertools.chain.from_iterable(pairs)) if found.get("merge.tool") else []
+    return [git, *itertools.chain.from_iterable(pairs)] if found.get("merge.tool") else []
 
 
-def _run_git(git: str, settings: Sequence[str], file: Path, versions: Versions) -> int:
+def _run_git(git: Sequence[str], file: Path, versions: Versions) -> int:
     """Run `git mergetool` on a file that is unmerged in a repository made for that."""
 
     def call(*arguments: str, given: bytes = b"") -> str:
-        command = [git, *arguments]
+        command = [*git, *arguments]
         return subprocess.run(  # noqa: S603
             command, cwd=file.parent, env=_environment(), input=given, capture_output=True, check=True
         ).stdout.decode()
@@ -109,4 +109,4 @@ def _run_git(git: str, settings: Sequence[str], file: Path, versions: Versions) 
     except subprocess.CalledProcessError as error:
         message = f"git can't prepare the merge: {error.stderr.decode(errors='replace').strip()}"
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "editor-failed", message)) from error
-    return _run([git, *settings, "mergetool", "--", file.name], file.parent)
+    return _run([*git, "mergetool", "--", file.name], file.parent)

@@ -32,33 +32,36 @@ def reconsider(
     One that was saved without what the last build had written conflicts again if the user wants it merged or edited;
     else there is a warning. Returns the actions, the texts of what is undone by path, and the warnings.
     """
-    inputs, found, texts = generation.inputs, list[Action](), dict[str, str]()
-    warnings = list[Diagnostic]()
-    for action in actions:
-        choice, now = choices.get(action.path), action
-        if action.mine and (action.kind is Kind.KEEP or choice is Choice.UNDO) and action.role is not Role.IMPORT:
-            one = inputs.replaced.get(inputs.path(action.path))
-            if one and choice is Choice.UNDO:
-                after = text_hash(one.after) if one.after is not None else action.generated
-                if one.is_users and action.mine == after and action.base == action.generated:
-                    now = _undone(action, one)
-                    texts[action.path] = one.before
-            elif one and one.base and _takes_back(generation, action, one):
-                if choice in BOTH_SIDES:
-                    now = msgspec.structs.replace(action, kind=Kind.CONFLICT, base=text_hash(one.base))
-                elif choice is Choice.KEEP:
-                    now = msgspec.structs.replace(action, choice=choice)
-                elif choice is None:
-                    now = msgspec.structs.replace(action, takes_back=True)
-                    warnings.append(_warning(shown(inputs.files.path(action.path))))
-        found.append(now)
-    return tuple(found), texts, tuple(warnings)
+    inputs = generation.inputs
+    found = tuple(_reconsidered(generation, action, choices.get(action.path)) for action in actions)
+    texts = {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
+    return found, texts, tuple(_warning(shown(inputs.files.path(one.path))) for one in found if one.takes_back)
+
+
+def _reconsidered(generation: Generation, action: Action, choice: Choice | None) -> Action:
+    if not action.mine or action.role is Role.IMPORT or not (action.kind is Kind.KEEP or choice is Choice.UNDO):
+        return action
+    one = generation.inputs.replaced.get(generation.inputs.path(action.path))
+    if one is None:
+        return action
+    if choice is Choice.UNDO:
+        return _undone(action, one)
+    if one.base and _takes_back(generation, action, one):
+        if choice in BOTH_SIDES:
+            return msgspec.structs.replace(action, kind=Kind.CONFLICT, base=text_hash(one.base))
+        if choice in (Choice.KEEP, None):
+            return msgspec.structs.replace(action, choice=choice, takes_back=choice is None)
+    return action
 
 
 def _undone(action: Action, one: Replaced) -> Action:
-    base = None if one.base is None else text_hash(one.base)
+    """Give back what the user had, if the file is still what was written over it."""
+    after = action.generated if one.after is None else text_hash(one.after)
+    if not one.is_users or action.mine != after or action.base != action.generated:
+        return action
+    base, result = None if one.base is None else text_hash(one.base), text_hash(one.before)
     return msgspec.structs.replace(
-        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=text_hash(one.before), keeps_base=True
+        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=result, keeps_base=True
     )
 
 
