@@ -13,6 +13,13 @@ from support.urdfs import joint, link, robot
 
 PARAMS = "modelica/Arm/Joints/ElbowParams.mo"
 """As URDFModelica names the records."""
+RECORD_TEXT = """within Arm.Joints;
+record ElbowParams
+  Real limit = 4.2;
+  Real x = 1;
+  annotation(Placement(x = 7));
+end ElbowParams;
+"""
 
 
 @pytest.fixture
@@ -80,7 +87,7 @@ def foreign(folder: Path, execute: Execute) -> Path:
         "modelica/Arm/Arm.mo": "within Arm;\nmodel Arm\n  Joints.Elbow elbow;\nend Arm;\n",
         "modelica/Arm/Joints/package.mo": "within Arm;\npackage Joints\nend Joints;\n",
         "modelica/Arm/Joints/Elbow.mo": "within Arm.Joints;\nmodel Elbow\n  ElbowParams p;\nend Elbow;\n",
-        PARAMS: "within Arm.Joints;\nrecord ElbowParams\n  Real limit = 3;\nend ElbowParams;\n",
+        PARAMS: RECORD_TEXT,
         "modelica/Arm/Joints/Brake.mo": "within Arm.Joints;\nmodel Brake\nend Brake;\n",
     }
     for name, text in texts.items():
@@ -99,11 +106,18 @@ def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
     }
     unknown = {path: file["owner"] for path, file in files.items() if file["status"] == "unknown"}
     assert unknown == {PARAMS: "joint elbow", "modelica/Arm/Joints/Brake.mo": ""}
+    assert files[PARAMS]["numbers"] == [{"name": "limit", "value": "4.2", "line": 3}]
     assert files["modelica/Arm/Joints/ElbowParameters.mo"]["status"] == "new"
     named = {edit["element"]: edit for edit in files["modelica/Arm/Arm.mo"]["edits"]}
     assert named["component `tip`"]["mine"] is None
     assert "component `elbow`" in named
     order = (foreign / "modelica/Arm/Joints/package.order").read_text().split()
     assert order == ["Elbow", "ElbowParameters", "Brake", "ElbowParams"]
+    shutil.rmtree(foreign / ".urdfsync")
+    lines = execute("adopt", "arm").lines
+    assert lines[lines.index(f"  unknown    {PARAMS}  named after joint elbow") + 1] == (
+        "    line 3: limit = 4.2 is not in the source"
+    )
+    assert lines[-1] == "  exports do not change unknown files: new numbers go to the generated records"
     assert "4 edited" in execute("status").out
     assert "order-lacks" not in execute("check", code=None).words

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Callable
@@ -12,7 +13,7 @@ from typing import TypeAlias
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, RECORD, ROBOT, configure, edit, resistor
+from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
 from urdfsync.state.lock import build_lock
@@ -424,6 +425,25 @@ def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: 
     execute("build", "--merge")
     assert "it mentions `C1`" in execute("resolve", MODEL, "--undo").err
     assert "it mentions `C1`" in execute("build").err
+
+
+def test_what_is_given_back_is_merged_later_although_its_names_are_others_by_then(
+    execute: Execute, project: Path
+) -> None:
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    edit("ladder.json", '"C1"', '"C3"')
+    execute("build", "--merge")
+    execute("resolve", MODEL, "--undo")
+    edit("ladder.json", '"C3"', '"C4"')
+    execute("build", code=3)
+    execute("resolve", MODEL, "--merge")
+    text = Path(MODEL).read_text()
+    assert {"C1", "C3"}.isdisjoint(re.findall(r"\w+", text))
+    for words in ("Elements.C4 elementC4", "parameter Real mine = 1;"):
+        assert words in text
+    execute("build", "--check")
+    assert "former" not in Path(MANIFEST).read_text()
 
 
 def test_the_next_export_merges_what_was_undone_too(merged: Path, execute: Execute) -> None:

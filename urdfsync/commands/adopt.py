@@ -17,13 +17,15 @@ from urdfsync.commands.edits import edit_lines, edit_values
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
-from urdfsync.engine.edits import EditedFile, find_edited
+from urdfsync.engine.edits import EditedFile, OtherNumber, find_edited, find_other_numbers
+from urdfsync.engine.generation import Generation, generate_robot
+from urdfsync.engine.inputs import inspect
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.package_names import class_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
-from urdfsync.output.console import Console, StyledLine
+from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.results import file_line, headline, result_values, show_result
 
 _EDITS = 5
@@ -61,6 +63,8 @@ class AdoptedFile(msgspec.Struct, frozen=True):
     owner: str
     """Element that it belongs to; of an unknown file the one that its name begins with, empty for none."""
     edited: EditedFile | None = None
+    numbers: Sequence[OtherNumber] = ()
+    """Of an unknown file: those that its element does not have in the source."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -93,21 +97,30 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             show_result(console, result)
             continue
         request = arguments.request(args, console, dry=True, adopts=args.dry_run)
-        edited = {one.path: one for one in find_edited(configuration, robots[result.robot], request)}
-        _show(console, result, adopted_files(result, edited))
+        generation = generate_robot(inspect(configuration, robots[result.robot], request))
+        _show(console, result, adopted_files(result, generation))
     code = exit_code(results)
     console.end("adopt", code)
     return code
 
 
-def adopted_files(result: Result, edited: Mapping[str, EditedFile]) -> list[AdoptedFile]:
+def adopted_files(result: Result, generation: Generation) -> list[AdoptedFile]:
     """Return all files of the package but `package.order` ones, in the order of their paths."""
+    edited = {one.path: one for one in find_edited(generation)}
     actions = {one.path: one for one in result.actions if one.role is not Role.ORDER and one.kind in _STATUSES}
     files = [AdoptedFile(path, _STATUSES[one.kind], one.owner, edited.get(path)) for path, one in actions.items()]
     owners = {class_of(path): one.owner for path, one in actions.items() if one.role in (Role.MODEL, Role.RECORD)}
     paths = (key_of(Path(place), result.root) for place in modelica_files(result.folder))
-    files += [AdoptedFile(path, AdoptedStatus.UNKNOWN, _owner(path, owners)) for path in paths if path not in actions]
+    files += [_unknown(path, _owner(path, owners), generation) for path in paths if path not in actions]
     return sorted(files, key=lambda file: file.path.rpartition("/"))
+
+
+def _unknown(path: str, owner: str, generation: Generation) -> AdoptedFile:
+    kind, _, name = owner.partition(" ")
+    element = generation.now.snapshot.get(f"{kind}s", {}).get(name)
+    text = generation.inputs.files.any_text(path)
+    numbers = find_other_numbers(text, element) if element is not None else []
+    return AdoptedFile(path, AdoptedStatus.UNKNOWN, owner, numbers=numbers)
 
 
 def _owner(path: str, owners: Mapping[str, str]) -> str:
@@ -131,11 +144,14 @@ def _show(console: Console, result: Result, files: Sequence[AdoptedFile]) -> Non
     console.print([headline(result, f"{'to adopt' if result.dry else 'adopted'}: {words}", is_fine=True)])
     for file in files:
         console.print(_lines(file, result, console.verbose))
+    if counts[AdoptedStatus.UNKNOWN]:
+        console.print([line(("  exports do not change unknown files: new numbers go to the generated records", "dim"))])
 
 
 def _values(file: AdoptedFile) -> dict[str, Any]:
     edits = edit_values(file.edited) if file.edited else []
-    return {"path": file.path, "status": file.status, "owner": file.owner, "edits": edits}
+    numbers = [msgspec.structs.asdict(one) for one in file.numbers]
+    return {"path": file.path, "status": file.status, "owner": file.owner, "edits": edits, "numbers": numbers}
 
 
 def _lines(file: AdoptedFile, result: Result, verbose: bool) -> Iterator[StyledLine]:
@@ -145,3 +161,5 @@ def _lines(file: AdoptedFile, result: Result, verbose: bool) -> Iterator[StyledL
         yield file_line(shown_path(result, file.path), file.status, _STYLES.get(file.status, "dim"), why)
     if file.edited:
         yield from itertools.islice(edit_lines(file.edited, result.root, verbose, _EDITS), 1, None)
+    numbers = (f"    line {one.line}: {one.name} = {one.value} is not in the source" for one in file.numbers)
+    yield from first_lines([line((text, "")) for text in numbers], _EDITS, "number", verbose=verbose)

@@ -14,6 +14,8 @@ from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.edits import EditedFile, find_edited
+from urdfsync.engine.generation import generate_robot
+from urdfsync.engine.inputs import inspect
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.merge.edits import Edit, find_edits, in_words
@@ -34,7 +36,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     for robot in robots:
         wanted = {text for text, place in named.items() if text == robot.name or robot.folder.is_relative_to(place)}
         try:
-            found = list(find_edited(loaded, robot, request))
+            found = list(find_edited(generate_robot(inspect(loaded, robot, request))))
         except UrdfsyncError as error:
             console.add_robot({"name": robot.name, "failed": True, "files": []})
             console.findings(error.diagnostics)

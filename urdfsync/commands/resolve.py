@@ -18,6 +18,8 @@ from urdfsync.engine.actions import Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.conflicts import BOTH_SIDES, MERGES, Conflict
 from urdfsync.engine.edits import find_edited
+from urdfsync.engine.generation import generate_robot
+from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import encode
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -225,7 +227,7 @@ def _show_losses(
     """Show the edits that go with the files that are taken."""
     taken = {target.action.origin or target.action.path for target in targets}
     for robot in robots:
-        for file in find_edited(configuration, robot, request):
+        for file in find_edited(generate_robot(inspect(configuration, robot, request))):
             if file.path in taken:
                 lines = edit_lines(file, configuration.root, console.verbose)
                 console.print([line(("your edits go:", "bold red")), *lines])

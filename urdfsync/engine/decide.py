@@ -65,8 +65,13 @@ def decide_package(generation: Generation) -> Decision:
     actions, undone, taken_back = reconsider(generation, actions, inputs.options.choices)
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
-    names = _renamed(generation) if disputed else {}
-    conflicts = {action.path: _conflict(generation, action, names) for action in disputed}
+    names = renamed(generation) if disputed else {}
+    former = names_since(inputs, names) if disputed else {}
+    is_behind = {key for key, record in recorded.items() if record.kept}
+    conflicts = {
+        one.path: _conflict(generation, one, former if (one.origin or one.path) in is_behind else names)
+        for one in disputed
+    }
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
@@ -100,13 +105,19 @@ def _as_edit(action: Action) -> Action:
     return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated)
 
 
-def _renamed(generation: Generation) -> Mapping[str, str]:
+def renamed(generation: Generation) -> Mapping[str, str]:
     """Return new names by the old ones, of all that has got another one since the last complete build."""
     if not _takes_names_away(generation):
         return {}
     from urdfsync.engine.package_names import renamed_names
 
     return renamed_names(generation)
+
+
+def names_since(inputs: Inputs, names: Mapping[str, str]) -> dict[str, str]:
+    """Return new names by the old ones since the bases of kept files; `names` are those since the last build."""
+    former = inputs.record.former_names if inputs.record else {}
+    return {**names, **{old: names.get(new, new) for old, new in former.items()}}
 
 
 def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:

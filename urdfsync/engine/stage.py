@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DELETES, USERS, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
-from urdfsync.engine.decide import Decision
+from urdfsync.engine.decide import Decision, names_since, renamed
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import option_values
 from urdfsync.engine.package_files import encode
@@ -141,12 +141,14 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
             for base in files[action.path].hashes:
                 if (text := generation.base(action.origin or action.path, base)) is not None:
                     texts[base] = text
+    has_kept = any(one.kept for one in files.values())
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
         folder=inputs.folder,
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
+        former_names=names_since(inputs, renamed(generation)) if has_kept else {},
         snapshots=(generation.now.snapshot,),
         imports={key: (one,) for key, one in generation.imported.imports.items()},
         files={key: one for key, one in files.items() if key.startswith(inside)},

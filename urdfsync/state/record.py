@@ -117,6 +117,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     files: Mapping[str, FileRecord] = {}
     texts: Mapping[str, str] = {}
     """Bases by their hashes, as far as they can't be rendered from the model."""
+    former_names: Mapping[str, str] = {}
+    """Names that files which the user keeps may still use, with what they are called in the model."""
     open: Open | None = None
     """None if nothing is: the last build was complete."""
     is_ambiguous: bool = False

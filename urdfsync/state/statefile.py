@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import posixpath
 import re
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
@@ -44,6 +45,7 @@ _FACTS: Mapping[str, Any] = {
     "import": tuple[str, Import],
     "text": tuple[str, str],
     "kept": tuple[str, str],
+    "former": tuple[str, str],
     "choice": tuple[str, str, Choice],
     "edited": tuple[str, str],
     "seen": tuple[str, str | None, Any],
@@ -90,6 +92,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("text", item) for item in record.texts.items())
     below = len(record.folder) + 1
     yield from (("kept", (key[below:], file.kept)) for key, file in record.files.items() if file.kept)
+    yield from (("former", item) for item in record.former_names.items())
     if record.open:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
         yield from (("edited", item) for item in record.open.edited.items())
@@ -169,6 +172,7 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     imports: dict[str, tuple[Import, ...]] = {}
     for key, one in found["import"]:
         imports[key] = (*imports.get(key, ()), one)
+    names = Counter(old for old, _ in found["former"])
     open_ = None
     if seen:
         choices = {(path, sides): choice for path, sides, choice in found["choice"]}
@@ -195,6 +199,7 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
             for key, found in sorted(hashes.items())
         },
         texts=dict(found["text"]),
+        former_names={old: new for old, new in found["former"] if names[old] == 1},
         open=open_,
         is_ambiguous=not is_whole,
     )
