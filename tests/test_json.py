@@ -29,7 +29,7 @@ from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
-BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, RESOLVE, INIT, RECORD, LIBRARY = ONE
+BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, RESOLVE, ADOPT, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
@@ -218,6 +218,14 @@ def test_resolve(folder: Path, execute: Execute) -> None:
     assert matches(RESOLVE, document)
     (conflict,) = document["robots"][0]["conflicts"]
     assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
+
+
+def test_adopt(folder: Path, execute: Execute) -> None:
+    cli.main(["init", "arm.urdf"])
+    record = folder / "modelica/Arm/Links/TipParams.mo"
+    record.parent.mkdir(parents=True)
+    record.write_text("within Arm.Links;\nrecord TipParams\n  Real mass = 2.5;\nend TipParams;\n")
+    assert matches(ADOPT, printed(execute, folder, "adopt", "arm"))
 
 
 def checked() -> CheckResult:
