@@ -85,7 +85,7 @@ def test_markers_are_never_without_length(size: str, folder: Path, execute: Exec
 @NEEDS_GIT
 def test_git_merges_with_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     repository, model = Repository(folder, monkeypatch), folder / "Arm.mo"
-    command = f"'{sys.executable}' -m urdfsync merge-file --marker-size %L -L ours -L base -L theirs %A %O %B"
+    command = f"'{sys.executable}' -m urdfsync merge-file --path %P --marker-size %L -L ours -L base -L theirs %A %O %B"
     repository.git("config", "merge.urdfsync.driver", command)
     (folder / ".gitattributes").write_text("*.mo merge=urdfsync\n")
     for branch, text in (("base", BASE), ("export", OTHER), ("edited", MINE)):
@@ -94,3 +94,8 @@ def test_git_merges_with_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> No
         repository.commit(branch)
     repository.git("merge", "-q", "export")
     assert model.read_text() == BOTH
+
+
+def test_messages_call_the_file_what_git_does(folder: Path, execute: Execute) -> None:
+    files = write(MINE.replace("11.5", "99"), BASE, OTHER)
+    assert execute("merge-file", "--path", "Arm.mo", *files, code=1).err.startswith("Arm.mo: warning: 1 conflict")

@@ -28,7 +28,8 @@ def add(commands: arguments.Commands) -> None:
         description="Bring what changed from BASE to OTHER into MINE, with the arguments and exit codes of "
         "git merge-file. Classes of Modelica merge by their elements, other texts by lines. What both changed is put "
         "between markers.",
-        epilog="as git's merge driver: urdfsync merge-file --marker-size %L -L ours -L base -L theirs %A %O %B\n\n"
+        epilog="as git's merge driver: "
+        "urdfsync merge-file --path %P --marker-size %L -L ours -L base -L theirs %A %O %B\n\n"
         "exit codes: 0 merged, 1 to 127 conflicts, 255 error",
     )
     for name, words in (
@@ -40,6 +41,9 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("-p", "--stdout", action="store_true", help="print the result, leave MINE as it is")
     parser.add_argument("-L", dest="labels", metavar="LABEL", action="append", help="names of MINE, BASE and OTHER")
     parser.add_argument("--diff3", action="store_true", help="show what BASE has in a conflict, too")
+    parser.add_argument(
+        "--path", metavar="PATH", type=Path, help="what messages call MINE, which git gives as a temporary file"
+    )
     parser.add_argument(
         "--marker-size", metavar="N", type=int, default=_MARKER_SIZE, help="length of markers (default: 7)"
     )
@@ -55,7 +59,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.end("merge-file", arguments.DRIVER_ERROR, findings_of(error))
         return arguments.DRIVER_ERROR
     message, hint = f"{counted(conflicts, 'conflict')} between markers", "settle them in the file"
-    found = [Diagnostic(Severity.WARNING, "conflict", message, shown(args.mine), hint=hint)] if conflicts else []
+    warning = Diagnostic(Severity.WARNING, "conflict", message, shown(args.path or args.mine), hint=hint)
+    found = [warning] if conflicts else []
     console.end("merge-file", min(conflicts, _MOST), found)
     return min(conflicts, _MOST)
 
