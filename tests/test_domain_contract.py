@@ -86,7 +86,7 @@ def make(name: str) -> Case:
     snapshot = reading.snapshot
     lookup = Lookup(Path("/sources/sample"), (Path("/packages"),))
     (dependency,) = domain.dependencies(snapshot, lookup, options, reading.lines)
-    conversion = domain.convert(dependency, dependency.candidates[0], content)
+    conversion = domain.convert(dependency, dependency.candidates[0], content, {})
     hashes = digest(content), digest(conversion.content)
     facts = json.loads(json.dumps(conversion.facts))
     entry = Import(dependency.target, *hashes, domain.converter, facts)

@@ -234,4 +234,7 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
             kind = ChangeKind.ADDED if before is None else ChangeKind.REMOVED
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
         elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
-            yield Difference(("imports", key), ChangeKind.CHANGED, before.target_hash, after.target_hash)
+            hashes = before.target_hash, after.target_hash
+            if before.target_hash == after.target_hash:  # a colour is in no imported file
+                hashes = before.source_hash, after.source_hash
+            yield Difference(("imports", key), ChangeKind.CHANGED, *hashes)

@@ -96,19 +96,28 @@ class Conversion(msgspec.Struct, frozen=True):
 
     content: bytes
     facts: Mapping[str, Any]
+    more: tuple[Conversion, ...] = ()
+    """Further files that the dependency becomes; they are imports of their own, see `further_key`."""
 
 
-class Import(msgspec.Struct, frozen=True):
+def further_key(key: str, number: int) -> str:
+    """Return the key of a further file that a dependency becomes; numbers begin with 1."""
+    return f"{key} file {number}"
+
+
+class Import(msgspec.Struct, frozen=True, omit_defaults=True):
     """A dependency that is in the package, now or from an earlier build on a machine that had its source."""
 
     target: str
     source_hash: str
-    """SHA-256 (hex) of the dependency's bytes."""
+    """SHA-256 (hex) of the dependency's bytes, and of those of `others`."""
     target_hash: str
     """SHA-256 (hex) of the imported bytes."""
     converter: int | None
     """`Domain.converter` at the time of the import; None for an older copy, which was not made from these bytes."""
     facts: Mapping[str, Any]
+    others: tuple[str, ...] = ()
+    """Other files that it is made of, found or not: paths from the folder of the dependency's own file."""
 
 
 class ChangeKind(enum.StrEnum):
@@ -367,9 +376,23 @@ class Domain(Protocol):
         """Return the files that the model refers to, each once. Pure: nothing is looked for yet."""
         return ()
 
-    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
-        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read."""
+    def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
+        """Return the files that the conversion needs besides: paths from the folder of the dependency's own file.
+
+        Asked of the dependency's file, then of each file that is found so. Pure.
+        """
+        return ()
+
+    def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
+        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read.
+
+        `others` has the contents of the files that `mentioned` named; empty for what can't be read.
+        """
         return Conversion(content, {})
+
+    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
+        """Return what there is to say of all imported files, without a place."""
+        return ()
 
     # Options
 

@@ -105,7 +105,7 @@ class RcNetwork(Domain):
         target = f"Resources/{Path(signal).stem}.txt"
         return (Dependency(signal, signal, candidates, target, "table", lines.get("signal", 0)),)
 
-    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
+    def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         try:
             rows = [[float(cell) for cell in row] for row in csv.reader(io.StringIO(content.decode()))]
         except ValueError as error:

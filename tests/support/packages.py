@@ -119,7 +119,7 @@ def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, 
     for dependency in DOMAIN.dependencies(reading.snapshot, Lookup(path.absolute()), options, reading.lines):
         found = next((candidate for candidate in dependency.candidates if candidate.is_file()), None)
         if found is not None:
-            conversion = DOMAIN.convert(dependency, found, found.read_bytes())
+            conversion = DOMAIN.convert(dependency, found, found.read_bytes(), {})
             imports[dependency.key] = Import(dependency.target, "", "", DOMAIN.converter, conversion.facts)
             contents[dependency.target] = conversion.content
     return imports, contents

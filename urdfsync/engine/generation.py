@@ -212,15 +212,15 @@ def generate_robot(inputs: Inputs) -> Generation:
         options.full or inputs.has_moved,  # no copy of a former folder serves: it may be the user's
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
+    said = domain.import_findings(imported.imports)
+    found += (*imported.diagnostics, *(msgspec.structs.replace(one, file=shown(robot.source)) for one in said))
     now = Version(snapshot, imported.imports)
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)
     is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written
     if is_complete and last_packages and inputs.has_same_generator and not options.full:
         changed = package.changed_since(last_packages[0])
-    return Generation(
-        inputs, now, reading.lines, (*found, *imported.diagnostics), imported, package, last_packages, changed
-    )
+    return Generation(inputs, now, reading.lines, tuple(found), imported, package, last_packages, changed)
 
 
 def _recorded_packages(inputs: Inputs, snapshots: Iterable[Snapshot]) -> Iterator[Package]:

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import stat
 from collections.abc import Callable, Collection, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import msgspec
 
-from urdfsync.dependencies import file_type, read_file
+from urdfsync.dependencies import MAX_FILE, file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
-from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot
+from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
 from urdfsync.files import digest
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
+_MOST_OTHERS = 100
+"""Files that a conversion may need besides."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
@@ -29,6 +32,24 @@ _HINTS = {
     "": "add the folder that holds it to `package_paths`",
 }
 """What to do about a file that is not found, by how its URI begins; the first one counts."""
+
+
+class RecordedFile(msgspec.Struct, frozen=True):
+    """One imported file of the last build."""
+
+    key: str
+    target: str
+    """Where it goes now."""
+    entry: Import
+    copy: bytes | None
+    """Its content in the package."""
+    hash: str
+    """Of the copy; empty if there is none."""
+
+    @property
+    def is_intact(self) -> bool:
+        """Whether the copy is what was imported."""
+        return self.hash == self.entry.target_hash
 
 
 class Recorded(msgspec.Struct, frozen=True):
@@ -43,15 +64,25 @@ class Recorded(msgspec.Struct, frozen=True):
     moved: bool = False
     """Whether the package has another folder now."""
 
-    def find(self, key: str) -> tuple[Import | None, bytes | None, str]:
-        """Return what is recorded of a dependency, its copy in the package, and the copy's hash."""
+    def find(self, key: str) -> tuple[Import, bytes | None, str]:
+        """Return what is recorded of an imported file, its copy in the package, and the copy's hash."""
         copy, sha256 = None, ""
-        for one in self.imports.get(key, ()):
+        for one in self.imports[key]:
             copy = self.copy(one.target)
             sha256 = "" if copy is None else digest(copy)
             if sha256 == one.target_hash:
                 return one, copy, sha256
-        return next(iter(self.imports.get(key, ())), None), copy, sha256
+        return self.imports[key][0], copy, sha256
+
+    def files(self, dependency: Dependency) -> list[RecordedFile]:
+        """Return the files that a dependency became, its own first; none if it was not imported."""
+        found = list[RecordedFile]()
+        key, target = dependency.key, dependency.target
+        while key in self.imports:
+            entry, copy, sha256 = self.find(key)
+            found.append(RecordedFile(key, target, entry, copy, sha256))
+            key, target = further_key(dependency.key, len(found)), _further_target(dependency.target, len(found))
+        return found
 
 
 class Imported(msgspec.Struct):
@@ -61,11 +92,20 @@ class Imported(msgspec.Struct):
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
 
-    def add(self, dependency: Dependency, entry: Import, content: bytes | None = None) -> None:
+    def add(self, key: str, entry: Import, content: bytes | None = None) -> None:
         """Add an import. `content` is what is to be written; None if the copy in the package serves."""
-        self.imports[dependency.key] = entry
+        self.imports[key] = entry
         if content is not None:
             self.contents[entry.target] = content
+
+    def add_copy(self, file: RecordedFile, entry: Import, moved: bool) -> None:
+        """Add an import whose copy serves; it goes to another place if that, or the package, has `moved`."""
+        self.add(file.key, entry, file.copy if moved or file.entry.target != file.target else None)
+
+
+def _further_target(target: str, number: int) -> str:
+    path = PurePosixPath(target)
+    return str(path.with_stem(f"{path.stem}_{number}"))
 
 
 def _plural(noun: str) -> str:
@@ -133,25 +173,44 @@ def _import(
         message = f"{_named([dependency])} can't be read: {found.strerror}"
         return unreadable(message, f"replace it by a {noun} that can be read"), False
     path, content = found
-    sha256 = digest(content)
-    record, copy, copied = recorded.find(dependency.key)
-    if record and not again and (record.source_hash, record.converter) == (sha256, domain.converter):
-        facts = _needed(dependency, record)
-        if facts is not None and copied == record.target_hash:
-            moves = recorded.moved or record.target != target
-            entry = msgspec.structs.replace(record, target=target, facts=facts)
-            result.add(dependency, entry, copy if moves else None)
+    others = _read_mentioned(domain, dependency, path, content)
+    sha256 = digest(b"".join((content, *others.values())))
+    files = recorded.files(dependency)
+    if files and not again and (files[0].entry.source_hash, files[0].entry.converter) == (sha256, domain.converter):
+        facts = _needed(dependency, files[0].entry)
+        if facts is not None and all(file.is_intact for file in files):
+            for file in files:
+                own_facts = facts if file is files[0] else file.entry.facts
+                entry = msgspec.structs.replace(file.entry, target=file.target, facts=own_facts)
+                result.add_copy(file, entry, recorded.moved)
             return None, True
     if content.startswith(_POINTER):
         message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
         return unreadable(message, "get the file itself with `git lfs pull`"), True
     try:
-        conversion = domain.convert(dependency, path, content)
+        conversion = domain.convert(dependency, path, content, others)
     except SourceError as error:
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), True
-    entry = Import(target, sha256, digest(conversion.content), domain.converter, conversion.facts)
-    result.add(dependency, entry, conversion.content)
+    for number, one in enumerate((conversion, *conversion.more)):
+        key, place = dependency.key, target
+        if number:
+            key, place = further_key(key, number), _further_target(target, number)
+        entry = Import(place, sha256, digest(one.content), domain.converter, one.facts, () if number else (*others,))
+        result.add(key, entry, one.content)
     return None, True
+
+
+def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
+    """Return the files that a conversion needs besides, by their paths from the file's folder; empty if unreadable."""
+    found, waiting = dict[str, bytes](), [*domain.mentioned(dependency, path.name, content)]
+    while waiting and len(found) < _MOST_OTHERS and sum(map(len, found.values())) < MAX_FILE:
+        name = waiting.pop(0)
+        if name not in found:
+            found[name] = b""
+            with contextlib.suppress(OSError, ValueError):  # the conversion goes without it
+                found[name] = read_file(path.parent / name)
+                waiting += domain.mentioned(dependency, name, found[name])
+    return found
 
 
 def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | None:
@@ -185,21 +244,25 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
 
     `trouble` says what is wrong with the source. Returns it with what follows from it.
     """
-    record, copy, copied = recorded.find(dependency.key)
-    if record is None or copy is None:
+    files = recorded.files(dependency)
+    if not files or any(file.copy is None for file in files):
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    facts = _needed(dependency, record)
+    facts = _needed(dependency, files[0].entry)
     if facts is None:
         message = f"{trouble.message}, and the record of its imported copy is incomplete"
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
-    written = copied if copied in recorded.bases.get(record.target, ()) else record.target_hash
-    converter = record.converter if written == record.target_hash else None  # an older copy, which was put back
-    moves = recorded.moved or record.target != dependency.target
-    if moves:
-        written = copied
-    entry = Import(dependency.target, record.source_hash, written, converter, facts)
-    result.add(dependency, entry, copy if moves else None)
+    for file in files:
+        record = file.entry
+        written = file.hash if file.hash in recorded.bases.get(record.target, ()) else record.target_hash
+        converter = record.converter if written == record.target_hash else None  # an older copy, which was put back
+        if recorded.moved or record.target != file.target:
+            written = file.hash
+        own_facts = facts if file is files[0] else record.facts
+        entry = msgspec.structs.replace(
+            record, target=file.target, target_hash=written, converter=converter, facts=own_facts
+        )
+        result.add_copy(file, entry, recorded.moved)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 

@@ -30,7 +30,7 @@ from urdfsync.urdf.diff.effects import effects, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.meshes.lookup import dependencies
+from urdfsync.urdf.meshes.lookup import TEXTURED, dependencies, mentioned_files
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
@@ -61,7 +61,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        "planar-not-generic",
+        *("planar-not-generic", "texture"),
     }
 )
 
@@ -70,7 +70,7 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 7
+    revision = 8
     fits_since = 5
     warnings = WARNINGS
     options = Options
@@ -111,11 +111,23 @@ class UrdfDomain(Domain):
         kinds = ("visual", "collision") if has_collisions else ("visual",)
         return dependencies(snapshot["links"], kinds, lookup, lines, touches=options.base == "floating")
 
-    def convert(self, dependency: Dependency, file: Path, content: bytes) -> Conversion:
-        """Return a mesh as STL or OBJ, with its bounds and its outermost points."""
+    def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
+        """Return the libraries of materials and the textures of a mesh whose own colours are drawn."""
+        return mentioned_files(file, content) if TEXTURED in dependency.facts else ()
+
+    def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
+        """Return a mesh as STL or OBJ, with its bounds and its outermost points, and by its colours."""
         from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
 
-        return convert(dependency, file, content)
+        return convert(dependency, file, content, others)
+
+    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
+        """Return a note if textures become colours."""
+        count = sum(bool(one.facts.get(TEXTURED)) for one in imports.values())
+        if not count:
+            return ()
+        message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
+        return (Diagnostic(Severity.NOTE, "texture", message),)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """Hold the names in `driven` and `frames` against the robot."""

@@ -67,9 +67,11 @@ def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Pat
     except Exception:  # noqa: BLE001 - no model of the domain, or a mistake in it: the build tells it
         return
     for dependency in found:
+        others = [name for one in state.imports.get(dependency.key, ()) for name in one.others]
         for path in map(str, dependency.candidates):
             yield path
             if os.path.isfile(path) and os.access(path, os.R_OK):  # noqa: PTH113
+                yield from (os.path.normpath(os.path.join(os.path.dirname(path), name)) for name in others)  # noqa: PTH118, PTH120
                 break
 
 

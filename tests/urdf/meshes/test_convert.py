@@ -32,7 +32,7 @@ UNIT = (1.0, 1.0, 1.0)
 def _convert(uri: str, content: bytes, scale: Vector = UNIT, facts: tuple[str, ...] = (BOUNDS,)) -> Conversion:
     mesh = Mesh(uri, scale)
     dependency = Dependency(key(mesh), uri, (), target(mesh), "mesh", facts=facts)
-    return convert(dependency, Path("/ws/arm") / Path(uri).name, content)
+    return convert(dependency, Path("/ws/arm") / Path(uri).name, content, {})
 
 
 def _volume(stl: bytes) -> float:
@@ -123,7 +123,8 @@ def test_the_command_itself_loads_no_library_for_meshes() -> None:
         "import sys; from pathlib import Path; from urdfsync.domain import Dependency;"
         "from urdfsync.urdf.meshes.convert import convert; content = b'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3';"
         "mesh = Dependency('a.obj scale 1.0 1.0 1.0', 'a.obj', (), '', 'mesh', facts=('bounds', 'hull'));"
-        "assert 'hull' in convert(mesh, Path('a.obj'), content).facts; print({'numpy', 'trimesh'} & sys.modules.keys())"
+        "assert 'hull' in convert(mesh, Path('a.obj'), content, {}).facts;"
+        "print({'numpy', 'trimesh'} & sys.modules.keys())"
     )
     command = [sys.executable, "-W", "error", "-c", program]
     done = subprocess.run(command, env=os.environ | {"PYTHONWARNINGS": "error"}, capture_output=True, check=True)

@@ -83,7 +83,7 @@ def test_a_damaged_mesh_is_read_whole_or_refused(file: tuple[str, bytes], scale:
     facts = (BOUNDS, HULL) if touches else (BOUNDS,)
     dependency = Dependency(key(mesh), mesh.filename, (), target(mesh), "mesh", facts=facts)
     try:
-        found = convert(dependency, Path(mesh.filename), content)
+        found = convert(dependency, Path(mesh.filename), content, {})
     except SourceError as error:
         (finding,) = error.diagnostics
         assert finding.message.isprintable()

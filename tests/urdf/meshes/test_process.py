@@ -71,18 +71,18 @@ def _pid() -> int:
 
 
 def test_the_process_is_kept_until_a_mesh_breaks_a_limit(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
-    stl, facts = reader.read(".dae", UNIT, SOUND)
+    ((stl, facts),) = reader.read(".dae", UNIT, SOUND)
     assert (len(stl), facts["bounds"]) == (134, [[0, 0, 0], [1, 1, 0]])
     first = _pid()
     with pytest.raises(MeshError, match="well-formed"):
         reader.read(".dae", UNIT, b"<a")
-    assert (reader.read(".dae", UNIT, SOUND), _pid()) == ((stl, facts), first)
+    assert (reader.read(".dae", UNIT, SOUND), _pid()) == ([(stl, facts)], first)
     monkeypatch.setattr(process, "CPU_SECONDS", 0.3)
     with pytest.raises(MeshError, match=LIMITS):
         reader.read(".dae", UNIT, ENDLESS)
     assert not psutil.pid_exists(first)
     monkeypatch.undo()
-    assert reader.read(".dae", UNIT, SOUND) == (stl, facts)
+    assert reader.read(".dae", UNIT, SOUND) == [(stl, facts)]
     assert _pid() != first
 
 
@@ -96,7 +96,7 @@ def test_time_by_the_clock_is_limited_too(reader: MeshProcess, monkeypatch: pyte
 
 @pytest.mark.parametrize(("program", "words"), [
     ("import os; os.abort()", LIMITS),
-    ("print('{\"size\": 1000000000}', flush=True); input()", LIMITS),
+    ("print('{\"sizes\": [1000000000]}', flush=True); input()", LIMITS),
     ("print('no answer', flush=True); input()", LIMITS),
     ('print(\'{"problem": "it \\\\u001b[2J\\\\n is wrong"}\', flush=True); input()', r"it  \[2J  is wrong"),
 ])  # fmt: skip

@@ -60,6 +60,7 @@ def describe(
     for difference in differences:
         match difference.path:
             case ("imports", str(key)):
+                # a further file of a mesh goes with its first one
                 found.append(_of_import(key, mentions[key], versions, options) if key in mentions else None)
             case ("links" | "joints" as part, str(name)):
                 found.append(Meaning((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL))

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from lxml import etree
 from trimesh.exchange.dae import load_collada
 
 from urdfsync.urdf.meshes.geometry import Triangles, placed
+from urdfsync.urdf.meshes.materials import Color, collada_colors
 from urdfsync.urdf.meshes.process import MeshError
 
 _NO_SHAPE = (
@@ -40,8 +41,13 @@ _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 
 
-def collada_parts(content: bytes) -> Iterator[Triangles]:
-    """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError."""
+def collada_parts(
+    content: bytes, others: Mapping[str, bytes] | None = None
+) -> Iterator[tuple[Color | None, Triangles]]:
+    """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError.
+
+    With their colours, if `others` has the textures; else without.
+    """
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
@@ -50,7 +56,9 @@ def collada_parts(content: bytes) -> Iterator[Triangles]:
     if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # which numpy counts from the end
         raise MeshError("one of its faces has an index that no vertex has")
     _place_skins(root)
+    colors = {} if others is None else _bound_colors(root, collada_colors(root, others))
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
+    _bind(root, colors)
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
     del root  # pycollada parses them into a tree of its own
@@ -59,7 +67,46 @@ def collada_parts(content: bytes) -> Iterator[Triangles]:
     for node in loaded["graph"]:
         mesh = loaded["geometry"][node["geometry"]]
         points, faces = placed(Triangles(mesh["vertices"].astype(np.float64), mesh["faces"]), node["matrix"])
-        yield Triangles(unit * points, faces)
+        material = mesh["visual"].material if mesh["visual"] else None
+        color = tuple(material.baseColorFactor[:3].tolist()) if material else None
+        yield color, Triangles(unit * points, faces)
+
+
+def _bound_colors(root: etree._Element, colors: Mapping[str, Color]) -> dict[etree._Element, dict[str, Color]]:
+    """Return the colours that each use of a geometry gives to the materials that its primitives name."""
+    found = dict[etree._Element, dict[str, Color]]()
+    for instance in root.iter("{*}instance_geometry"):
+        bound = {one.get("symbol", ""): one.get("target", "") for one in instance.iter("{*}instance_material")}
+        known = {symbol: colors.get(target.removeprefix("#")) for symbol, target in bound.items()}
+        found[instance] = {symbol: color for symbol, color in known.items() if color}
+    return found
+
+
+def _bind(root: etree._Element, bound: Mapping[etree._Element, Mapping[str, Color]]) -> None:
+    """Give the uses of geometries these colours, by materials that have nothing else."""
+    space = str(root.tag).removesuffix("COLLADA")
+
+    def add(parent: etree._Element, path: str, **attributes: str) -> etree._Element:
+        *outer, last = path.split("/")
+        for tag in outer:
+            parent = etree.SubElement(parent, f"{space}{tag}")
+        return etree.SubElement(parent, f"{space}{last}", attributes)
+
+    used = dict.fromkeys(color for one in bound.values() for color in one.values())
+    numbers = {color: number for number, color in enumerate(used)}
+    if not numbers:
+        return
+    effects, materials = add(root, "library_effects"), add(root, "library_materials")
+    for color, number in numbers.items():
+        effect = add(effects, "effect", id=f"urdfsync-effect{number}")
+        diffuse = add(add(effect, "profile_COMMON"), "technique", sid="common")
+        add(diffuse, "lambert/diffuse/color").text = " ".join(repr(part / 255) for part in (*color, 255))
+        material = add(materials, "material", id=f"urdfsync-material{number}")
+        add(material, "instance_effect", url=f"#urdfsync-effect{number}")
+    for instance, colors in bound.items():
+        common = add(instance, "bind_material/technique_common")
+        for symbol, color in colors.items():
+            add(common, "instance_material", symbol=symbol, target=f"#urdfsync-material{numbers[color]}")
 
 
 def _parse(content: bytes) -> etree._Element:
@@ -98,7 +145,8 @@ def _place_skins(root: etree._Element) -> None:
         bind = skin.find("{*}bind_shape_matrix")
         if bind is not None:
             etree.SubElement(node, f"{space}matrix").text = bind.text
-        etree.SubElement(node, f"{space}instance_geometry", url=skin.get("source", ""))
+        geometry = etree.SubElement(node, f"{space}instance_geometry", url=skin.get("source", ""))
+        geometry.extend(instance.iterfind("{*}bind_material"))
         instance.getparent().replace(instance, node)  # type: ignore[union-attr] # the root is none
 
 

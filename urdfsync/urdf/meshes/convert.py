@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
@@ -14,12 +15,15 @@ _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 _process = MeshProcess()
 
 
-def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
-    """The imported form of a mesh found at `file`, and its facts; a function of `content`, URI and scale.
+def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
+    """The imported form of a mesh found at `file`, and its facts; a function of contents, URI and scale.
+
+    `others` has the libraries of materials and the textures that it names.
 
     STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale
     applied. The facts are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and, if the dependency needs it,
-    `hull` (see `geometry.support_points`), in metres and in the mesh's frame.
+    `hull` (see `geometry.support_points`), in metres and in the mesh's frame. If its colours are needed (see
+    `lookup.PARTS`), a mesh of several colours becomes a file for each, in its format if that stays.
 
     Raises SourceError with one diagnostic, `unreadable-mesh`, if the file can't be read as a mesh.
     """
@@ -28,9 +32,16 @@ def convert(dependency: Dependency, file: Path, content: bytes) -> Conversion:
     try:
         if suffix not in _FORMATS:
             raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - told as what the process finds
-        stl, facts = _process.read(suffix, mesh.scale, content, with_hull=lookup.HULL in dependency.facts)
+        colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
+        is_obj = suffix == ".obj" and lookup.as_is(mesh)
+        with_hull = lookup.HULL in dependency.facts
+        (whole, facts), *parts = _process.read(
+            suffix, mesh.scale, content, with_hull, colors=colors, as_obj=is_obj, others=others
+        )
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
         hint = "export it again, best as STL or OBJ"
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
-    return Conversion(content if lookup.as_is(mesh) else stl, facts)
+    is_split = colors == lookup.PARTS and parts
+    more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
+    return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)

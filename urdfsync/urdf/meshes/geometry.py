@@ -99,6 +99,14 @@ def binary_stl(mesh: Triangles) -> bytes:
     return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.view(np.uint8).data))
 
 
+def obj(mesh: Triangles) -> bytes:
+    """Triangles as the text of an OBJ file."""
+    used, faces = np.unique(mesh.faces, return_inverse=True)
+    points = (f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh.points[used].tolist())
+    triangles = (f"f {a} {b} {c}\n" for a, b, c in (faces.reshape(-1, 3) + 1).tolist())
+    return "".join(itertools.chain(points, triangles)).encode()
+
+
 def bounds(points: Array) -> list[list[float]]:
     """Least and greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
     return [points.min(axis=0).tolist(), points.max(axis=0).tolist()]

@@ -10,6 +10,7 @@ looked up: a build doesn't use the network.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -25,12 +26,28 @@ from urdfsync.urdf.robot import Mesh, Vector
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
 """Names of facts: all models need the first one, ground contacts the other as well."""
+PARTS, COLORS, TEXTURED = "parts", "colors", "textured"
+"""Names of facts of meshes whose own colours are drawn.
+
+`parts` has the colours of the files that a mesh becomes, `colors` those of the files that it becomes beside the whole,
+which something else needs. One colour is that of the whole. `textured` tells whether textures were found.
+"""
+COLORED = (".dae", ".obj")
+"""Formats whose colours are drawn."""
 AS_IS = (".stl", ".obj")
 """Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
 
 _SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # two letters at least: `C:` is a drive
 _FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)"
 _DRIVE = r"/*([A-Za-z]:/.*)"
+_MENTIONS = {
+    ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),
+    ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]([^\r\n]+)", re.MULTILINE),
+    ".dae": re.compile(rb"<init_from>([^<>]+)</init_from>"),
+}
+"""Names of libraries of materials and of textures, in files of each suffix."""
+_TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
+"""What may stand before the name of a texture in a library of materials."""
 _UNFIT = "[\x00-\x1f\x7f\ud800-\udfff]"
 _NAME_BYTES = 255
 _PATH_BYTES = 4095
@@ -59,6 +76,32 @@ def as_is(mesh: Mesh) -> bool:
     return suffix(mesh.filename) in AS_IS and mesh.scale == UNIT_SCALE
 
 
+def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
+    """Whether a visual has the colours of its mesh: the URDF gives it none."""
+    material = visual.get("material") or {}
+    return suffix(mesh.filename) in COLORED and material.get("rgba") is None
+
+
+def mentioned_files(name: str, content: bytes) -> list[str]:
+    """Return the files that have a part in the colours of a mesh, by their paths from its folder.
+
+    `name` is the path of the mesh, or of its library of materials, whose own names count from there.
+    """
+    path = PurePosixPath(name)
+    mentions = _MENTIONS[path.suffix.lower()].findall(content) if path.suffix.lower() in _MENTIONS else ()
+    found = (path_of_mention(one) for one in mentions)
+    return [str(path.parent / one) for one in dict.fromkeys(found) if one]
+
+
+def path_of_mention(mention: bytes) -> str:
+    """Return the relative path by which a file names another one; empty for what leads elsewhere."""
+    words = unquote(mention.decode("utf-8", "replace")).strip()
+    if words.startswith("-"):
+        words = " ".join(itertools.dropwhile(_TEXTURE_OPTION.fullmatch, words.split()))
+    text = words.replace("\\", "/").removeprefix("./")
+    return "" if text.startswith("/") or ":" in text or re.search(_UNFIT, text) else text
+
+
 def target(mesh: Mesh) -> str:
     """Path of the imported file below the package folder; a function of URI and scale alone.
 
@@ -80,14 +123,15 @@ def dependencies(
     `lines` holds the line of each element by its path, as reading the source gave it; those of the shapes count, for
     example `link wheel / visual 2 / geometry`, else those of their links.
     """
-    found = defaultdict[Mesh, list[tuple[str, int]]](list)
+    found = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
     for name, link in links.items():
         for kind in kinds:
             for number, shape in enumerate(link[f"{kind}s"], start=1):
                 if shape["geometry"]["kind"] == "mesh":
                     place = f"link {name} / {kind} {number} / geometry"
                     line = lines.get(place, lines.get(f"link {name}", 0))
-                    found[msgspec.convert(shape["geometry"], Mesh)].append((kind, line))
+                    mesh = msgspec.convert(shape["geometry"], Mesh)
+                    found[mesh].append((kind, line, kind == "visual" and _has_colors(mesh, shape)))
     return tuple(
         Dependency(
             key(mesh),
@@ -95,11 +139,19 @@ def dependencies(
             candidates(mesh.filename, lookup),
             target(mesh),
             "mesh",
-            min((line for _, line in places if line), default=0),
-            facts=(BOUNDS, HULL) if touches and "collision" in dict(places) else (BOUNDS,),
+            min((line for _, line, _ in places if line), default=0),
+            facts=_facts(places, touches),
         )
         for mesh, places in sorted(found.items(), key=lambda item: key(item[0]))
     )
+
+
+def _facts(places: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
+    """Return the facts that are needed of a mesh: of its kinds of shape, with whether they have the mesh's colours."""
+    hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in places) else ()
+    colored = [is_colored for _, _, is_colored in places]
+    colors = (PARTS if all(colored) else COLORS, TEXTURED) if any(colored) else ()
+    return (BOUNDS, *hull, *colors)
 
 
 def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:

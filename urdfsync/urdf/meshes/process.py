@@ -7,7 +7,8 @@ import contextlib
 import os
 import subprocess
 import threading
-from typing import IO, TypeAlias, cast
+from collections.abc import Mapping, Sequence
+from typing import IO, Any, TypeAlias, cast
 
 import msgspec
 
@@ -22,9 +23,9 @@ WALL_SECONDS = 60.0
 """For one mesh, everywhere. A busy machine may need so long for the CPU time."""
 _LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
 _MAX_LINE = 10_000_000
-_MAX_STL = 60_000_000
+_MAX_FILE = 100_000_000
 
-Facts: TypeAlias = dict[str, list[list[float]]]
+Facts: TypeAlias = dict[str, Any]
 """Of a shape, by name: see `convert`."""
 
 
@@ -33,7 +34,7 @@ class MeshError(Exception):
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A line for the process; so many bytes of a mesh follow."""
+    """A line for the process; the bytes of a mesh, and those of other files, follow."""
 
     suffix: str
     scale: Vector
@@ -41,13 +42,19 @@ class Request(msgspec.Struct, frozen=True):
     with_hull: bool
     seconds: float
     """CPU time that reading it may take."""
+    colors: str = ""
+    """Name of the fact that tells the colours, see `lookup.PARTS`; empty if they are not wanted."""
+    as_obj: bool = False
+    """Whether the parts of a mesh are OBJ, and not STL."""
+    others: Mapping[str, int] = {}
+    """Sizes of the other files by their paths."""
 
 
 class Answer(msgspec.Struct, frozen=True):
-    """A line from the process; so many bytes of binary STL follow."""
+    """A line from the process; the bytes of each file follow."""
 
-    size: int = 0
-    facts: Facts = {}
+    sizes: tuple[int, ...] = ()
+    facts: tuple[Facts, ...] = ()
     problem: str = ""
     """Why the file is no mesh; empty if it is one."""
     is_last: bool = False
@@ -64,14 +71,30 @@ class MeshProcess:
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()  # workers of a cluster are threads
 
-    def read(self, suffix: str, scale: Vector, content: bytes, with_hull: bool = True) -> tuple[bytes, Facts]:
-        """Return a mesh as binary STL, with its facts. Raises MeshError, or OSError if no process can be started."""
+    def read(
+        self,
+        suffix: str,
+        scale: Vector,
+        content: bytes,
+        with_hull: bool = True,
+        *,
+        colors: str = "",
+        as_obj: bool = False,
+        others: Mapping[str, bytes] | None = None,
+    ) -> list[tuple[bytes, Facts]]:
+        """Return the files that a mesh becomes, with their facts; see `Request`.
+
+        Raises MeshError, or OSError if no process can be started.
+        """
+        others = others or {}
+        sizes = {name: len(one) for name, one in others.items()}
+        request = Request(suffix, scale, len(content), with_hull, CPU_SECONDS, colors, as_obj, sizes)
         with self._lock:
             process = self._process = self._process or self._start()
             timer = threading.Timer(WALL_SECONDS, process.kill)
             timer.start()
             try:
-                answer, stl = _ask(process, Request(suffix, scale, len(content), with_hull, CPU_SECONDS), content)
+                answer, files = _ask(process, request, (content, *others.values()))
                 if answer.is_last:
                     self.end()
             except (OSError, ValueError) as error:  # it ends, or the answer is none
@@ -84,7 +107,7 @@ class MeshProcess:
                 timer.cancel()
         if answer.problem:
             raise MeshError("".join(char if char.isprintable() else " " for char in answer.problem[:300]))
-        return stl, answer.facts
+        return list(zip(files, answer.facts, strict=True))
 
     def end(self) -> None:
         """End the process, if there is one."""
@@ -108,14 +131,15 @@ class MeshProcess:
         )
 
 
-def _ask(process: subprocess.Popen[bytes], request: Request, content: bytes) -> tuple[Answer, bytes]:
+def _ask(process: subprocess.Popen[bytes], request: Request, contents: Sequence[bytes]) -> tuple[Answer, list[bytes]]:
     """Have a mesh read. Raises OSError or ValueError if the process does not answer as it should."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
-    stdin.write(content)
+    for content in contents:
+        stdin.write(content)
     stdin.flush()
     answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=Answer)
-    stl = stdout.read(min(answer.size, _MAX_STL))
-    if len(stl) != answer.size:
+    files = [stdout.read(min(size, _MAX_FILE)) for size in answer.sizes]
+    if tuple(map(len, files)) != answer.sizes:
         raise ValueError("the answer ends early, or is too large")
-    return answer, stl
+    return answer, files

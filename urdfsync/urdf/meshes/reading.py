@@ -15,6 +15,7 @@ import trimesh
 
 from urdfsync.urdf.meshes.collada import collada_parts
 from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
+from urdfsync.urdf.meshes.materials import Color, library_colors
 from urdfsync.urdf.meshes.process import MeshError
 
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
@@ -25,30 +26,50 @@ _FACES = {
 """How many faces a file announces."""
 _STL_COUNT = slice(80, 84)
 _STL_FACET = 50
+_USED_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]([^\r\n]+)", re.MULTILINE)
+_MOST_COLORS = 20
+"""Of one mesh: each becomes a shape. What has one of the others is drawn in grey."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
-class _NoOtherFiles(Mapping[str, bytes]):
-    """What trimesh may read besides: nothing, since only the mesh file itself is watched for changes."""
+class _Files(dict[str, bytes]):
+    """What trimesh may read besides: nothing that is not given, since only that is watched for changes."""
 
-    def __getitem__(self, name: str) -> bytes:
+    def __missing__(self, name: str) -> bytes:
         raise MeshError(f"it needs another file, {name}")
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(())
-
-    def __len__(self) -> int:
-        return 0
 
 
 def read_mesh(suffix: str, content: bytes) -> Triangles:
     """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError."""
     with _damage_is_an_error():
-        mesh = joined(list(collada_parts(content) if suffix == ".dae" else _parts(suffix, content)))
+        found = collada_parts(content) if suffix == ".dae" else _parts(suffix, content)
+        mesh = joined([triangles for _, triangles in found])
         if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
             raise MeshError("its end is missing")
     gc.collect()  # scenes refer to themselves, and hold copies of large meshes
     return mesh
+
+
+def read_parts(suffix: str, content: bytes, others: Mapping[str, bytes]) -> tuple[dict[Color | None, Triangles], bool]:
+    """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for those without one.
+
+    `others` has the other files that it names. Also whether some of these are textures. Raises MeshError.
+    """
+    by_color: dict[Color | None, list[Triangles]] = {}
+    with _damage_is_an_error():
+        if suffix == ".dae":
+            found = collada_parts(content, others)
+        else:
+            found = _parts(suffix, content, library_colors(content, others))
+        for color, triangles in found:
+            by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
+        joined([one for some in by_color.values() for one in some])  # which refuses none, and too many
+        by_size = sorted(by_color, key=lambda color: sum(len(one.faces) for one in by_color[color]), reverse=True)
+        for color in by_size[_MOST_COLORS:]:
+            by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
+        parts = {color: joined(some) for color, some in by_color.items() if some}
+    gc.collect()
+    return parts, any(content and not name.lower().endswith(".mtl") for name, content in others.items())
 
 
 @contextlib.contextmanager
@@ -69,11 +90,21 @@ def _damage_is_an_error() -> Iterator[None]:
         raise MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})") from error
 
 
-def _parts(suffix: str, content: bytes) -> Iterator[Triangles]:
+def _parts(
+    suffix: str, content: bytes, colors: Mapping[bytes, Color] | None = None
+) -> Iterator[tuple[Color | None, Triangles]]:
+    """Yield the triangles of a file; of an OBJ file by its materials, if their `colors` are wanted."""
+    files, by_name = dict[str, bytes](), dict[str, Color | None]()
     if suffix == ".stl":
         content = _one_solid(content)
     if suffix == ".obj":
-        content = _plain_obj(content)
+        if colors:
+            used = list(dict.fromkeys(name.strip() for name in _USED_MATERIAL.findall(content)))
+            by_name = {f"m{number}": colors.get(name) for number, name in enumerate(used)}
+            numbers = {name: b"usemtl m%d" % number for number, name in enumerate(used)}
+            content = _USED_MATERIAL.sub(lambda match: numbers[match[1].strip()], content)
+            files["m"] = b"".join(b"newmtl m%d\n" % number for number in range(len(used)))
+        content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":
         json.loads(content)  # where this fails, trimesh looks for another file
     if suffix in (".gltf", ".glb"):
@@ -81,13 +112,22 @@ def _parts(suffix: str, content: bytes) -> Iterator[Triangles]:
             if compression in content:
                 raise MeshError(f"it is compressed ({compression.decode()})")
     scene = trimesh.load_scene(
-        io.BytesIO(content), file_type=suffix[1:], resolver=_NoOtherFiles(), process=False, skip_materials=True
+        io.BytesIO(content),
+        file_type=suffix[1:],
+        resolver=_Files(files),
+        process=False,
+        skip_materials=not files,
     )
+    for color in dict.fromkeys(by_name.values()):  # in the order of the file, which trimesh turns around
+        yield color, Triangles(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
         geometry = scene.geometry[name]
         if isinstance(geometry, trimesh.Trimesh):
-            yield placed(Triangles(np.asarray(geometry.vertices, dtype=np.float64), np.asarray(geometry.faces)), pose)
+            material = getattr(geometry.visual, "material", None) if by_name else None
+            points = np.asarray(geometry.vertices, dtype=np.float64)
+            color = by_name.get(material.name) if material else None
+            yield color, placed(Triangles(points, np.asarray(geometry.faces)), pose)
 
 
 def _announced(suffix: str, content: bytes) -> int:
@@ -107,14 +147,18 @@ def _one_solid(content: bytes) -> bytes:
     return b"solid\n" + _SOLID_LINE.sub(b"", content) + b"\nendsolid\n"
 
 
-def _plain_obj(content: bytes) -> bytes:
+def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
     """Vertices and faces alone, without references to textures and normals, and with indices that count from 1.
+
+    With their materials, as a library `m` has them, if these are wanted.
 
     trimesh takes index 0 for 1, and counts back from the end of the file. It passes over lines with blanks before them
     and over faces with less than three corners, and goes wrong where only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
-    text = b"\n".join(re.findall(rb"^ *([vf] .*)", re.sub(rb"#.*|(?<=\d)/\S*", b"", text), re.MULTILINE))
+    kept = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"
+    text = b"\n".join(re.findall(kept, re.sub(rb"#.*|(?<=\d)/\S*", b"", text), re.MULTILINE))
+    text = b"mtllib m\n" + text if with_materials else text
     if re.search(rb"^f.* -", text, re.MULTILINE):
         text = _count_from_the_first(text)
     if re.search(rb"^[vf](?: +\S+){0,2} *$", text, re.MULTILINE):

@@ -6,12 +6,13 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import msgspec
 
 from urdfsync.processes import reserve_stdout
+from urdfsync.urdf.meshes.lookup import COLORS, TEXTURED
 from urdfsync.urdf.meshes.process import MEMORY, Answer, MeshError, Request
 
 if sys.platform != "win32":
@@ -29,24 +30,37 @@ def main() -> None:
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
         request = msgspec.json.decode(line, type=Request)
-        answer, stl = _answer(request, requests.read(request.size))
+        content = requests.read(request.size)
+        answer, files = _answer(request, content, {name: requests.read(size) for name, size in request.others.items()})
         answers.write(msgspec.json.encode(answer) + b"\n")
-        answers.write(stl)
+        for file in files:
+            answers.write(file)
         answers.flush()
     os._exit(0)  # tidying up libraries takes a tenth of a second
 
 
-def _answer(request: Request, content: bytes) -> tuple[Answer, bytes]:
-    from urdfsync.urdf.meshes.geometry import binary_stl, import_form  # the first of all that brings in numpy, and
-    from urdfsync.urdf.meshes.reading import read_mesh  # trimesh: without the unused packages, and without limits
+def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
+    from urdfsync.urdf.meshes import geometry  # the first of all that brings in numpy, and
+    from urdfsync.urdf.meshes.reading import read_mesh, read_parts  # trimesh: without the unused packages, and limits
 
+    sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
     try:
         with _limits(request.seconds):
-            mesh, facts = import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
-            stl = binary_stl(mesh)
+            if not request.colors:
+                mesh, facts = geometry.import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
+                files, all_facts = [geometry.binary_stl(mesh)], [facts]
+            else:
+                parts, is_textured = read_parts(request.suffix, content, others)
+                meshes = [*parts.values()]
+                if len(parts) == 1 or request.colors == COLORS:
+                    meshes = [geometry.joined(meshes), *(meshes if len(parts) > 1 else ())]
+                forms = [geometry.import_form(one, request.scale, request.with_hull) for one in meshes]
+                write = geometry.obj if request.as_obj else geometry.binary_stl
+                files, all_facts = [write(mesh) for mesh, _ in forms], [facts for _, facts in forms]
+                all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured}
     except MeshError as error:
-        return Answer(problem=str(error)), b""
-    return Answer(len(stl), facts, is_last=_allocated() > _GROWN), stl
+        return Answer(problem=str(error)), []
+    return Answer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files
 
 
 def _allocated() -> int:

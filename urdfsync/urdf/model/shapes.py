@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from urdfsync.domain import Import
+from urdfsync.domain import Import, further_key
 from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
@@ -31,12 +31,8 @@ def link_shapes(
     """
     visuals: list[dict[str, Any]] = []
     for number, visual in enumerate(link.visuals, 1):
-        if shape := _shape("visual", number, visual, imports, package):
-            color, opacity = GREY, 1.0
-            if visual.material is not None and visual.material.rgba is not None:
-                red, green, blue, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
-                color = round(255 * red), round(255 * green), round(255 * blue)
-            visuals.append(shape | {"y": _ROW * (len(visuals) + 1), "color": color, "opacity": opacity})
+        for part in _visual(number, visual, imports, package):
+            visuals.append(part | {"y": _ROW * (len(visuals) + 1)})
     collisions: list[dict[str, Any]] = []
     for number, collision in enumerate(link.collisions if options.collisions else (), 1):
         if shape := _shape("collision", number, collision, imports, package):
@@ -113,6 +109,35 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
                     heights += [height + dot(up, point) for point in points]
     lowest = min(filter(math.isfinite, heights), default=None)
     return None if lowest is None else round(-lowest, 12)
+
+
+def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package: str) -> Iterator[dict[str, Any]]:
+    """Yield a visual with its colour; a mesh that has colours of its own in parts, one for each."""
+    shape = _shape("visual", number, visual, imports, package)
+    if shape is None:
+        return
+    if visual.material is not None and visual.material.rgba is not None:
+        red, green, blue, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
+        yield shape | {"color": (round(255 * red), round(255 * green), round(255 * blue)), "opacity": opacity}
+        return
+    key = lookup.key(visual.geometry) if isinstance(visual.geometry, Mesh) else ""
+    facts = imports[key].facts if key else {}
+    colors = facts.get(lookup.PARTS) or facts.get(lookup.COLORS) or [None]
+    files = [key, *(further_key(key, part) for part in range(1, len(colors) + 1))]
+    if lookup.COLORS in facts and len(colors) > 1:
+        del files[0]  # the whole
+    for part, (color, file) in enumerate(zip(colors, files, strict=False), 1):
+        found = shape | {"color": tuple(color) if color else GREY, "opacity": 1.0}
+        if key and len(colors) > 1:
+            label = f"{shape['label']}, colour {part}"
+            found |= {
+                "component": f"{shape['component']}_{part}",
+                "label": label,
+                "title": shape["title"].replace(shape["label"], label, 1),
+                "uri": f"modelica://{package}/{imports[file].target}",
+                "bounds": imports[file].facts["bounds"],
+            }
+        yield found
 
 
 def _shape(

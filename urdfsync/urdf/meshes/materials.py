@@ -1,0 +1,91 @@
+"""Colours that OBJ and COLLADA files give to their shapes: of materials, and the mean ones of textures.
+
+What is damaged here has no colour, and is no fault of the shape.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+from lxml import etree
+
+from urdfsync.urdf.meshes.lookup import mentioned_files, path_of_mention
+
+Color: TypeAlias = tuple[int, int, int]
+"""Red, green and blue from 0 to 255."""
+
+_STATEMENT = re.compile(rb"^[ \t]*(newmtl|Kd|map_Kd)[ \t]([^\r\n]+)", re.MULTILINE)
+
+
+def library_colors(obj: bytes, files: Mapping[str, bytes]) -> dict[bytes, Color]:
+    """Return the colours of the materials of an OBJ file by their names; `files` has its libraries and textures."""
+    found = dict[bytes, Color]()
+    for library in mentioned_files("mesh.obj", obj):
+        name = b""
+        for statement, value in _STATEMENT.findall(files.get(library, b"")):
+            if statement == b"newmtl":
+                name = value.strip()
+                continue
+            textures = mentioned_files(library, b"map_Kd " + value) if statement == b"map_Kd" else ()
+            color = _mean(files.get(textures[0], b"")) if textures else _color(value.split())
+            if color and (textures or name not in found):
+                found[name] = color
+    return found
+
+
+def collada_colors(root: etree._Element, files: Mapping[str, bytes]) -> dict[str, Color]:
+    """Return the colours of the materials of a COLLADA file by their identifiers; `files` has its textures."""
+    effects = {f"#{one.get('id')}": one for one in root.iterfind("{*}library_effects/{*}effect")}
+    images = {one.get("id", ""): one for one in root.iterfind("{*}library_images/{*}image")}
+    found = dict[str, Color]()
+    for material in root.iterfind("{*}library_materials/{*}material"):
+        instance = material.find("{*}instance_effect")
+        effect = effects.get(instance.get("url", "")) if instance is not None else None
+        diffuse = effect.find(".//{*}diffuse") if effect is not None else None
+        texture = diffuse.find("{*}texture") if diffuse is not None else None
+        if effect is not None and texture is not None:
+            color = _mean(_image(texture, effect, images, files))
+        else:
+            color = _color(_text(diffuse, "{*}color").split())
+        if color:
+            found[material.get("id", "")] = color
+    return found
+
+
+def _image(
+    texture: etree._Element, effect: etree._Element, images: Mapping[str, etree._Element], files: Mapping[str, bytes]
+) -> bytes:
+    """Return the content of a texture: it names a sampler, that a surface, and that an image; or it names the image."""
+    parameters = {one.get("sid", ""): one for one in effect.iter("{*}newparam")}
+    name = texture.get("texture", "")
+    for path in ("{*}sampler2D/{*}source", "{*}surface/{*}init_from"):
+        name = _text(parameters.get(name), path) or name
+    return files.get(path_of_mention(_text(images.get(name), ".//{*}init_from").encode()), b"")
+
+
+def _text(element: etree._Element | None, path: str) -> str:
+    found = element.find(path) if element is not None else None
+    return (found.text or "").strip() if found is not None else ""
+
+
+def _mean(image: bytes) -> Color | None:
+    """Return the mean colour of a picture; None if it can't be read."""
+    from PIL import Image  # only textures need it
+
+    with contextlib.suppress(OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        with Image.open(io.BytesIO(image)) as picture:
+            mean = picture.convert("RGB").resize((1, 1), Image.Resampling.BOX).tobytes()
+        return mean[0], mean[1], mean[2]
+    return None
+
+
+def _color(numbers: Sequence[str] | Sequence[bytes]) -> Color | None:
+    """Return a colour whose parts are from 0 to 1; None for what is none."""
+    with contextlib.suppress(ValueError, OverflowError):
+        red, green, blue = (round(255 * min(max(float(number), 0.0), 1.0)) for number in numbers[:3])
+        return red, green, blue
+    return None
