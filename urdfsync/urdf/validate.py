@@ -56,7 +56,8 @@ _ERRORS = {
     "missing-attribute": "add it",
     "empty-attribute": "fill it in",
     "bad-number": "write decimal numbers such as -0.5 or 1e-3",
-    "unsupported-attribute": "write the orientation as rpy",
+    "bad-version": 'write version="1.2", or leave it out for 1.0',
+    "two-orientations": "remove one of them",
     "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating",
     # the tree
     "duplicate-link": "rename or remove one link",
@@ -85,6 +86,8 @@ _WARNINGS = {
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",
+    "newer-version": "what is new in that version has no effect",
+    "newer-attribute": "name the version of URDF that has it",
     "unknown-attribute": "correct its name, or remove it",
     "unknown-element": "correct its name, or remove it",
     "missing-limit": "add <limit>, or make a revolute joint continuous",
@@ -99,7 +102,7 @@ _WARNINGS = {
     "color-range": "divide 0 to 255 by 255",
     # numbers and relations
     "axis-not-unit": "write a unit vector",
-    "negative-limit": "limits of effort and velocity are magnitudes",
+    "negative-limit": "write it without sign: all limits but those of position are magnitudes",
     "negative-dynamics": "correct its sign",
     "dynamics-without-effect": "remove them, or change the type",
     "mimic-without-effect": "remove the mimic, or change the type",
@@ -307,7 +310,8 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
         if kind.has_limits and limit.lower > limit.upper:
             message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
             yield Finding("limit-order", f"{path} / limit", message)
-        for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+        for name in ("effort", "velocity", "acceleration", "deceleration", "jerk"):
+            value = getattr(limit, name)
             if value is not None and value < 0:
                 message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
                 yield Finding("negative-limit", f"{path} / limit", message)

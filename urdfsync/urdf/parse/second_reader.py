@@ -65,7 +65,9 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
         if parts:
             differs = True
             yield Finding("second-reader-differs", "robot", f"yourdfpy reads other {kind}: {'; '.join(parts)}")
-    if not differs:
+    if b"quat_xyzw" in content:
+        yield Finding("second-reader-failed", "robot", "poses are not cross-checked: yourdfpy reads no quat_xyzw")
+    elif not differs:
         yield from _compare_poses(robot, theirs)
 
 

@@ -6,6 +6,7 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
@@ -16,13 +17,15 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
-from urdfsync.urdf.parse.fields import Reader, summary
+from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
+_VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
+_NEWEST = 1, 2
 
 
 class RobotReading(NamedTuple):
@@ -80,11 +83,27 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     return True
 
 
+def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
+    """Return the version of URDF that the file is written in: 1.0 if it does not say."""
+    text = root.get("version")
+    if text is None:
+        return 1, 0
+    found = _VERSION.fullmatch(text)
+    if not found or int(found[1]) != 1:
+        reader.add(root, "bad-version", f"version={quoted(text)} is no version 1.x of URDF")
+        return _NEWEST
+    version = 1, int(found[2])
+    if version > _NEWEST:
+        reader.add(root, "newer-version", f"the file is of URDF 1.{version[1]}, and is read as 1.{_NEWEST[1]}")
+    return version
+
+
 def _read(reader: Reader, document: xml.Document) -> Robot:
     """Return the robot; it is of use only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
-    reader.expect(root, "robot", ("name",))
+    reader.expect(root, "robot", ("name", "version"))
+    reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
