@@ -111,6 +111,14 @@ _WARNINGS = {
     "inertia-not-positive": "export the inertia again; simulation may not be physical",
     "inertia-triangle": "export the inertia again; simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
+    # what is hardly meant
+    "no-inertia": "give the links an <inertial>",
+    "mass-unit": "masses are in kg",
+    "inertia-size": "inertias are in kg·m², about the centre of mass: export them again",
+    "length-unit": "lengths are in m",
+    "angle-unit": "angles are in rad",
+    "zero-limits": "correct the limits, or make the joint fixed",
+    "shape-far": "correct its origin, which is in m",
 }
 _NOTES = {"second-reader-failed": "only the reading of urdfsync counts"}
 

@@ -52,6 +52,12 @@ ODD = {
     "oems/xacro_generated/open-manipulator_robotis/open_manipulator_description/urdf/open_manipulator.urdf":
         ["missing-name", "second-reader-failed", "unknown-material"],
     "random/spot_ros/spot_description/urdf/spot_arm.urdf": [],
+    # Velocity limits of 0 in all joints, and in one that does not move.
+    "matlab/qarm_description/urdf/quanserQArm.urdf": ["zero-limits"],
+    "oems/qarm_quanser/qarm_description/urdf/QARM.urdf": ["zero-limits"],
+    "matlab/quanser_description/urdf/quanserQBot2e.urdf": ["zero-limits"],
+    "robotics-toolbox/al5d_description/urdf/al5d_robot.urdf": ["zero-limits"],
+    "robotics-toolbox/puma560_description/urdf/puma560_robot.urdf": ["zero-limits"],
 }  # fmt: skip
 """The warnings and notes about the robots, in the order of lines, judged by hand; all others have none."""
 

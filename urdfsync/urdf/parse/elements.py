@@ -144,11 +144,16 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
         return joint
     zero = [name for name in ("lower", "upper") if name not in limit.attrib and kind.has_limits]
     if zero and is_new:
-        reader.add(
-            limit, "missing-attribute", f"{path} / limit has no {' and no '.join(zero)}, which URDF 1.2 requires"
-        )
+        message = f"{path} / limit has no {' and '.join(zero)}, which URDF 1.2 requires"
+        reader.add(limit, "missing-attribute", message)
         return joint
     unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion and not is_new]
+    if joint.limit and kind.motion:
+        names = ["velocity"] if joint.limit.velocity == 0 else []
+        if kind.has_limits and not zero and joint.limit.lower == joint.limit.upper == 0:
+            names = ["lower", "upper", *names]
+        if names:
+            reader.add(limit, "zero-limits", f"{path} / limit has {', '.join(names)} = 0: the joint may not move")
     absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
     absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
     if absent:

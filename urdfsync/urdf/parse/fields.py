@@ -233,6 +233,14 @@ def quoted(text: str) -> str:
     return repr(text if len(text) <= _TEXT_SHOWN else text[:_TEXT_SHOWN] + "…")
 
 
+def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
+    """Return findings about elements of a file that was read before, with the lines that its reading gave."""
+    reader = Reader({})
+    reader.lines.update(lines)
+    reader.extend(findings)
+    return summary(reader.diagnostics, file)
+
+
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a file by line; more than three warnings of one code become one."""
     by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}

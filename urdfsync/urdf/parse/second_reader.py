@@ -17,7 +17,7 @@ import yourdfpy
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.fields import Reader, summary
+from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
@@ -37,10 +37,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     reading = read_robot(content, file)
     if reading.robot is None:
         return ()
-    reader = Reader({})
-    reader.lines.update(reading.lines)
-    reader.extend(compare_readers(content, reading.robot))
-    return summary(reader.diagnostics, file)
+    return located(compare_readers(content, reading.robot), file, reading.lines)
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
