@@ -137,7 +137,8 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(a
 
 
 INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-CART = f"""<robot name="cart"><link name="base"/><link name="tyre">{INERTIAL}</link><link name="roller">{INERTIAL}</link>
+CART = f"""<robot name="cart"><link name="base"/>
+  <link name="tyre">{INERTIAL}</link><link name="roller">{INERTIAL}</link>
   <joint name="wheel" type="continuous"><parent link="base"/><child link="tyre"/></joint>
   <joint name="caster" type="continuous"><parent link="base"/><child link="roller"/></joint>
   <transmission name="t"><joint name="wheel"/></transmission>
