@@ -47,10 +47,10 @@ def _read(content: bytes, file: str, options: Options) -> Reading:
 
     Serves the rows "one mass changed in the daemon" of docs/speed.md: a fifth with 133 links, and with 1,000.
     """
-    robot, diagnostics, lines = read_robot(content, file)
+    robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
     if robot is None:
         return Reading(None, diagnostics, lines)
-    diagnostics += located(find_implausible(robot), file, lines)
+    diagnostics += located(find_implausible(robot), file, lines) + unmodelled
     tree = KinematicTree.of(robot)
     if "record" in options.approach:
         diagnostics += tuple(out_of_scope(tree, file, lines))

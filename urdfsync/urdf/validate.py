@@ -68,6 +68,8 @@ _ERRORS = {
     "unknown-child": "add the link, or correct its name",
     "two-parents": "a link has one parent: remove one joint",
     "cycle": "a URDF is a tree: remove a joint of the cycle",
+    "loop-joint": 'open the loop, or leave its joint out by `allow = ["loop-joint"]` in the configuration',
+    "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
     # numbers and relations
     "negative-mass": "correct the mass; a massless link has none, or 0",
     "zero-axis": 'write for example xyz="0 0 1"',
@@ -120,7 +122,10 @@ _WARNINGS = {
     "zero-limits": "correct the limits, or make the joint fixed",
     "shape-far": "correct its origin, which is in m",
 }
-_NOTES = {"second-reader-failed": "only the reading of urdfsync counts"}
+_NOTES = {
+    "second-reader-failed": "only the reading of urdfsync counts",
+    "not-modelled": "--verbose lists them with their lines",
+}
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {
     code: (severity, advice)
@@ -142,10 +147,12 @@ class Finding(NamedTuple):
     """Better advice than that of the table."""
 
 
-def diagnostic(code: str, message: str, line: int, hint: str = "", column: int = 0) -> Diagnostic:
+def diagnostic(
+    code: str, message: str, line: int, hint: str = "", column: int = 0, details: tuple[str, ...] = ()
+) -> Diagnostic:
     """Return a diagnostic with severity and advice of its code, without the name of the file."""
     severity, advice = ADVICE[code]
-    return Diagnostic(severity, code, message, "", line, column, hint or advice)
+    return Diagnostic(severity, code, message, "", line, column, hint or advice, details)
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:

@@ -52,6 +52,10 @@ class Reader:
         self.diagnostics: list[Diagnostic] = []
         """Without the name of the file."""
         self.extensions: list[Extension] = []
+        self.kept: list[tuple[str, Element]] = []
+        """The elements that became extensions, each with its owner."""
+        self.allowed: Collection[str] = ()
+        """Codes of errors that are warnings here."""
 
     @property
     def failed(self) -> bool:
@@ -60,7 +64,10 @@ class Reader:
 
     def add(self, element: Element, code: str, message: str, hint: str = "") -> None:
         """Add a finding about an element."""
-        self.diagnostics.append(diagnostic(code, message, self._lines_of_elements[element], hint))
+        found = diagnostic(code, message, self._lines_of_elements[element], hint)
+        if code in self.allowed:
+            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="`allow` permits it")
+        self.diagnostics.append(found)
 
     def extend(self, findings: Iterable[Finding]) -> None:
         """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
@@ -110,6 +117,7 @@ class Reader:
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
+        self.kept.append((owner, child))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""

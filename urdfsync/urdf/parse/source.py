@@ -7,7 +7,7 @@ Where a robot can be read in one sensible way although something is amiss, that 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -18,6 +18,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
+from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
@@ -38,10 +39,12 @@ class RobotReading(NamedTuple):
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
+    unmodelled: tuple[Diagnostic, ...] = ()
+    """One note, if there is anything that no model shows."""
 
 
-def read_robot(content: bytes, file: str) -> RobotReading:
-    """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
+def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotReading:
+    """Read a URDF; `file` is how diagnostics name it, `allow` is the option. Raises nothing for bad input.
 
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
@@ -50,9 +53,11 @@ def read_robot(content: bytes, file: str) -> RobotReading:
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines)
+    reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines)
+    unmodelled = summary(note_unmodelled(reader.kept, document.lines), file)
+    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -108,6 +113,11 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
     for child in root:
+        if is_loop(child):
+            message = f"<{child.tag}> {child.get('name', '')}".rstrip()
+            reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
+        elif child.tag == "inertial":
+            reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
             reader.extension(child, "robot", _MODELLED, "")
 
