@@ -29,13 +29,13 @@ def test_all_that_is_not_modelled_is_one_note() -> None:
         '<gazebo reference="arm"><material>Gazebo/Red</material><selfCollide>true</selfCollide>'
         '<sensor name="eye" type="camera"><plugin name="driver" filename="c.so"/></sensor></gazebo>',
         '<frame name="n"/>',
-        '<link name="tip"><verbose value="1"/></link>',
+        '<link name="tip" group="left"><verbose value="1"/></link>',
         joint("k", "fixed", "arm", "tip"),
     )
     assert (note.code, note.line) == ("not-modelled", 6)
     assert note.message == (
         "not modelled: 3 gazebo plugins (control, b.so, driver), 2 gazebo settings (material, selfCollide), "
-        "1 sensor (eye), 1 <frame> (n), 1 <verbose> (link tip)"
+        "1 sensor (eye), 1 <frame> (n), 1 <verbose> (link tip), 1 attribute (link group)"
     )
     assert note.details == (
         "line 6: gazebo plugin control",
@@ -46,6 +46,7 @@ def test_all_that_is_not_modelled_is_one_note() -> None:
         "line 8: sensor eye",
         "line 9: <frame> n",
         "line 10: <verbose> link tip",
+        "line 10: attribute link group",
     )
 
 

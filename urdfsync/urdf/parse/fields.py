@@ -54,6 +54,8 @@ class Reader:
         self.extensions: list[Extension] = []
         self.kept: list[tuple[str, Element]] = []
         """The elements that became extensions, each with its owner."""
+        self.unknown: list[tuple[str, Element]] = []
+        """Attributes that URDF does not know, each with its element."""
         self.allowed: Collection[str] = ()
         """Codes of errors that are warnings here."""
 
@@ -127,6 +129,8 @@ class Reader:
             if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
                 self.add(element, "unknown-attribute", message, hint)
+            else:
+                self.unknown.append((name, element))
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""

@@ -28,15 +28,19 @@ def is_loop(element: Element) -> bool:
     )
 
 
-def note_unmodelled(kept: Iterable[tuple[str, Element]], lines: Mapping[Element, int]) -> Iterator[Diagnostic]:
+def note_unmodelled(
+    kept: Iterable[tuple[str, Element]], attributes: Iterable[tuple[str, Element]], lines: Mapping[Element, int]
+) -> Iterator[Diagnostic]:
     """Yield one note on all that is in no model, each with its line as detail; none if there is nothing.
 
-    `kept` are the elements that the reader did not ask for, each with its owner.
+    `kept` are the elements that the reader did not ask for, each with its owner, and `attributes` are such attributes.
     """
     found = defaultdict[str, list[_Part]](list)
     for owner, element in kept:
         for part in _parts(owner, element):
             found[part.kind].append(part)
+    for name, element in attributes:
+        found["attribute"].append(_Part("attribute", f"{element.tag} {name}", element))
     if not found:
         return
     said, places = [], []
