@@ -39,6 +39,8 @@ class Diagnostic(msgspec.Struct, frozen=True):
     line: int = 0
     column: int = 0
     hint: str = ""
+    details: tuple[str, ...] = ()
+    """Lines that people see with `--verbose` only."""
 
     def __str__(self) -> str:
         """The finding as one line: `file:line:column: severity: message; hint [code]`."""

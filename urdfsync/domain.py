@@ -473,6 +473,15 @@ class Domain(Protocol):
         """
         return ()
 
+    def find_doubtful(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str]
+    ) -> Iterable[tuple[str, Diagnostic]]:
+        """Return warnings about differences that look like a mistake of the export: a path, and one without place.
+
+        The core adds the line of the path in the source, as `Reading` has it.
+        """
+        return ()
+
     # Commands beside `build`
 
     def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:

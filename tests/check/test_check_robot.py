@@ -20,6 +20,7 @@ from urdfsync import config
 from urdfsync.check import libraries
 from urdfsync.check import robot as robot_check
 from urdfsync.check.package import CheckedPackage, read_package
+from urdfsync.check.report import summary
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.check.robot import check_robot
 from urdfsync.engine.build import build
@@ -179,6 +180,22 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     result = check()
     assert (result.in_step, result.status(strict=False)) == (False, CheckStatus.DIFFERS)
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
+
+
+def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    replace(Path("arm.urdf"), "</robot>", '<loop_joint name="bar"/></robot>')
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('allow = ["loop-joint"]\n')
+    rebuild()
+    result = check(physics=True)
+    assert result.gaps == (
+        "poses, efforts and masses were not compared: "
+        "<loop_joint> bar closes a loop of links, and is left out of the model",
+    )
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert "agree" not in summary(result, strict=False)
 
 
 def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(

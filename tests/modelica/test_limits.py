@@ -29,6 +29,9 @@ FINGER = 5.0
 RATIO = 0.1
 """Mass of the finger, and its way per angle of the lid."""
 
+SPEED_UP, SLOW_DOWN = 3.0, 2.0
+BRAKE = f'<limit lower="-9" upper="9" acceleration="4" deceleration="{SLOW_DOWN}"/>'
+
 LIMITS = limit(LOWER, UPPER, VELOCITY, EFFORT)
 LEVEL = {"xyz": "0 0 0", "rpy": "0 0 0"}
 
@@ -40,17 +43,20 @@ def balanced(name: str) -> str:
 
 ROBOT = robot(
     link("base"),
-    *(balanced(name) for name in ("arm", "wheel", "sledge", "flap")),
+    *(balanced(name) for name in ("arm", "wheel", "sledge", "flap", "disc", "block")),
     f'<link name="finger"><inertial><mass value="{FINGER}"/></inertial></link>',
     joint("my elbow", "revolute", "base", "arm", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("roll", "continuous", "base", "wheel", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("rail", "prismatic", "base", "sledge", axis="1 0 0", inside=[LIMITS], **LEVEL),
+    joint("spin", "continuous", "base", "disc", axis="0 0 1", inside=[f'<limit acceleration="{SPEED_UP}"/>'], **LEVEL),
+    joint("feed", "prismatic", "base", "block", axis="1 0 0", inside=[BRAKE], **LEVEL),
     joint("lid", "revolute", "base", "flap", axis="0 0 1", inside=[limit(-9, 9, 99, LID_EFFORT)], **LEVEL),
     joint("grip", "prismatic", "flap", "finger", axis="1 0 0", inside=[mimic("lid", RATIO), limit(-0.02, 1)], **LEVEL),
+    version="1.2",
 )
-"""Four drives of which three have close limits; grip follows lid, and is at its end where lid is at -0.2 rad."""
+"""Six drives of which five have close limits; grip follows lid, and is at its end where lid is at -0.2 rad."""
 
-AXES = {"elbow": "my_elbowAxis", "lid": "lidAxis", "roll": "rollAxis", "rail": "railAxis"}
+AXES = {"elbow": "my_elbowAxis"} | {name: f"{name}Axis" for name in ("lid", "roll", "rail", "spin", "feed")}
 """Each drive, and the flange of the robot that it moves."""
 
 PASSING = {
@@ -60,6 +66,21 @@ PASSING = {
     "backward": ({"roll.a2": -4.0}, VELOCITY / 4, "roll (joint roll) is faster than its velocity limit"),
     "effort": ({"rail.a2": 1.01 * EFFORT / INERTIA}, 0.0, "rail (joint rail) is driven above its effort limit"),
     "slide": ({"rail.a1": 1.0}, UPPER, "rail (joint rail) is above its upper position limit"),
+    "speeding up": (
+        {"spin.a2": 1.01 * SPEED_UP},
+        0.0,
+        "spin (joint spin) speeds up faster than its acceleration limit",
+    ),
+    "no deceleration of its own": (
+        {"spin.a1": 5.0, "spin.a2": -1.01 * SPEED_UP},
+        0.0,
+        "spin (joint spin) slows down faster than its deceleration limit",
+    ),
+    "slowing down": (
+        {"feed.a1": -1.0, "feed.a2": 1.01 * SLOW_DOWN},
+        0.0,
+        "feed (joint feed) slows down faster than its deceleration limit",
+    ),
     "leader": (
         {"lid.a2": 1.01 * LID_EFFORT / (INERTIA + RATIO**2 * FINGER)},
         0.0,
@@ -78,17 +99,24 @@ INSIDE: Mapping[str, tuple[Mapping[str, float], float]] = {
     "as fast as allowed": ({"roll.a1": VELOCITY}, 1.0),
     "as strong as allowed": ({"rail.a2": 0.99 * EFFORT / INERTIA, "roll.a2": -0.99 * EFFORT / INERTIA}, 0.04),
     "leading as strong as allowed": ({"lid.a2": 0.99 * LID_EFFORT / (INERTIA + RATIO**2 * FINGER)}, 0.01),
+    "speeding up as allowed": ({"spin.a2": -0.99 * SPEED_UP, "feed.a1": 1.0, "feed.a2": 0.99 * 4}, 1.0),
+    "slowing down as allowed": ({"feed.a1": 5.0, "feed.a2": -0.99 * SLOW_DOWN}, 1.0),
     "far where there is no end": ({"roll.a0": 100.0}, 1.0),
 }
 """Motions that pass no limit, and how long they last."""
 
-IN_RECORD = ("lower", "backward", "slide", "effort", "leader", "follower", "at rest", "leading as strong as allowed")
+IN_RECORD = (
+    *("lower", "backward", "slide", "effort", "leader", "follower", "at rest", "leading as strong as allowed"),
+    *("speeding up", "slowing down", "no deceleration of its own", "speeding up as allowed"),
+)
 """The motions that the robot is put to that reads its record, too."""
 RECORD_AXES = {
     "elbow": "rotationalAxis[2]",
     "lid": "rotationalAxis[1]",
     "roll": "rotationalAxis[3]",
-    "rail": "translationalAxis[1]",
+    "rail": "translationalAxis[2]",
+    "spin": "rotationalAxis[4]",
+    "feed": "translationalAxis[1]",
 }
 """In the order of its record."""
 MILD = robot(
@@ -101,7 +129,7 @@ MILD = robot(
 
 def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: str = "Bot", classes: str = "") -> Task:
     """A bench with a robot, of this type and with these modifiers, and with a drive at each of its axes."""
-    drives = (f"{'Translational' if name == 'rail' else 'Rotational'}Drive {name};" for name in axes)
+    drives = (f"{'Translational' if name in ('rail', 'feed') else 'Rotational'}Drive {name};" for name in axes)
     connections = (f"connect({name}.flange, robot.{axis});" for name, axis in axes.items())
     body = [robot, *drives, "equation", "connect(world.frame_b, robot.frame_a);", *connections]
     return bench("\n    ".join(body), runs, packages=[package], classes=DRIVES + classes)

@@ -6,7 +6,7 @@ import dataclasses
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
@@ -15,7 +15,7 @@ from urdfsync.render import Renderer
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
@@ -55,7 +55,7 @@ class Package:
 
 def read(content: bytes, file: str = "robot.urdf") -> Reading:
     """What the domain reads, without the second reader."""
-    return DOMAIN.read(content, file, Options())
+    return DOMAIN.read(content, file, Options(allow=get_args(LeftOut)))
 
 
 def proposed_base(content: bytes) -> str:
@@ -67,7 +67,7 @@ def proposed_base(content: bytes) -> str:
 
 def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
     """The package of a URDF that has no errors; `options` are those of the domain."""
-    chosen = Options(**options)
+    chosen = Options(**{"allow": get_args(LeftOut), **options})
     path = source if isinstance(source, Path) else Path("robot.urdf")
     content = source if isinstance(source, bytes) else source.read_bytes()
     reading = DOMAIN.read(content, path.name, chosen)

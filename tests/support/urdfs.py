@@ -10,9 +10,10 @@ from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.snapshot import to_snapshot
 
 
-def robot(*elements: str, name: str = "own") -> str:
-    """A URDF of links and joints."""
-    return "\n".join(['<?xml version="1.0"?>', f'<robot name="{name}">', *elements, "</robot>", ""])
+def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:
+    """A URDF of links and joints; `version` is that of URDF."""
+    said = "" if version == "1.0" else f' version="{version}"'
+    return "\n".join(['<?xml version="1.0"?>', f'<robot name="{name}"{said}>', *elements, "</robot>", ""])
 
 
 def link(name: str, mass: float | None = None, *, center: str = "0.02 -0.05 0.1", rpy: str = "0.4 -0.3 0.7") -> str:

@@ -89,7 +89,9 @@ NUMBERS = """
     revolute    <limit lower="1" upper="1" effort="1" velocity="1"/>
     revolute    <limit lower="0" upper="1" effort="-1" velocity="1"/>       warning negative-limit
     revolute    <limit lower="0" upper="1" effort="1" velocity="-1"/>       warning negative-limit
-    revolute    <limit lower="0" upper="1" effort="0" velocity="0"/>
+    revolute    <limit lower="0" upper="1" effort="0" velocity="0"/>       warning zero-limits
+    revolute    <limit lower="0" upper="0" effort="1" velocity="1"/>       warning zero-limits
+    revolute    <limit lower="0" upper="1" effort="0" velocity="1"/>
     continuous  <dynamics damping="1" friction="1"/>
     continuous  <dynamics damping="-1"/>                                    warning negative-dynamics
     continuous  <dynamics friction="-1"/>                                   warning negative-dynamics

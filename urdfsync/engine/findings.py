@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import msgspec
+
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
@@ -34,6 +36,10 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         place = shown(inputs.config.file), inputs.robot.lines[""]
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
+    if generation.changes is not None and inputs.last is not None and generation.changes.changes:
+        for path, one in inputs.domain.find_doubtful(inputs.last, generation.now, generation.changes.renames):
+            line = generation.lines.get(path, 0)
+            found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
         found += _changed_connectors(generation, actions)
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))

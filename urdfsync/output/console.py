@@ -85,6 +85,7 @@ def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -
         if verbose or is_early or found.severity is Severity.ERROR:
             place, severity, rest = str(found).partition(f"{found.severity}: ")
             lines.append(line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, "")))
+            lines += [line((f"  {detail}", "dim")) for detail in found.details if verbose]
         else:
             hidden[found.code] += 1
     more = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in hidden.items())

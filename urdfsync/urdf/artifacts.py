@@ -17,7 +17,7 @@ from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot, limits_acceleration
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -157,7 +157,8 @@ def _joint(joint: Joint, structure: Joint, name: Identifier, package: str) -> tu
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
-    model = {"dynamics": structure.dynamics is not None, "note": note}
+    checks = {"dynamics": structure.dynamics is not None, "accelerations": limits_acceleration(structure)}
+    model = checks | {"note": note}
     template = f"joint/{joint.type}"
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),

@@ -26,14 +26,16 @@ from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.connectors import connector_options
 from urdfsync.urdf.diff.comparable import comparable
-from urdfsync.urdf.diff.effects import effects, interface
+from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import TEXTURED, dependencies, mentioned_files
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import massless_passive_joints, out_of_scope
 from urdfsync.urdf.validate import ADVICE
@@ -45,9 +47,10 @@ def _read(content: bytes, file: str, options: Options) -> Reading:
 
     Serves the rows "one mass changed in the daemon" of docs/speed.md: a fifth with 133 links, and with 1,000.
     """
-    robot, diagnostics, lines = read_robot(content, file)
+    robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
     if robot is None:
         return Reading(None, diagnostics, lines)
+    diagnostics += located(find_implausible(robot), file, lines) + unmodelled
     tree = KinematicTree.of(robot)
     if "record" in options.approach:
         diagnostics += tuple(out_of_scope(tree, file, lines))
@@ -61,7 +64,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("planar-not-generic", "texture"),
+        *("mass-jump", "planar-not-generic", "texture"),
     }
 )
 
@@ -153,6 +156,7 @@ class UrdfDomain(Domain):
     describe = staticmethod(describe)
     effects = staticmethod(effects)
     interface = staticmethod(interface)
+    find_doubtful = staticmethod(find_doubtful)
 
     def drawing(
         self,

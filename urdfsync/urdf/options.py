@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import msgspec
 
@@ -11,6 +11,10 @@ USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 # No release notes of Visualization2 are public. The version is that of the published URDFModelica_Tutorial.
 _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 """By visualizer, the library that its packages are written for, too."""
+
+
+LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
+"""Codes of errors about what moves with the robot and can't be in its model."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -32,6 +36,9 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
     inputs: Literal["names", "vector"] = "names"
     """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
+
+    allow: tuple[LeftOut, ...] = ()
+    """Errors that are warnings: what they are about is left out."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for a choice that leaves nothing to write."""

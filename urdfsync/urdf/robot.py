@@ -149,6 +149,10 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     upper: float = 0.0
     effort: float | None = None
     velocity: float | None = None
+    acceleration: float | None = None
+    deceleration: float | None = None
+    """That of `acceleration` if it is None."""
+    jerk: float | None = None
 
 
 class Dynamics(msgspec.Struct, frozen=True, gc=False):
@@ -205,7 +209,7 @@ def effective(joint: Joint) -> Joint:
     kind = JOINT_KINDS[joint.type]
     limit = joint.limit if kind.motion else None
     if limit is not None and not kind.has_limits:
-        limit = Limit(effort=limit.effort, velocity=limit.velocity)
+        limit = msgspec.structs.replace(limit, lower=0.0, upper=0.0)
     return msgspec.structs.replace(
         joint,
         axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
@@ -221,7 +225,14 @@ def structure(joint: Joint) -> Joint:
     """Return an effective joint without its numbers. Models are made from this."""
     dynamics = None if joint.dynamics is None else Dynamics()
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
-    return Joint(joint.name, joint.type, joint.parent, joint.child, dynamics=dynamics, mimic=mimic)
+    limit = Limit(acceleration=0.0) if limits_acceleration(joint) else None
+    return Joint(joint.name, joint.type, joint.parent, joint.child, limit=limit, dynamics=dynamics, mimic=mimic)
+
+
+def limits_acceleration(joint: Joint) -> bool:
+    """Return whether an effective joint has a limit of acceleration or deceleration, which its model checks."""
+    limit = joint.limit
+    return limit is not None and (limit.acceleration is not None or limit.deceleration is not None)
 
 
 class Extension(msgspec.Struct, frozen=True, gc=False):

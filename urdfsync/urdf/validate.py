@@ -56,7 +56,8 @@ _ERRORS = {
     "missing-attribute": "add it",
     "empty-attribute": "fill it in",
     "bad-number": "write decimal numbers such as -0.5 or 1e-3",
-    "unsupported-attribute": "write the orientation as rpy",
+    "bad-version": 'write version="1.2", or leave it out for 1.0',
+    "two-orientations": "remove one of them",
     "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating",
     # the tree
     "duplicate-link": "rename or remove one link",
@@ -67,6 +68,8 @@ _ERRORS = {
     "unknown-child": "add the link, or correct its name",
     "two-parents": "a link has one parent: remove one joint",
     "cycle": "a URDF is a tree: remove a joint of the cycle",
+    "loop-joint": 'open the loop, or leave its joint out by `allow = ["loop-joint"]` in the configuration',
+    "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
     # numbers and relations
     "negative-mass": "correct the mass; a massless link has none, or 0",
     "zero-axis": 'write for example xyz="0 0 1"',
@@ -85,6 +88,8 @@ _WARNINGS = {
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",
+    "newer-version": "what is new in that version has no effect",
+    "newer-attribute": "name the version of URDF that has it",
     "unknown-attribute": "correct its name, or remove it",
     "unknown-element": "correct its name, or remove it",
     "missing-limit": "add <limit>, or make a revolute joint continuous",
@@ -99,7 +104,7 @@ _WARNINGS = {
     "color-range": "divide 0 to 255 by 255",
     # numbers and relations
     "axis-not-unit": "write a unit vector",
-    "negative-limit": "limits of effort and velocity are magnitudes",
+    "negative-limit": "write it without sign: all limits but those of position are magnitudes",
     "negative-dynamics": "correct its sign",
     "dynamics-without-effect": "remove them, or change the type",
     "mimic-without-effect": "remove the mimic, or change the type",
@@ -108,8 +113,19 @@ _WARNINGS = {
     "inertia-not-positive": "export the inertia again; simulation may not be physical",
     "inertia-triangle": "export the inertia again; simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
+    # what is hardly meant
+    "no-inertia": "give the links an <inertial>",
+    "mass-unit": "masses are in kg",
+    "inertia-size": "inertias are in kg·m², about the centre of mass: export them again",
+    "length-unit": "lengths are in m",
+    "angle-unit": "angles are in rad",
+    "zero-limits": "correct the limits, or make the joint fixed",
+    "shape-far": "correct its origin, which is in m",
 }
-_NOTES = {"second-reader-failed": "only the reading of urdfsync counts"}
+_NOTES = {
+    "second-reader-failed": "only the reading of urdfsync counts",
+    "not-modelled": "--verbose lists them with their lines",
+}
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {
     code: (severity, advice)
@@ -131,10 +147,12 @@ class Finding(NamedTuple):
     """Better advice than that of the table."""
 
 
-def diagnostic(code: str, message: str, line: int, hint: str = "", column: int = 0) -> Diagnostic:
+def diagnostic(
+    code: str, message: str, line: int, hint: str = "", column: int = 0, details: tuple[str, ...] = ()
+) -> Diagnostic:
     """Return a diagnostic with severity and advice of its code, without the name of the file."""
     severity, advice = ADVICE[code]
-    return Diagnostic(severity, code, message, "", line, column, hint or advice)
+    return Diagnostic(severity, code, message, "", line, column, hint or advice, details)
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
@@ -307,7 +325,8 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
         if kind.has_limits and limit.lower > limit.upper:
             message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
             yield Finding("limit-order", f"{path} / limit", message)
-        for name, value in (("effort", limit.effort), ("velocity", limit.velocity)):
+        for name in ("effort", "velocity", "acceleration", "deceleration", "jerk"):
+            value = getattr(limit, name)
             if value is not None and value < 0:
                 message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
                 yield Finding("negative-limit", f"{path} / limit", message)

@@ -37,6 +37,10 @@ equation
     getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
   assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.f) <= parameters.limits.effort + 1e-6,
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
+  assert(not checkLimits or prismatic.a*prismatic.v < 0 or 0.999999*abs(prismatic.a) <= parameters.limits.acceleration + 1e-6,
+    getInstanceName() + " (joint " + parameters.name + ") speeds up faster than its acceleration limit", AssertionLevel.warning);
+  assert(not checkLimits or prismatic.a*prismatic.v >= 0 or 0.999999*abs(prismatic.a) <= parameters.limits.deceleration + 1e-6,
+    getInstanceName() + " (joint " + parameters.name + ") slows down faster than its deceleration limit", AssertionLevel.warning);
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(origin.frame_b, prismatic.frame_a)

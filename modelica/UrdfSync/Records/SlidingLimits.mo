@@ -15,6 +15,12 @@ record SlidingLimits "Limits of all joints that slide"
   Modelica.Units.SI.Force effort[:] = fill(0, 0)
     "Largest drive forces";
 
+  Modelica.Units.SI.Acceleration acceleration[:] = fill(Modelica.Constants.inf, size(velocity, 1))
+    "Largest accelerations while joints speed up";
+
+  Modelica.Units.SI.Acceleration deceleration[:] = acceleration
+    "The same while they slow down";
+
   annotation (Documentation(info="<html>
 <p>
 A table of <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>: one number per joint, in the order of the joints. Each refers to the <a href=\"modelica://UrdfSync.Records.TranslationalLimits\">limits</a> record of its joint.

@@ -15,6 +15,12 @@ record TurningLimits "Limits of all joints that turn"
   Modelica.Units.SI.Torque effort[:] = fill(0, 0)
     "Largest drive torques";
 
+  Modelica.Units.SI.AngularAcceleration acceleration[:] = fill(Modelica.Constants.inf, size(velocity, 1))
+    "Largest accelerations while joints speed up";
+
+  Modelica.Units.SI.AngularAcceleration deceleration[:] = acceleration
+    "The same while they slow down";
+
   annotation (Documentation(info="<html>
 <p>
 A table of <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>: one number per joint, in the order of the joints. Each refers to the <a href=\"modelica://UrdfSync.Records.RotationalLimits\">limits</a> record of its joint. Continuous joints have no smallest and largest position: these are infinite.

@@ -190,6 +190,24 @@ protected
     1/unitLength)
     "Largest velocities of the moving joints";
 
+  parameter UrdfSync.Types.JointAcceleration acceleration[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.acceleration,
+    data.sliding,
+    data.slidingLimits.acceleration,
+    1/unitLength)
+    "Largest accelerations of the moving joints";
+
+  parameter UrdfSync.Types.JointAcceleration deceleration[n] = UrdfSync.Dynamics.jointVector(
+    n,
+    data.turning,
+    data.turningLimits.deceleration,
+    data.sliding,
+    data.slidingLimits.deceleration,
+    1/unitLength)
+    "The same where they slow down";
+
   parameter UrdfSync.Types.JointEffort effortLimits[n] = UrdfSync.Dynamics.jointVector(
     n,
     data.turning,
@@ -280,6 +298,10 @@ equation
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is faster than its velocity limit", AssertionLevel.warning);
     assert(not checkLimits or 0.999999*abs(drive[i]) <= effortLimits[i] + 1e-6,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is driven above its effort limit", AssertionLevel.warning);
+    assert(not checkLimits or a[i]*v[i] < 0 or 0.999999*abs(a[i]) <= acceleration[i] + 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") speeds up faster than its acceleration limit", AssertionLevel.warning);
+    assert(not checkLimits or a[i]*v[i] >= 0 or 0.999999*abs(a[i]) <= deceleration[i] + 1e-6,
+      getInstanceName() + " (joint " + data.jointNames[i].name + ") slows down faster than its deceleration limit", AssertionLevel.warning);
     assert(not fixedStart or driven[i] == 0 or axisInertias[i] > 0,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") has no inertia about or along its axis: it can be driven by position only", AssertionLevel.warning);
     load[i] = effort[i] + loss[i] + shares[i, :]*followerLoad;

@@ -42,6 +42,7 @@ Continuous, revolute and prismatic joints have two flanges. <code>support</code>
 <p>
 The record holds limits of position (revolute, prismatic), speed and effort. Without a <code>&lt;limit&gt;</code> element all of them are
 infinite; in one, <code>lower</code> and <code>upper</code> are zero if left out, <code>velocity</code> and <code>effort</code> infinite.
+An <code>acceleration</code> is that of a joint that speeds up, a <code>deceleration</code> that of one that slows down. Jerk is not checked.
 No limit holds a joint back: a warning that names the joint reports that it is passed. Effort is what the drive gives at
 <code>axis</code>, losses included; where other joints follow, the robot checks the whole of what the drive gives at its connector <code>&hellip;Axis</code>. A joint
 that follows has no drive of its own, and its effort is not checked. <code>checkLimits = false</code> silences the warnings.

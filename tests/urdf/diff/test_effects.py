@@ -9,7 +9,7 @@ import pytest
 from support.urdfs import joint, link, links, version
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
-from urdfsync.urdf.diff.effects import effects, interface
+from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.options import Options
 
 TARGET = Target("Robot", "Robot")
@@ -194,3 +194,14 @@ def test_mass_and_centre_of_mass_of_both_versions() -> None:
     assert centre.new == pytest.approx((1.0, 0, 0.5), abs=1e-15)
     assert [effect.old for effect in effects(massless, heavy)] == [0.0, None]
     assert effects(version(link("base", 0.5, center="1 0 0")), heavy)[1].old == (1.0, 0.0, 0.0)
+
+
+def test_masses_that_jump_are_one_warning() -> None:
+    old = version(*links(base=1.0, arm=2.0, hand=0.5, tip=None), joint("a", "fixed", "base", "arm"),
+                  joint("b", "fixed", "arm", "hand"), joint("c", "fixed", "hand", "tip"))  # fmt: skip
+    new = version(*links(base=9.9, claw=0.05, arm=2000.0, tip=3.0), joint("a", "fixed", "base", "arm"),
+                  joint("b", "fixed", "arm", "claw"), joint("c", "fixed", "claw", "tip"))  # fmt: skip
+    ((path, found),) = find_doubtful(old, new, {("link", "hand"): "claw"})
+    assert (path, found.code) == ("link arm / inertial / mass", "mass-jump")
+    assert found.message == "link arm: its mass jumps, 2 kg → 2000 kg (and 1 more like it)"
+    assert list(find_doubtful(old, old, {})) == []

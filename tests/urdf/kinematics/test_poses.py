@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from support.robots import SCALAR, robots, urdf
 
-from urdfsync.urdf.kinematics.poses import Pose, link_poses, own_range, start_positions
+from urdfsync.urdf.kinematics.poses import Pose, link_poses, own_range, pose, roll_pitch_yaw, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Mimic, Robot
+from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Mimic, Origin, Robot
 
 Array = NDArray[np.float64]
 NUMBERS = st.floats(-3, 3)
@@ -116,3 +116,16 @@ def test_absurd_numbers_still_give_finite_positions(
     leader = Joint("a", "revolute", "l0", "l1", limit=Limit(1e300, 1e305))
     follower = Joint("b", kind, "l1", "l2", limit=Limit(end, end + 1), mimic=Mimic("a", multiplier, offset))
     assert all(map(math.isfinite, start_positions(chain(leader, follower)).values()))
+
+
+@given(
+    st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda numbers: max(map(abs, numbers)) > 1e-3), st.floats(1e-200, 1e200)
+)
+@example((0.5, 0.5, -0.5, 0.5), 1.0)
+@example((0.5, 0.5 + 1e-9, -0.5, 0.5), 1.0)
+@example((0.5, -0.5, 0.5, 0.5 - 1e-12), 1.0)
+def test_angles_of_a_quaternion(numbers: tuple[float, float, float, float], length: float) -> None:
+    """The same orientation as Pinocchio's, also where roll and yaw turn about one axis."""
+    expected = pin.Quaternion(np.array(numbers) / np.linalg.norm(numbers)).matrix()
+    rotation, _ = pose(Origin(rpy=roll_pitch_yaw([length * number for number in numbers])))
+    assert np.abs(np.array(rotation) - expected).max() < 1e-14

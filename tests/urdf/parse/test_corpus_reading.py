@@ -5,11 +5,14 @@ The corpus stands beside the repository, or where URDFSYNC_CORPUS says; without 
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pytest
 from lxml import etree
 from support.corpus import FOLDER as CORPUS
 
 from urdfsync.diagnostics import Severity
+from urdfsync.urdf.options import LeftOut
 from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 
@@ -40,11 +43,12 @@ ODD = {
     # A box of size 0 0 0, and principal moments 0, 0 and 3e-8.
     "matlab/sawyer_description/urdf/rethinkSawyer.urdf": ["shape-size", "inertia-triangle"],
     # Principal moments 0.0008, 0.001 and 0.01: no body has these.
-    "drake/atlas/urdf/robotiq.urdf": ["inertia-triangle"],
-    "drake/atlas/urdf/robotiq_simple.urdf": ["inertia-triangle"],
-    "drake/atlas/urdf/robotiq_tendons.urdf": ["inertia-triangle", "unknown-material", "missing-limit-value"],
+    "drake/atlas/urdf/robotiq.urdf": ["inertia-triangle", "loop-joint", "stray-inertial"],
+    "drake/atlas/urdf/robotiq_simple.urdf": ["inertia-triangle", "stray-inertial"],
+    "drake/atlas/urdf/robotiq_tendons.urdf":
+        ["inertia-triangle", "stray-inertial", "unknown-material", "missing-limit-value"],
     "ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_articulated.urdf":
-        ["inertia-triangle"],
+        ["inertia-triangle", "stray-inertial"],
     # <xacro:grey/> inside visuals, and materials that a file not included defines.
     "matlab/robotis_op_description/robots/robotisOP2.urdf":
         ["unknown-material", "xacro-leftover", "unknown-material", "unknown-material"],
@@ -52,12 +56,18 @@ ODD = {
     "oems/xacro_generated/open-manipulator_robotis/open_manipulator_description/urdf/open_manipulator.urdf":
         ["missing-name", "second-reader-failed", "unknown-material"],
     "random/spot_ros/spot_description/urdf/spot_arm.urdf": [],
+    # Velocity limits of 0 in all joints, and in one that does not move.
+    "matlab/qarm_description/urdf/quanserQArm.urdf": ["zero-limits"],
+    "oems/qarm_quanser/qarm_description/urdf/QARM.urdf": ["zero-limits"],
+    "matlab/quanser_description/urdf/quanserQBot2e.urdf": ["zero-limits"],
+    "robotics-toolbox/al5d_description/urdf/al5d_robot.urdf": ["zero-limits"],
+    "robotics-toolbox/puma560_description/urdf/puma560_robot.urdf": ["zero-limits"],
 }  # fmt: skip
 """The warnings and notes about the robots, in the order of lines, judged by hand; all others have none."""
 
 
 def read(file: str) -> RobotReading:
-    return read_robot((CORPUS / file).read_bytes(), file)
+    return read_robot((CORPUS / file).read_bytes(), file, get_args(LeftOut))
 
 
 @pytest.mark.parametrize("file", FILES)

@@ -48,6 +48,15 @@ def test_disagreement_is_told(changes: dict[str, Any], message: str) -> None:
     assert finding.message.endswith(message)
 
 
+def test_a_quaternion_is_not_cross_checked() -> None:
+    text = URDF.replace("<robot", '<robot version="1.1"').replace("<parent", '<origin quat_xyzw="0 0 1 0"/><parent')
+    (finding,) = compare_readers(text.encode(), parsed(text))
+    assert (finding.code, finding.message) == (
+        "second-reader-failed",
+        "poses are not cross-checked: yourdfpy reads no quat_xyzw",
+    )
+
+
 @pytest.mark.parametrize(("number", "axis", "link"), [(0, (0.0, 0.0, 1.0), "upper"), (1, (0.0, 1.0, 0.0), "fore")])
 def test_an_axis_that_is_read_otherwise_shows_where_joints_move(
     number: int, axis: tuple[float, float, float], link: str

@@ -94,6 +94,10 @@ def with_joint(inner: str, kind: str = "revolute") -> str:
     return f'<robot name="r">\n<link name="a"/><link name="b"/>\n{joint}\n</robot>'
 
 
+def of_version(version: str, text: str) -> str:
+    return text.replace("<robot", f'<robot version="{version}"', 1)
+
+
 def only_joint(inner: str, kind: str = "revolute") -> Joint:
     (joint,) = robot_of(with_joint(inner, kind)).joints
     return joint
@@ -280,7 +284,15 @@ FAULTS = [
     (with_joint('<mimic/>', "continuous"), "missing-attribute", 4),
     (with_joint('<dynamics damping="1 2"/>', "continuous"), "bad-number", 4),
     (with_joint('<origin xyz="nan 0 0"/>', "fixed"), "bad-number", 4),
-    (with_joint('<origin quat_xyzw="0 0 0 1"/>', "fixed"), "unsupported-attribute", 4),
+    (of_version("1", with_joint("", "fixed")), "bad-version", 1),
+    (of_version("2.0", with_joint("", "fixed")), "bad-version", 1),
+    (of_version("", with_joint("", "fixed")), "bad-version", 1),
+    (of_version("1." + "9" * 5000, with_joint("", "fixed")), "bad-version", 1),
+    (of_version("1.1", with_joint('<origin quat_xyzw="0 0 1"/>', "fixed")), "bad-number", 4),
+    (of_version("1.1", with_joint('<origin quat_xyzw="0 0 0 -0"/>', "fixed")), "bad-number", 4),
+    (of_version("1.1", with_joint('<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>', "fixed")), "two-orientations", 4),
+    (of_version("1.2", with_joint('<limit upper="1"/>')), "missing-attribute", 4),
+    (of_version("1.2", with_joint('<limit lower="0" upper="1" jerk="inf"/>')), "bad-number", 4),
     (in_visual('\n<geometry><cylinder length="1"/></geometry>'), "missing-attribute", 4),
     (in_visual('\n<geometry><mesh/></geometry>'), "missing-attribute", 4),
     (in_visual('\n<geometry><mesh filename="a.stl" scale="0.001"/></geometry>'), "bad-number", 4),
@@ -289,6 +301,11 @@ ODDITIES = [
     ('<robot>\n<link name="a"/></robot>', "missing-name", 1),
     (in_link("<visual nme='v'><geometry><sphere radius='1'/></geometry></visual>"), "unknown-attribute", 3),
     (with_joint(""), "missing-limit", 3),
+    (of_version("1.3", with_joint("", "fixed")), "newer-version", 1),
+    (with_joint('<origin quat_xyzw="0 0 1 0" rpy="1 0 0"/>', "fixed"), "newer-attribute", 4),
+    (of_version("1.1", with_joint('<limit lower="0" upper="1" effort="1" velocity="1" acceleration="fast"/>')),
+     "newer-attribute", 4),
+    (of_version("1.2", with_joint('<limit lower="0" upper="1" deceleration="-1"/>')), "negative-limit", 4),
     (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
     (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
     (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
@@ -467,3 +484,23 @@ def test_long_words_are_judged_at_once_and_shown_in_brief() -> None:
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_numbers_are_read_exactly(value: float) -> None:
     assert parse_numbers(repr(value), 1) == (value,)
+
+
+def test_a_quaternion_is_an_orientation_since_urdf_1_1() -> None:
+    """Of any length; an older file has none, as for ROS."""
+    text = with_joint('<origin xyz="1 2 3" quat_xyzw="0 0 2 2"/>', "fixed")
+    (joint,) = robot_of(of_version("1.1", text)).joints
+    assert joint.origin.xyz == (1.0, 2.0, 3.0)
+    assert joint.origin.rpy == pytest.approx((0.0, 0.0, math.pi / 2), abs=1e-15)
+    older = read(text).robot
+    assert older is not None
+    assert older.joints[0].origin.rpy == (0.0, 0.0, 0.0)
+
+
+def test_limits_of_urdf_1_2() -> None:
+    limit = '<limit lower="0" upper="1" acceleration="2" deceleration="3" jerk="4"/>'
+    (joint,) = robot_of(of_version("1.2", with_joint(limit))).joints
+    assert joint.limit == Limit(0.0, 1.0, acceleration=2.0, deceleration=3.0, jerk=4.0)
+    older = read(with_joint(limit)).robot
+    assert older is not None
+    assert older.joints[0].limit == Limit(0.0, 1.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Effect, ElementKey, Target, Version, brings_back, displaced
 from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
@@ -13,6 +14,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
+_JUMP = 9.99
 _DRIVE = {"axis": "axis", "support": "support", "position": "position in Run", "effort": "effort in Run"}
 """Fields of `Drive`, and what they are in a report."""
 
@@ -45,6 +47,21 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
         return total, None
     x, y, z = (math.fsum(column) / total for column in zip(*moments, strict=True))
     return total, (x, y, z)
+
+
+def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a warning if links have ten times their mass, or a tenth of it: one for all of them, at the first."""
+    before = {renames.get(("link", name), name): link for name, link in old.snapshot["links"].items()}
+    jumps = []
+    for name, link in new.snapshot["links"].items():
+        one, other = (snapshot.get("inertial", {}).get("mass", 0.0) for snapshot in (before.get(name, {}), link))
+        if min(one, other) > 0 and max(one, other) >= _JUMP * min(one, other):
+            jumps.append((f"link {name}", f"{one:g} kg → {other:g} kg"))
+    if jumps:
+        path, change = jumps[0]
+        more = f" (and {len(jumps) - 1} more like it)" if len(jumps) > 1 else ""
+        message, hint = f"{path}: its mass jumps, {change}{more}", "check the unit and the material in the exporter"
+        yield f"{path} / inertial / mass", Diagnostic(Severity.WARNING, "mass-jump", message, hint=hint)
 
 
 def interface(

@@ -39,12 +39,15 @@ _UNITS = {
 _POSITION: Mapping[Motion, str] = {"rotational": "rad", "translational": "m"}
 _LOADS: Mapping[Motion, str] = {"rotational": "N·m", "translational": "N"}
 _LOSSES: Mapping[Motion, str] = {"rotational": "N·m·s/rad", "translational": "N·s/m"}
+_ACCELERATIONS: Mapping[Motion, str] = {"rotational": "rad/s²", "translational": "m/s²"}
 _POSITIONS = ("lower", "upper", "offset", "rising", "falling", "soft_lower_limit", "soft_upper_limit")
 _JOINT_UNITS: Mapping[str, Mapping[Motion, str]] = {
     **dict.fromkeys(_POSITIONS, _POSITION),
     **dict.fromkeys(("effort", "friction"), _LOADS),
     **dict.fromkeys(("damping", "k_velocity"), _LOSSES),
     "velocity": {"rotational": "rad/s", "translational": "m/s"},
+    **dict.fromkeys(("acceleration", "deceleration"), _ACCELERATIONS),
+    "jerk": {"rotational": "rad/s³", "translational": "m/s³"},
     "k_position": {"rotational": "1/s", "translational": "1/s"},
 }
 """Units that depend on the motion of the joint."""

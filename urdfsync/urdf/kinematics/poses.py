@@ -29,6 +29,21 @@ def pose(origin: Origin) -> Pose:
     return rotation, origin.xyz
 
 
+def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
+    """Return the angles of an orientation x, y, z, w of any length but zero, precise also where pitch is ±π/2."""
+    largest = max(map(abs, quaternion))  # else the squares of large numbers overflow
+    length = math.hypot(*(value / largest for value in quaternion))
+    x, y, z, w = (value / largest / length for value in quaternion)
+    up, ahead = 2 * (x * y + w * z), 1 - 2 * (y * y + z * z)
+    yaw = math.atan2(up, ahead)
+    pitch = math.atan2(2 * (w * y - x * z), math.hypot(up, ahead))
+    # from what the turn back by yaw leaves, so that the errors of both cancel where the two turn about one axis
+    s, c = math.sin(yaw), math.cos(yaw)
+    sine = 2 * s * (x * z + w * y) - 2 * c * (y * z - w * x)
+    cosine = c * (1 - 2 * (x * x + z * z)) - 2 * s * (x * y - w * z)
+    return math.atan2(sine, cosine), pitch, yaw
+
+
 def compose(outer: Pose, inner: Pose) -> Pose:
     """Return the pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))

@@ -11,7 +11,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit, limits_acceleration
 
 NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
@@ -69,6 +69,7 @@ def record_data(
         "turning": referred([joint for joint in moving if MOTION_KINDS[joint.type] == "rotational"]),
         "sliding": referred([joint for joint in moving if MOTION_KINDS[joint.type] == "translational"]),
         "followers": referred([joint for joint in tree.leaders_first() if joint.mimic is not None]),
+        "accelerations": any(map(limits_acceleration, tree.joints)),
         "shapes": drawn,
         "axes": axes if is_generic else [],
     }

@@ -120,6 +120,9 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
 
     A joint of unknown type becomes a plain fixed one.
     """
+    limit = element.find("limit")
+    if limit is not None:
+        reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
     joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
     if joint.type not in JOINT_KINDS:
         if joint.type:
@@ -131,15 +134,26 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
         reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
-    # A limit that is absent is 0 for a position, as in urdfdom, and there is none for effort and velocity.
-    kind, limit = JOINT_KINDS[joint.type], element.find("limit")
+    # A limit that is absent is 0 for a position, as in urdfdom, and there is none for effort and velocity. Since URDF
+    # 1.2 the former is required, and the latter may be left out.
+    kind, is_new = JOINT_KINDS[joint.type], reader.version >= (1, 2)
     if limit is None:
         if kind.has_limits:
             message = f"{path} is {joint.type} but has no <limit>: it moves without limits"
             reader.add(element, "missing-limit", message)
         return joint
     zero = [name for name in ("lower", "upper") if name not in limit.attrib and kind.has_limits]
-    unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion]
+    if zero and is_new:
+        message = f"{path} / limit has no {' and '.join(zero)}, which URDF 1.2 requires"
+        reader.add(limit, "missing-attribute", message)
+        return joint
+    unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion and not is_new]
+    if joint.limit and kind.motion:
+        names = ["velocity"] if joint.limit.velocity == 0 else []
+        if kind.has_limits and not zero and joint.limit.lower == joint.limit.upper == 0:
+            names = ["lower", "upper", *names]
+        if names:
+            reader.add(limit, "zero-limits", f"{path} / limit has {', '.join(names)} = 0: the joint may not move")
     absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
     absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
     if absent:

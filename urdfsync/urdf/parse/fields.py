@@ -19,6 +19,7 @@ from xml.etree.ElementTree import Element
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
 from urdfsync.urdf.validate import Finding, diagnostic, perhaps
@@ -44,11 +45,19 @@ class Reader:
 
     def __init__(self, lines: Mapping[Element, int]) -> None:
         self._lines_of_elements = lines
+        self.version = 1, 0
+        """Of URDF, as the file says."""
         self.lines: dict[str, int] = {}
         """By path: see `RobotReading`."""
         self.diagnostics: list[Diagnostic] = []
         """Without the name of the file."""
         self.extensions: list[Extension] = []
+        self.kept: list[tuple[str, Element]] = []
+        """The elements that became extensions, each with its owner."""
+        self.unknown: list[tuple[str, Element]] = []
+        """Attributes that URDF does not know, each with its element."""
+        self.allowed: Collection[str] = ()
+        """Codes of errors that are warnings here."""
 
     @property
     def failed(self) -> bool:
@@ -57,7 +66,10 @@ class Reader:
 
     def add(self, element: Element, code: str, message: str, hint: str = "") -> None:
         """Add a finding about an element."""
-        self.diagnostics.append(diagnostic(code, message, self._lines_of_elements[element], hint))
+        found = diagnostic(code, message, self._lines_of_elements[element], hint)
+        if code in self.allowed:
+            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="`allow` permits it")
+        self.diagnostics.append(found)
 
     def extend(self, findings: Iterable[Finding]) -> None:
         """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
@@ -66,6 +78,16 @@ class Reader:
             while place not in self.lines and " / " in place:
                 place = place.rpartition(" / ")[0]
             self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
+
+    def drop_newer(self, element: Element, path: str, attributes: Iterable[str], version: tuple[int, int]) -> None:
+        """Take attributes that URDF has since `version` out of an element of an older file, with a warning."""
+        newer = [name for name in attributes if name in element.attrib] if self.version < version else []
+        if newer:
+            needed, given = (f"{major}.{minor}" for major, minor in (version, self.version))
+            message = f"{path}: {', '.join(newer)} has no effect, since the file is of URDF {given}"
+            self.add(element, "newer-attribute", message, f'write <robot version="{needed}" …>')
+        for name in newer:
+            del element.attrib[name]
 
     def place(self, element: Element, path: str) -> str:
         """Remember the line of an element; return its path."""
@@ -97,6 +119,7 @@ class Reader:
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
         self.extensions.append(Extension(owner, child.tag, canonical(child)))
+        self.kept.append((owner, child))
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
@@ -106,6 +129,8 @@ class Reader:
             if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
                 self.add(element, "unknown-attribute", message, hint)
+            else:
+                self.unknown.append((name, element))
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""
@@ -126,13 +151,26 @@ class Reader:
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
                 if name == "origin" and "quat_xyzw" in child.attrib:
-                    self.add(child, "unsupported-attribute", f"{place}: quaternions can't be read")
+                    self._write_as_rpy(child, place)
                 values[name] = self.read(child, place, kind)
         for name in required:
             if name not in found:
                 self.add(element, "missing-element", f"{path} has no <{name}>")
                 values[name] = ""
         return struct(**values)
+
+    def _write_as_rpy(self, origin: Element, path: str) -> None:
+        """Replace the `quat_xyzw` of an origin by the same orientation as `rpy`."""
+        self.drop_newer(origin, path, ["quat_xyzw"], (1, 1))
+        quaternion = self._value(origin, path, "quat_xyzw", 4, None)
+        if quaternion is None:
+            return
+        if "rpy" in origin.attrib:
+            self.add(origin, "two-orientations", f"{path} has an orientation as rpy and one as quat_xyzw")
+        elif not any(quaternion):
+            self.add(origin, "bad-number", f"{path}: quat_xyzw={quoted(origin.attrib['quat_xyzw'])} has no direction")
+        else:
+            origin.set("rpy", " ".join(map(repr, roll_pitch_yaw(quaternion))))
 
     def _value(self, element: Element, path: str, name: str, count: int, default: Any) -> Any:
         text, is_required = element.get(name), default is msgspec.NODEFAULT
@@ -205,6 +243,14 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
 def quoted(text: str) -> str:
     """Return the text in quotes, cut off if it is long."""
     return repr(text if len(text) <= _TEXT_SHOWN else text[:_TEXT_SHOWN] + "…")
+
+
+def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
+    """Return findings about elements of a file that was read before, with the lines that its reading gave."""
+    reader = Reader({})
+    reader.lines.update(lines)
+    reader.extend(findings)
+    return summary(reader.diagnostics, file)
 
 
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:

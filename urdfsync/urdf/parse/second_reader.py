@@ -9,7 +9,7 @@ import contextlib
 import io
 import logging
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import yourdfpy
@@ -17,7 +17,8 @@ import yourdfpy
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.fields import Reader, summary
+from urdfsync.urdf.options import LeftOut
+from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
@@ -34,13 +35,10 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
     `file` is how diagnostics name it.
     """
-    reading = read_robot(content, file)
+    reading = read_robot(content, file, get_args(LeftOut))
     if reading.robot is None:
         return ()
-    reader = Reader({})
-    reader.lines.update(reading.lines)
-    reader.extend(compare_readers(content, reading.robot))
-    return summary(reader.diagnostics, file)
+    return located(compare_readers(content, reading.robot), file, reading.lines)
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
@@ -65,7 +63,9 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
         if parts:
             differs = True
             yield Finding("second-reader-differs", "robot", f"yourdfpy reads other {kind}: {'; '.join(parts)}")
-    if not differs:
+    if b"quat_xyzw" in content:
+        yield Finding("second-reader-failed", "robot", "poses are not cross-checked: yourdfpy reads no quat_xyzw")
+    elif not differs:
         yield from _compare_poses(robot, theirs)
 
 

@@ -6,7 +6,8 @@ Where a robot can be read in one sensible way although something is amiss, that 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -16,13 +17,16 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
-from urdfsync.urdf.parse.fields import Reader, summary
+from urdfsync.urdf.parse.fields import Reader, quoted, summary
+from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
+_VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
+_NEWEST = 1, 2
 
 
 class RobotReading(NamedTuple):
@@ -35,10 +39,12 @@ class RobotReading(NamedTuple):
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
+    unmodelled: tuple[Diagnostic, ...] = ()
+    """One note, if there is anything that no model shows."""
 
 
-def read_robot(content: bytes, file: str) -> RobotReading:
-    """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
+def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotReading:
+    """Read a URDF; `file` is how diagnostics name it, `allow` is the option. Raises nothing for bad input.
 
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
@@ -47,9 +53,11 @@ def read_robot(content: bytes, file: str) -> RobotReading:
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines)
+    reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines)
+    unmodelled = summary(note_unmodelled(reader.kept, reader.unknown, document.lines), file)
+    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -80,15 +88,36 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     return True
 
 
+def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
+    """Return the version of URDF that the file is written in: 1.0 if it does not say."""
+    text = root.get("version")
+    if text is None:
+        return 1, 0
+    found = _VERSION.fullmatch(text)
+    if not found or int(found[1]) != 1:
+        reader.add(root, "bad-version", f"version={quoted(text)} is no version 1.x of URDF")
+        return _NEWEST
+    version = 1, int(found[2])
+    if version > _NEWEST:
+        reader.add(root, "newer-version", f"the file is of URDF 1.{version[1]}, and is read as 1.{_NEWEST[1]}")
+    return version
+
+
 def _read(reader: Reader, document: xml.Document) -> Robot:
     """Return the robot; it is of use only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
-    reader.expect(root, "robot", ("name",))
+    reader.expect(root, "robot", ("name", "version"))
+    reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
     for child in root:
+        if is_loop(child):
+            message = f"<{child.tag}> {child.get('name', '')}".rstrip()
+            reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
+        elif child.tag == "inertial":
+            reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
             reader.extension(child, "robot", _MODELLED, "")
 

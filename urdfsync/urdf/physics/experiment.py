@@ -28,6 +28,9 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
+    reading = read_robot(content, file, options.allow)
+    if left_out := [found.message for found in reading.diagnostics if found.code in options.allow]:
+        return left_out[0]
     robot = _robot(content, file)
     if loose := obstacles(robot.joints):
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"

@@ -1,0 +1,172 @@
+"""The page on URDF: what its table says of each element and attribute is what becomes of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+from support.corpus import REPOSITORY
+from support.meshes import stl
+from support.modelica import URDFSYNC
+from support.packages import Package, generate
+
+from urdfsync.domain import Target
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.snapshot import to_snapshot
+
+INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+ROBOT = f"""<robot name="own" version="1.2">
+  <material name="blue"><color rgba="0 0 1 1"/><texture filename="a.png"/></material>
+  <material name="red"><color rgba="1 0 0 1"/></material>
+  <link name="base"/>
+  <link name="arm">
+    <inertial><origin xyz="0 0 0.1" rpy="0 0 0.2"/><mass value="2"/>
+      <inertia ixx="3" ixy="0.1" ixz="0.2" iyy="4" iyz="0.3" izz="5"/></inertial>
+    <visual name="tube"><origin xyz="0 0 0.3" rpy="0 0 0.4"/>
+      <geometry><cylinder radius="0.1" length="1"/></geometry><material name="blue"/></visual>
+    <visual><geometry><mesh filename="a.stl" scale="2 2 2"/></geometry></visual>
+    <visual><geometry><capsule radius="0.2" length="1.5"/></geometry></visual>
+    <collision name="hull"><origin quat_xyzw="0 0 0 1"/><geometry><box size="1 2 3"/></geometry></collision>
+    <collision><geometry><sphere radius="0.3"/></geometry></collision>
+  </link>
+  <link name="hand"><inertial><mass value="1"/>{INERTIA}</inertial></link>
+  <link name="tip"><inertial><mass value="1"/>{INERTIA}</inertial></link>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1.1" effort="10" velocity="2" acceleration="3" deceleration="4" jerk="5"/>
+    <dynamics damping="0.5" friction="0.6"/><calibration rising="0.7" falling="0.8"/>
+    <safety_controller k_velocity="6" k_position="7" soft_lower_limit="-0.9" soft_upper_limit="0.9"/></joint>
+  <joint name="grip" type="continuous"><parent link="arm"/><child link="hand"/></joint>
+  <joint name="pull" type="continuous"><parent link="arm"/><child link="tip"/>
+    <mimic joint="turn" multiplier="8" offset="9"/></joint>
+  <link name="top"><inertial><mass value="1"/></inertial></link>
+  <joint name="spin" type="continuous"><parent link="arm"/><child link="top"/></joint>
+  <transmission name="t"><joint name="spin"/></transmission>
+  <ros2_control name="c" type="system"><joint name="grip"><command_interface name="position"/></joint></ros2_control>
+  <gazebo reference="arm"><material>Gazebo/Red</material></gazebo>
+  <sensor name="eye" type="camera"/>
+  <frame name="f"/>
+</robot>
+"""
+INERTIAS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+CHANGED = {
+    "robot name": ('name="own"', 'name="mine"'),
+    "robot version": ('version="1.2"', 'version="1.1"'),
+    "link name": (r'(?s)"hand"(.*)"hand"', r'"claw"\1"claw"'),
+    "inertial": (r'(?s)(<link name="tip">)<inertial>.*?</inertial>', r"\1"),
+    "inertial/mass value": ('mass value="2"', 'mass value="2.5"'),
+    **{f"inertial/inertia {name}": (rf'{name}="([\d.]+)"', rf'{name}="1\1"') for name in INERTIAS},
+    "visual name": ('"tube"', '"pipe"'),
+    "collision name": ('"hull"', '"skin"'),
+    "origin xyz": ('xyz="0 0 0.1"', 'xyz="0 0 0.15"'),
+    "origin rpy": ('rpy="0 0 0.2"', 'rpy="0 0 0.25"'),
+    "origin quat_xyzw": ('"0 0 0 1"', '"0 0 1 0"'),
+    "geometry/box size": ('"1 2 3"', '"1 2 4"'),
+    "geometry/cylinder radius": ('cylinder radius="0.1"', 'cylinder radius="0.15"'),
+    "geometry/cylinder length": ('length="1"', 'length="2"'),
+    "geometry/capsule radius": ('capsule radius="0.2"', 'capsule radius="0.15"'),
+    "geometry/capsule length": ('length="1.5"', 'length="2"'),
+    "geometry/sphere radius": ('sphere radius="0.3"', 'sphere radius="0.4"'),
+    "geometry/mesh filename": ("a.stl", "b.stl"),
+    "geometry/mesh scale": ("2 2 2", "3 3 3"),
+    "material name": ('<material name="blue"/>', '<material name="red"/>'),
+    "material/color rgba": ("0 0 1 1", "0 1 1 1"),
+    "material/texture filename": ("a.png", "b.png"),
+    "joint name": ('"grip"', '"grasp"'),
+    "joint type": ('"grip" type="continuous"', '"grip" type="fixed"'),
+    "joint/parent link": ('<parent link="arm"/><child link="hand"/>', '<parent link="tip"/><child link="hand"/>'),
+    "joint/child link": (r'(?s)child link="hand"/>(.*)child link="tip"/>', r'child link="tip"/>\1child link="hand"/>'),
+    "axis xyz": ('<axis xyz="0 0 1"/>', '<axis xyz="0 1 0"/>'),
+    "limit lower": ('lower="-1"', 'lower="-2"'),
+    "limit upper": ('upper="1.1"', 'upper="2"'),
+    **{f"limit {name}": (rf'{name}="(\d+)"', rf'{name}="1\1"') for name in ("effort", "velocity", "acceleration",
+                                                                         "deceleration", "jerk")},
+    "dynamics damping": ('damping="0.5"', 'damping="0.55"'),
+    "dynamics friction": ('friction="0.6"', 'friction="0.65"'),
+    "mimic joint": ('mimic joint="turn"', 'mimic joint="grip"'),
+    "mimic multiplier": ('multiplier="8"', 'multiplier="-8"'),
+    "mimic offset": ('offset="9"', 'offset="0"'),
+    "calibration rising": ('rising="0.7"', 'rising="0"'),
+    "calibration falling": ('falling="0.8"', 'falling="0"'),
+    **{f"safety_controller {name}": (rf'{name}="(-?)([\d.]+)"', rf'{name}="\g<1>1\2"') for name in (
+        "k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit")},
+    "transmission": ("<transmission.*</transmission>", ""),
+    "ros2_control": (r'(?s)<ros2.*?</ros2_control>', ""),
+    "gazebo": ("Gazebo/Red", "Gazebo/Blue"),
+    "sensor": ('type="camera"', 'type="ray"'),
+    "loop_joint": ("</robot>", '<loop_joint name="l"/></robot>'),
+    "gazebo/joint": ("</robot>", '<gazebo><joint name="l"/></gazebo></robot>'),
+    "robot/inertial": ("</robot>", "<inertial/></robot>"),
+    "any other": ('frame name="f"', 'frame name="g"'),
+}  # fmt: skip
+"""Another value of each row of the table: a pattern, and what takes its place once."""
+
+
+def rows() -> Iterator[tuple[str, str]]:
+    """Yield each element and attribute of the table, and what becomes of it."""
+    page = (REPOSITORY / "docs" / "urdf.md").read_text(encoding="utf-8")
+    elements: list[str] = []
+    for line in page.split("\n"):
+        cells = [cell.strip() for cell in line.split("|")]
+        if len(cells) == 6 and cells[3] in ("used", "read", "kept", "refused"):
+            elements = re.findall(r"`([^`]+)`", cells[1]) or ([cells[1]] if cells[1] else elements)
+            attributes = re.findall(r"`([^`]+)`", cells[2]) or [""]
+            yield from (
+                (f"{element} {attribute}".strip(), cells[3]) for element in elements for attribute in attributes
+            )
+
+
+ROWS = dict(rows())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The robot with its meshes."""
+    folder = tmp_path_factory.mktemp("robot")
+    (folder / "a.stl").write_text(stl(1))
+    (folder / "b.stl").write_text(stl(2))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def before(folder: Path) -> Package:
+    return package(folder, ROBOT)
+
+
+def package(folder: Path, text: str) -> Package:
+    (folder / "own.urdf").write_text(text)
+    return generate(folder / "own.urdf", Target("Own", "Own"), approach=("package", "record"))
+
+
+def is_used(old: Mapping[str, str], new: Mapping[str, str]) -> bool:
+    """Whether models differ, or the number of a record that some model reads; names are only said."""
+    records = {path for path in old if path.endswith("Parameters.mo")}
+    if {p: t for p, t in old.items() if p not in records} != {p: t for p, t in new.items() if p not in records}:
+        return True
+    lines = {line for path in records for line in set(old[path].split("\n")) ^ set(new[path].split("\n"))}
+    numbers = {name for line in lines for name in re.findall(r"(\w+) = ", line)} - {"name"}
+    library = [file for file in URDFSYNC.rglob("*.mo") if not {"Records", "Examples", "UsersGuide"} & {*file.parts}]
+    models = [*(file.read_text(encoding="utf-8") for file in library), *(old[p] for p in old.keys() - records)]
+    return any(re.search(rf"\.{name}\b", text) for name in numbers for text in models)
+
+
+def test_the_table_and_the_cases_have_the_same_rows() -> None:
+    assert ROWS.keys() == CHANGED.keys()
+
+
+@pytest.mark.parametrize("row", CHANGED)
+def test_each_row_says_what_becomes_of_it(row: str, folder: Path, before: Package) -> None:
+    pattern, other = CHANGED[row]
+    text, count = re.subn(pattern, other, ROBOT, count=1)
+    assert count == 1
+    if DOMAIN.read(text.encode(), "own.urdf", Options()).snapshot is None:
+        assert ROWS[row] == "refused"
+        return
+    after = package(folder, text)
+    if after.texts == before.texts and after.imports == before.imports:
+        assert to_snapshot(after.robot) != to_snapshot(before.robot)
+        assert ROWS[row] == "kept"
+    else:
+        assert ROWS[row] == ("used" if is_used(before.texts, after.texts) else "read")

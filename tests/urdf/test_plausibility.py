@@ -1,0 +1,102 @@
+"""What is hardly meant is one warning at its line; robots that are only unusual have none."""
+
+from __future__ import annotations
+
+import pytest
+from support.corpus import FOLDER, robots
+from support.packages import read
+from support.urdfs import joint, limit, link, robot
+
+BASE, ARM = link("base", 4.0), link("arm", 2.0)
+
+
+def body(mass: float, inertia: float, *shapes: str, name: str = "arm") -> str:
+    tensor = f'<inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"/>'
+    inertial = f'<inertial><mass value="{mass}"/>{tensor}</inertial>'
+    visuals = "".join(f"<visual>{shape}</visual>" for shape in shapes)
+    return f'<link name="{name}">{inertial}{visuals}</link>'
+
+
+def shape(geometry: str, xyz: str = "0 0 0") -> str:
+    return f'<origin xyz="{xyz}"/><geometry>{geometry}</geometry>'
+
+
+def turn(*inside: str, kind: str = "revolute", xyz: str = "0 0 1") -> str:
+    return joint("j", kind, "base", "arm", xyz=xyz, axis="0 0 1", inside=inside)
+
+
+BALL, MESH = '<sphere radius="0.1"/>', '<mesh filename="package://p/a.stl"/>'
+
+
+@pytest.mark.parametrize(("elements", "code", "line"), [
+    ([link("base"), link("arm"), turn()], "no-inertia", 2),
+    ([BASE, link("arm"), turn()], "no-inertia", 5),
+    ([body(400, 1, name="base"), body(200, 1), turn(xyz="0 0 0.3")], "mass-unit", 2),
+    ([BASE, body(1, 0.1, shape(BALL)), turn()], "inertia-size", 4),
+    ([BASE, body(1, 4e3, shape(MESH)), turn()], "inertia-size", 4),
+    ([BASE, body(1, 4e3), turn()], "inertia-size", 4),
+    ([BASE, body(1, 0, shape(MESH)), turn()], "inertia-size", 4),
+    ([BASE, ARM, turn(xyz="0 0 300")], "length-unit", 5),
+    ([BASE, ARM, turn(limit(0, 300), kind="prismatic")], "length-unit", 5),
+    ([BASE, ARM, turn(limit(-90, 90))], "angle-unit", 5),
+    ([BASE, ARM, turn(limit(0, 720))], "angle-unit", 5),
+    ([BASE, ARM, turn(limit(0, 0))], "zero-limits", 5),
+    ([BASE, ARM, turn(limit(velocity=0))], "zero-limits", 5),
+    ([BASE, ARM, turn('<limit effort="0" velocity="0"/>', kind="continuous")], "zero-limits", 5),
+    ([BASE, body(1, 0.1, shape(MESH, "0 12 0")), turn()], "shape-far", 4),
+])  # fmt: skip
+def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line: int) -> None:
+    text = robot(*elements)
+    reading = read(text.encode())
+    assert reading.snapshot is not None
+    assert [(str(d.severity), d.code) for d in reading.diagnostics] == [("warning", code)]
+    (found,) = reading.diagnostics
+    named = {"no-inertia": 'name="j"' if line == 5 else "<robot", "mass-unit": "<robot"}
+    assert named.get(code, "<link" if line == 4 else "<joint") in text.split("\n")[found.line - 1]
+    assert found.hint
+
+
+@pytest.mark.parametrize("elements", [
+    [link("base"), link("tool"), joint("mount", "fixed", "base", "tool")],
+    [link("world"), link("x"), ARM, joint("a", "prismatic", "world", "x"), joint("b", "prismatic", "x", "arm")],
+    [BASE, link("tool"), ARM, joint("mount", "fixed", "arm", "tool"), turn()],
+    [BASE, body(1, 0.004, shape(BALL)), turn()],
+    [BASE, body(1, 0.1, shape('<box size="0.001 0.001 0.001"/>')), turn()],
+    [BASE, body(1e-4, 0, shape(MESH)), turn()],
+    [BASE, body(1, 0), turn()],
+    [BASE, ARM, turn(limit(-7.33, 7.33))],
+    [BASE, ARM, turn(limit(-62.831853, 62.831853))],
+    [BASE, ARM, turn(limit(-1e9, 1e9))],
+    [BASE, ARM, turn(limit(0, 15), kind="prismatic")],
+    [link("base"), link("y"), ARM, joint("a", "prismatic", "base", "y", inside=[limit(-1000, 1000)]),
+     joint("b", "fixed", "y", "arm")],
+    [BASE, ARM, turn(limit(effort=0))],
+    [BASE, body(1, 0.1, shape(MESH, "0 1.9 0")), turn(xyz="0 0 0.1")],
+    [body(2000, 500, shape('<box size="4 2 1"/>'), name="base")],
+])  # fmt: skip
+def test_what_is_only_unusual_is_none(elements: list[str]) -> None:
+    assert read(robot(*elements).encode()).diagnostics == ()
+
+
+FILLED_IN = (
+    # Inertias that somebody filled in, 1e-3 or 1e-2 kg·m², of links of some millimetres and grams.
+    *("atlas/urdf/robotiq", "robotiq_tendons", "robotisOpenManipulator", "open_manipulator", "open_manipulator_robot"),
+    *("robotisTurtleBot3Burger", "turtlebot3_burger", "turtlebot3_burger_for_autorace", "schunk_pg70"),
+    "turtlebot3_burger_for_autorace_2020",
+    "rethinkSawyer",  # 1e-8 kg and 1e-8 kg·m²
+    "al5d_robot",  # links of 80 to 200 g without any
+)
+MASSLESS = (
+    *("lbr_iiwa_14_r820", "puma560_robot", "irb6640_185_280", "irb7600_150_350"),
+    *("m430ia2f", "m430ia2p", "m900ib700"),
+)
+CODES = {"no-inertia", "mass-unit", "inertia-size", "length-unit", "angle-unit", "shape-far"}
+
+
+@pytest.mark.usefixtures("corpus")
+@pytest.mark.parametrize("file", robots())
+def test_real_robots(file: str) -> None:
+    """Judged by hand: each finding is a fault of the file."""
+    found = {one.code for one in read((FOLDER / file).read_bytes()).diagnostics} & CODES
+    expected = {"inertia-size": FILLED_IN, "no-inertia": MASSLESS}
+    assert found == {c for c, names in expected.items() if file.endswith(tuple(f"/{name}.urdf" for name in names))}

@@ -1,0 +1,177 @@
+"""What is legal in a URDF and yet hardly meant: no inertia, numbers in another unit, a shape far outside of its link.
+
+The bounds leave a wide margin, since a warning about a sound robot is worse than none.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+
+from urdfsync.urdf.robot import (
+    JOINT_KINDS,
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Joint,
+    Link,
+    Mesh,
+    Robot,
+    Sphere,
+    Visual,
+)
+from urdfsync.urdf.validate import Finding
+
+_DENSEST = 10_000
+"""In kg/m³, of a cube as large as the robot; steel has 7,900."""
+_HEAVY = 500
+"""In kg: lighter robots may be smaller than what is known of their size."""
+_GYRATION = 3
+"""Radius of gyration in relation to the farthest point of a body, which can't be above 1. Shapes may be simplified."""
+_MARKER = 0.002
+"""In m: a shape that reaches no farther only marks a place, so that the size of the body is unknown."""
+_UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
+"""The same in relation to the robot, for bodies with a mesh or no shape, and the least size in m that counts."""
+_FAR, _FAR_AWAY = 10, 2
+"""Distance of a shape in relation to the robot's size, and in m."""
+_LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
+"""In m; the first one also in relation to the robot's size."""
+_FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
+_LIGHT = 0.05
+"""In kg: a lighter part may only mark a place, and its inertia may be rounded to 0."""
+
+
+def find_implausible(robot: Robot) -> Iterator[Finding]:
+    """Yield a warning for all that is hardly meant in a robot that passed all checks."""
+    distances, masses = _measure(robot)
+    length = max(distances.values())
+    yield from _check_masses(robot, masses, length)
+    for link in robot.links:
+        yield from _check_inertia(link, length)
+        yield from _check_shapes(link, length)
+    own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in robot.links}
+    for joint in robot.joints:
+        yield from _check_limits(joint, length, own_masses[joint.child])
+
+
+def _measure(robot: Robot) -> tuple[Mapping[str, float], Mapping[str, float]]:
+    """Return how far each link is from the root, along the joints, and the mass of it and all links behind it."""
+    behind: defaultdict[str, list[Joint]] = defaultdict(list)
+    for joint in robot.joints:
+        behind[joint.parent].append(joint)
+    children = {joint.child for joint in robot.joints}
+    distances = {link.name: 0.0 for link in robot.links if link.name not in children}
+    order = list(distances)
+    for name in order:  # grows while it is walked
+        for joint in behind[name]:
+            distances[joint.child] = distances[name] + math.hypot(*joint.origin.xyz)
+            order.append(joint.child)
+    masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in robot.links}
+    for name in reversed(order):
+        masses[name] += sum(masses[joint.child] for joint in behind[name])
+    return distances, masses
+
+
+def _check_masses(robot: Robot, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
+    """Whatever a joint moves has a mass, and the robot is no denser than steel."""
+    total = max(masses.values())
+    moving = [joint for joint in robot.joints if joint.type != "fixed"]
+    if moving and not total:
+        yield Finding("no-inertia", "robot", "no link has a mass, so that motion takes no force")
+        return
+    for joint in moving:
+        if not masses[joint.child] and masses[joint.parent]:
+            message = f"joint {joint.name!r} moves no mass: no link behind it has an <inertial>"
+            yield Finding("no-inertia", f"joint {joint.name}", message)
+    radii = [radius for link in robot.links if (radius := _radius(link)) and math.isfinite(radius)]
+    size = 2 * max([length / 2, *radii, *map(_gyration, robot.links)])
+    if total > _HEAVY and total > _DENSEST * size**3:
+        message = f"the masses add up to {total:.6g} kg in a robot of {size:.3g} m: they may be in grams"
+        yield Finding("mass-unit", "robot", message)
+
+
+def _check_inertia(link: Link, length: float) -> Iterator[Finding]:
+    """Some body as large as the link has its radius of gyration."""
+    if link.inertial is None or not link.inertial.mass:
+        return
+    gyration, radius, place = _gyration(link), _radius(link), f"link {link.name} / inertial"
+    if gyration == 0 and radius and link.inertial.mass > _LIGHT:
+        message = f"{place}: a body of {link.inertial.mass:g} kg that has a shape has no inertia"
+    elif _MARKER < radius < math.inf and gyration > _GYRATION * radius:
+        message = (
+            f"{place}: the radius of gyration is {gyration:.3g} m, but no point of the link is beyond {radius:.3g} m"
+        )
+    elif not _MARKER < radius < math.inf and gyration > _UNKNOWN_GYRATION * max(length, _UNKNOWN_SIZE):
+        message = f"{place}: the radius of gyration is {gyration:.3g} m in a robot of {length:.3g} m"
+    else:
+        return
+    yield Finding("inertia-size", f"{place} / inertia", message)
+
+
+def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
+    """No shape is far outside of the robot."""
+    groups: Mapping[str, Sequence[Visual | Collision]] = {"visual": link.visuals, "collision": link.collisions}
+    for kind, shapes in groups.items():
+        for number, shape in enumerate(shapes, start=1):
+            away = math.hypot(*shape.origin.xyz)
+            own = _extent(shape.geometry)
+            if length and away - (own if math.isfinite(own) else 0) > max(_FAR * length, _FAR_AWAY):
+                place = f"link {link.name} / {kind} {number}"
+                message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
+                yield Finding("shape-far", f"{place} / origin", message)
+
+
+def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
+    """The joint is no farther from its parent, and its limits are no wider, than in SI units.
+
+    `mass` is that of the child link: without one, the joint may be one of those that let a robot go anywhere.
+    """
+    path, away = f"joint {joint.name}", math.hypot(*joint.origin.xyz)
+    if away > _LONG_JOINT:
+        message = f"{path} is {away:.6g} m away from its parent: lengths may be in millimetres"
+        yield Finding("length-unit", f"{path} / origin", message)
+    limit, kind = joint.limit, JOINT_KINDS[joint.type]
+    if limit is None or not kind.has_limits:
+        return
+    place, widest = f"{path} / limit", max(abs(limit.lower), abs(limit.upper))
+    if kind.motion == "rotational":
+        is_whole = limit.lower.is_integer() and limit.upper.is_integer()
+        if is_whole and _FOUR_TURNS < widest <= _TWO_TURNS_IN_DEGREES:
+            message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} rad may be in degrees"
+            yield Finding("angle-unit", place, message)
+    elif max(_LONG_SLIDE, _LONG_SLIDE * length) < widest <= _LONGEST_SLIDE and mass > _LIGHT:
+        message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} m may be in millimetres"
+        yield Finding("length-unit", place, message)
+
+
+def _gyration(link: Link) -> float:
+    """Return the root mean square distance of a link's mass from its centre in m; 0 without mass or inertia."""
+    if link.inertial is None or not link.inertial.mass:
+        return 0.0
+    inertia = link.inertial.inertia
+    return math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / link.inertial.mass)
+
+
+def _radius(link: Link) -> float:
+    """Return how far the shapes of a link reach from its centre of mass; infinite with a mesh, 0 without shapes."""
+    centre = link.inertial.origin.xyz if link.inertial else (0.0, 0.0, 0.0)
+    shapes: Sequence[Visual | Collision] = (*link.visuals, *link.collisions)
+    return max((math.dist(shape.origin.xyz, centre) + _extent(shape.geometry) for shape in shapes), default=0.0)
+
+
+def _extent(geometry: Geometry) -> float:
+    """Return how far a shape reaches from its own origin: infinite for a mesh, which nobody has read yet."""
+    match geometry:
+        case Box(size=size):
+            return math.hypot(*size) / 2
+        case Cylinder(radius=radius, length=length):
+            return math.hypot(radius, length / 2)
+        case Capsule(radius=radius, length=length):
+            return radius + length / 2
+        case Sphere(radius=radius):
+            return radius
+        case Mesh():
+            return math.inf
