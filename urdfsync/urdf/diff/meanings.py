@@ -34,7 +34,7 @@ _UNITS = {
     "radius": "m",
     "length": "m",
     "mass": "kg",
-    **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "kg·m²"),
+    **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz", "rotor_inertia"), "kg·m²"),
 }
 _POSITION: Mapping[Motion, str] = {"rotational": "rad", "translational": "m"}
 _LOADS: Mapping[Motion, str] = {"rotational": "N·m", "translational": "N"}
@@ -44,6 +44,7 @@ _JOINT_UNITS: Mapping[str, Mapping[Motion, str]] = {
     **dict.fromkeys(_POSITIONS, _POSITION),
     **dict.fromkeys(("effort", "friction"), _LOADS),
     **dict.fromkeys(("damping", "k_velocity"), _LOSSES),
+    "armature": {"rotational": "kg·m²", "translational": "kg"},
     "velocity": {"rotational": "rad/s", "translational": "m/s"},
     "k_position": {"rotational": "1/s", "translational": "1/s"},
 }
