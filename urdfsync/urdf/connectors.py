@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
-from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints, has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier
 from urdfsync.urdf.options import Options
@@ -32,6 +32,8 @@ class Drive(msgspec.Struct, frozen=True):
     """Run's input; None if Run does not drive the joint, or has all positions in one vector."""
     effort: str | None
     """Run's output; None if Run does not drive the joint."""
+    motor: str | None
+    """The flange at the motor's side of the gear; None if there is none."""
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -69,6 +71,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
             free_name(identifier, "Support", taken),
             position if is_driven and options.inputs == "names" else None,
             effort if is_driven else None,
+            free_name(identifier, "Motor", taken) if has_motor(joint, options) else None,
         )
     return Connectors(
         {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
@@ -91,13 +94,17 @@ def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
             found |= dict.fromkeys(filter(None, (drive.position, drive.effort)), _option("driven", driven))
         elif drive.position and options.inputs == "vector":
             found[drive.position] = 'inputs = "names"'
+        if drive.motor and not has.drives[joint].motor:
+            found[drive.motor] = 'drives = "motor"'
     return found if options.inputs == "vector" else {"positions": 'inputs = "vector"', **found}
 
 
 def every_connector(tree: KinematicTree, options: Options) -> Connectors:
-    """Return the names for a robot with all frames, and with a Run that drives all that can be driven."""
+    """Return the names for a robot with all frames and motors, and with a Run that drives all that can be driven."""
     joints = tuple(joint.name for joint in tree.joints)
-    return connector_names(tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names"))
+    return connector_names(
+        tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names", drives="motor")
+    )
 
 
 def _option(key: str, names: Iterable[str]) -> str:

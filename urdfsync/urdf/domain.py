@@ -70,7 +70,7 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 7
+    revision = 8
     fits_since = 5
     warnings = WARNINGS
     options = Options

@@ -247,18 +247,10 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return an effective joint without its numbers. Models are made from this."""
-    dynamics, gear = joint.dynamics, joint.transmission
-    return Joint(
-        joint.name,
-        joint.type,
-        joint.parent,
-        joint.child,
-        dynamics=dynamics and Dynamics(armature=dynamics.armature and 0.0),
-        mimic=joint.mimic and Mimic(joint.mimic.joint),
-        transmission=gear and Transmission(rotor_inertia=gear.rotor_inertia and 0.0),
-        command=joint.command,
-    )
+    """Return an effective joint without its numbers and its drive. Models are made from this."""
+    dynamics = None if joint.dynamics is None else Dynamics()
+    mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, dynamics=dynamics, mimic=mimic)
 
 
 class Extension(msgspec.Struct, frozen=True, gc=False):

@@ -13,7 +13,13 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
-_DRIVE = {"axis": "axis", "support": "support", "position": "position in Run", "effort": "effort in Run"}
+_DRIVE = {
+    "axis": "axis",
+    "support": "support",
+    "motor": "motor",
+    "position": "position in Run",
+    "effort": "effort in Run",
+}
 """Fields of `Drive`, and what they are in a report."""
 
 

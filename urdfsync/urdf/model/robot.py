@@ -14,9 +14,10 @@ import msgspec
 
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.drives import has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, reflected_inertia
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
@@ -26,6 +27,13 @@ _FRAME_Y = -50  # where the benches of the library have the frame that the robot
 def joint_title(joint: Joint) -> str:
     """Return what a joint is, in words."""
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
+
+
+def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
+    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange."""
+    armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
+    inertia = armature if with_motor else reflected_inertia(joint)
+    return {"dynamics": joint.dynamics is not None, "inertia": inertia is not None, "motor": with_motor}
 
 
 @functools.lru_cache(maxsize=1)
@@ -70,6 +78,7 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
                 "kind": joint.type,
                 "title": joint_title(joint),
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
+                "motor": joint.name in names.drives and names.drives[joint.name].motor is not None,
                 "follows": couplings.get(joint.name),
                 "followers": followers[tree.joint(joint.name).component],
             }
