@@ -12,7 +12,7 @@ import pytest
 from support import generic, physics
 from support.modelica import Array, Run, Task, bench, simulate
 from support.packages import Package, generate
-from support.urdfs import dynamics, joint, link, links, mimic, robot
+from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
@@ -212,3 +212,34 @@ def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_libr
     for (_, _, flanges), task, series in zip(WAYS.values(), tasks, runs, strict=True):
         found = [series.values[v][0] * flange.ratio for v, flange in zip(task.values, flanges, strict=True)]
         assert found == pytest.approx(reference.projection.T @ load, rel=1e-10)
+
+
+COMMANDED = robot(
+    *links(base=4.0, arm=1.0, wheel=1.0, cart=2.0, lift=1.0),
+    joint("pan", "revolute", "base", "arm", axis="0 0 1", rpy="0 0 0"),
+    joint("roll", "continuous", "base", "wheel", axis="0 0 1", rpy="0 0 0"),
+    joint("push", "prismatic", "base", "cart", axis="1 0 0", rpy="0 0 0", inside=[limit(lower=0.5)]),
+    joint("rise", "prismatic", "base", "lift", axis="0 0 1", rpy="0 0 0", inside=[limit(lower=0.25)]),
+    '<ros2_control name="all" type="system">',
+    *(
+        f'<joint name="{name}"><command_interface name="{command}"/></joint>'
+        for name, command in {"pan": "position", "roll": "velocity", "push": "effort", "rise": "velocity"}.items()
+    ),
+    "</ros2_control>",
+)
+
+
+@pytest.mark.parametrize("inputs", ["names", "vector"])
+def test_run_takes_what_ros2_control_commands(modelica_library: Path, tmp_path: Path, inputs: str) -> None:
+    """A position, two speeds, and a force of 4 N on 2 kg; joints begin at their start positions."""
+    package = generate(COMMANDED.encode(), Target("Carts", "Carts"), inputs=inputs)
+    given = {"pan_phi": "0.4", "push_f": "4", "rise_v": "0.5", "roll_w": "3"}
+    places = dict(zip(given, (given if inputs == "names" else (f"commands[{k}]" for k in (1, 2, 3, 4))), strict=True))
+    body = "Carts.CartsRun run;\n  equation\n"
+    body += "".join(f"    run.{places[name]} = {value};\n" for name, value in given.items())
+    names = ("panAxis.phi", "rollAxis.phi", "pushAxis.s", "riseAxis.s")
+    values = ["run.push_s", "run.push_v", *(f"run.robot.{name}" for name in names)]
+    source = f"model CartsBench\n  import Modelica;\n  import UrdfSync;\n  import Carts;\n  {body}end CartsBench;\n"
+    task = Task(source, "CartsBench", [Run(1.0, 0.5, tolerance=1e-8)], values)
+    (series,) = simulate(modelica_library, [package.write(tmp_path)], [task])
+    assert series.end(*values) == pytest.approx([1.5, 2.0, 0.4, 3.0, 1.5, 0.75], abs=1e-6)

@@ -36,7 +36,12 @@ GRIPPER = robot(
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
     joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
     joint(
-        "grip", "prismatic", "slide", "finger", axis="1 0 0", inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4, 0.3)]
+        "grip",
+        "prismatic",
+        "slide",
+        "finger",
+        axis="1 0 0",
+        inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4, 0.3)],
     ),
 )
 """A chain with branches; press follows grip, which comes after it, and grip follows shoulder."""

@@ -69,6 +69,7 @@ def _snapshot(random: Random) -> Data:
     for joint in snapshot["joints"].values():
         if random.random() < 0.3:
             rotor = random.choice(({}, {"rotor_inertia": 1.0}))
+            joint["command"] = random.choice(("velocity", "effort"))
             joint["transmission"] = {"reduction": random.choice((1.0, 50.0)), "offset": 0.0, **rotor}
     return snapshot
 

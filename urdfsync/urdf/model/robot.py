@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.urdf.connectors import Connectors
+from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -102,13 +102,13 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     20 has its place beside each.
     """
     top, rows = _icon_top(names), _drives(tree, names)
+    drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "visualizer": options.visualizer,
-        "drives": [
-            row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["effort"] is not None
-        ],
-        "passive": [row["joint"] for row in rows if row["effort"] is None],
+        "drives": [row | {"input": row[row["command"]]} for row in drives],
+        "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
         "inputs": options.inputs,
+        "vector": input_vector(names),
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
         "icon_top": top,
