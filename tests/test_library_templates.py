@@ -60,7 +60,9 @@ def library_artifacts() -> Iterator[Artifact | Order]:
     for joint in JOINT_KINDS:
         name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"
         data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
-        data |= {"dynamics": JOINT_KINDS[joint].has_axis, "accelerations": True, "note": note}
+        facts = JOINT_KINDS[joint]
+        data |= {"dynamics": facts.has_axis, "accelerations": True, "note": note}
+        data |= {"inertia": facts.motion is not None, "motor": False}
         yield Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{joint}.mo.jinja", data, name)
 
 

@@ -36,7 +36,7 @@ ROBOT = f"""<robot name="own" version="1.2">
   <link name="tip"><inertial><mass value="1"/>{INERTIA}</inertial></link>
   <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
     <limit lower="-1" upper="1.1" effort="10" velocity="2" acceleration="3" deceleration="4" jerk="5"/>
-    <dynamics damping="0.5" friction="0.6"/><calibration rising="0.7" falling="0.8"/>
+    <dynamics damping="0.5" friction="0.6" armature="0.03"/><calibration rising="0.7" falling="0.8"/>
     <safety_controller k_velocity="6" k_position="7" soft_lower_limit="-0.9" soft_upper_limit="0.9"/></joint>
   <joint name="grip" type="continuous"><parent link="arm"/><child link="hand"/></joint>
   <joint name="pull" type="continuous"><parent link="arm"/><child link="tip"/>
@@ -85,6 +85,7 @@ CHANGED = {
                                                                          "deceleration", "jerk")},
     "dynamics damping": ('damping="0.5"', 'damping="0.55"'),
     "dynamics friction": ('friction="0.6"', 'friction="0.65"'),
+    "dynamics armature": ('armature="0.03"', 'armature="0.04"'),
     "mimic joint": ('mimic joint="turn"', 'mimic joint="grip"'),
     "mimic multiplier": ('multiplier="8"', 'multiplier="-8"'),
     "mimic offset": ('offset="9"', 'offset="0"'),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -11,15 +12,24 @@ import pytest
 from support import generic, physics
 from support.modelica import Array, Run, Task, bench, simulate
 from support.packages import Package, generate
-from support.urdfs import dynamics, joint, link, links, mimic, robot
+from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
+from urdfsync.urdf.physics.probe import DRIVES
 from urdfsync.urdf.physics.reference import Reference, read
 from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
+
+
+def gear(joint: str, reduction: float, rotor: float, offset: float = 0.0) -> str:
+    """A transmission with the rotor of its motor."""
+    actuator = f"<mechanicalReduction>{reduction}</mechanicalReduction>" + f'<drake:rotor_inertia value="{rotor}"/>'
+    offsets = f'<joint name="{joint}"><offset>{offset}</offset></joint>'
+    return f'<transmission name="{joint}">{offsets}<actuator name="m">{actuator}</actuator></transmission>'
+
 
 TYPES = robot(
     *links(base=4.0, upper=2.5, fore=1.5, hand=0.7),
@@ -57,6 +67,22 @@ CHAIN = robot(
 )
 """Turning follows turning twice over, sliding follows sliding; followers have losses of their own."""
 
+GEARED = robot(
+    *links(base=4.0, upper=2.5, fore=1.5, hand=0.7, thumb=0.3),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[dynamics(0.5, 0.3)]),
+    joint(
+        "elbow", "continuous", "upper", "fore", axis="0.3 -0.4 1.2", inside=['<dynamics damping="0.1" armature="0.7"/>']
+    ),
+    joint("slide", "prismatic", "fore", "hand", axis="-2 0 0"),
+    joint(
+        "press", "prismatic", "fore", "thumb", inside=[mimic("elbow", 0.05), '<dynamics damping="0" armature="2.5"/>']
+    ),
+    gear("shoulder", 100.0, 3e-4, 0.25),
+    gear("slide", -400.0, 2e-5, -0.1),
+    gear("press", 300.0, 1e-5),
+)
+"""Gears with rotors, also behind a joint that follows, and armatures, also of a joint that follows."""
+
 HELD = robot(
     *links(base=1.0, plate=1.0, bracket=1.0, pin=1.0, arm=1.0),
     joint("weld", "fixed", "base", "plate"),
@@ -67,7 +93,7 @@ HELD = robot(
 """Joints that follow one that never moves stay at their offsets."""
 
 
-DRIVEN = {"types": TYPES, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD}
+DRIVEN = {"geared": GEARED, "types": TYPES, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD}
 """Robots in which every joint has an axis."""
 
 
@@ -107,9 +133,113 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
 
 def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Without drives."""
-    robots = {name: DRIVEN[name] for name in ("types", "massless", "gripper")}
+    robots = {name: DRIVEN[name] for name in ("geared", "types", "massless", "gripper")}
     packages, tasks, accelerations = zip(*(release(name.title(), urdf) for name, urdf in robots.items()), strict=True)
     runs = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)
     for name, task, expected, series in zip(robots, tasks, accelerations, runs, strict=True):
         found = np.array([series.values[value][0] for value in task.values])
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max()), name
+
+
+class Flange(NamedTuple):
+    """Where an axis is driven; position = ratio*(position of the joint - offset)."""
+
+    name: str
+    effort: str = "tau"
+    ratio: float = 1.0
+    offset: float = 0.0
+
+
+WAYS: Mapping[str, tuple[Mapping[str, Any], str, Sequence[Flange]]] = {
+    "Package": (
+        {},
+        "Package.Package robot(",
+        [Flange("shoulderAxis"), Flange("elbowAxis"), Flange("slideAxis", "f")],
+    ),
+    "Motors": (
+        {"drives": "motor"},
+        "Motors.Motors robot(",
+        [
+            Flange("shoulderMotor", ratio=100.0, offset=0.25),
+            Flange("elbowAxis"),
+            Flange("slideMotor", ratio=-400.0, offset=-0.1),
+        ],
+    ),
+    "Tables": (
+        {"approach": ("record",)},
+        "UrdfSync.Robots.GenericRobot robot(redeclare parameter Tables.TablesParameters data, ",
+        [Flange("rotationalAxis[1]"), Flange("rotationalAxis[2]"), Flange("translationalAxis[1]", "f")],
+    ),
+}
+"""By package: options, the declaration of the robot, and the flanges of shoulder, elbow and slide."""
+
+
+def geared_task(name: str, courses: Sequence[Course]) -> Task:
+    """The robot with gears, its axes moved at the flanges of one of the `WAYS`."""
+    _, robot_, flanges = WAYS[name]
+    body, links = f"{robot_}fixedStart = false, checkLimits = false);\n", "connect(world.frame_b, robot.frame_a);"
+    for k, (flange, course) in enumerate(zip(flanges, courses, strict=True)):
+        kind, (a0, a1, a2) = "Rotational" if flange.effort == "tau" else "Translational", course
+        numbers = [flange.ratio * (a0 - flange.offset), flange.ratio * a1, flange.ratio * a2]
+        body += f"    {kind}Drive drive{k}(a0 = {numbers[0]!r}, a1 = {numbers[1]!r}, a2 = {numbers[2]!r});\n"
+        links += f"\n    connect(drive{k}.flange, robot.{flange.name});"
+    values = [f"robot.{flange.name}.{flange.effort}" for flange in flanges]
+    runs = [Run(1e-3, 1e-3)]
+    return bench(
+        f"{body}  equation\n    {links}", runs, values, packages=[name], gravity=motion.GRAVITY, classes=DRIVES
+    )
+
+
+def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
+    """Reduction 100 and others, to 1e-10, with armatures that are computed by hand.
+
+    In both approaches, and driven at the motor's side of the gear, where angle and torque are those of the motor.
+    """
+    packages = [generate(GEARED.encode(), Target(name, name), **WAYS[name][0]) for name in WAYS]
+    axes = motion.driven_axes(packages[0].skeleton)
+    names, courses = [each.name for each in axes], [motion.axis_course(each) for each in axes]
+    assert names == ["shoulder", "elbow", "slide"]
+    reference = Reference(read(GEARED.encode(), "robot.urdf"), names)
+    model = reference.model
+    for name, inertia in {"shoulder": 3.0, "elbow": 0.7, "slide": 3.2, "press": 3.4}.items():
+        model.armature[model.joints[model.getJointId(name)].idx_v] = inertia
+    state = reference.state(0.0, courses)
+    state.q[:7], state.v[:6], state.a[:6] = pin.neutral(model)[:7], 0, 0
+    load = pin.rnea(model, model.createData(), state.q, state.v, state.a) + reference.losses(state.v)
+
+    tasks = [geared_task(name, courses) for name in WAYS]
+    runs = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)
+    for (_, _, flanges), task, series in zip(WAYS.values(), tasks, runs, strict=True):
+        found = [series.values[v][0] * flange.ratio for v, flange in zip(task.values, flanges, strict=True)]
+        assert found == pytest.approx(reference.projection.T @ load, rel=1e-10)
+
+
+COMMANDED = robot(
+    *links(base=4.0, arm=1.0, wheel=1.0, cart=2.0, lift=1.0),
+    joint("pan", "revolute", "base", "arm", axis="0 0 1", rpy="0 0 0"),
+    joint("roll", "continuous", "base", "wheel", axis="0 0 1", rpy="0 0 0"),
+    joint("push", "prismatic", "base", "cart", axis="1 0 0", rpy="0 0 0", inside=[limit(lower=0.5)]),
+    joint("rise", "prismatic", "base", "lift", axis="0 0 1", rpy="0 0 0", inside=[limit(lower=0.25)]),
+    '<ros2_control name="all" type="system">',
+    *(
+        f'<joint name="{name}"><command_interface name="{command}"/></joint>'
+        for name, command in {"pan": "position", "roll": "velocity", "push": "effort", "rise": "velocity"}.items()
+    ),
+    "</ros2_control>",
+)
+
+
+@pytest.mark.parametrize("inputs", ["names", "vector"])
+def test_run_takes_what_ros2_control_commands(modelica_library: Path, tmp_path: Path, inputs: str) -> None:
+    """A position, two speeds, and a force of 4 N on 2 kg; joints begin at their start positions."""
+    package = generate(COMMANDED.encode(), Target("Carts", "Carts"), inputs=inputs)
+    given = {"pan_phi": "0.4", "push_f": "4", "rise_v": "0.5", "roll_w": "3"}
+    places = dict(zip(given, (given if inputs == "names" else (f"commands[{k}]" for k in (1, 2, 3, 4))), strict=True))
+    body = "Carts.CartsRun run;\n  equation\n"
+    body += "".join(f"    run.{places[name]} = {value};\n" for name, value in given.items())
+    names = ("panAxis.phi", "rollAxis.phi", "pushAxis.s", "riseAxis.s")
+    values = ["run.push_s", "run.push_v", *(f"run.robot.{name}" for name in names)]
+    source = f"model CartsBench\n  import Modelica;\n  import UrdfSync;\n  import Carts;\n  {body}end CartsBench;\n"
+    task = Task(source, "CartsBench", [Run(1.0, 0.5, tolerance=1e-8)], values)
+    (series,) = simulate(modelica_library, [package.write(tmp_path)], [task])
+    assert series.end(*values) == pytest.approx([1.5, 2.0, 0.4, 3.0, 1.5, 0.75], abs=1e-6)

@@ -65,7 +65,13 @@ def rename(snapshot: Data, part: str, old: str, new: str) -> None:
 
 def _snapshot(random: Random) -> Data:
     """A random robot as data that may be changed."""
-    return copy.deepcopy(dict(to_snapshot(robots.dressed(robots.random_robot(random), random))))
+    snapshot = copy.deepcopy(dict(to_snapshot(robots.dressed(robots.random_robot(random), random))))
+    for joint in snapshot["joints"].values():
+        if random.random() < 0.3:
+            rotor = random.choice(({}, {"rotor_inertia": 1.0}))
+            joint["command"] = random.choice(("velocity", "effort"))
+            joint["transmission"] = {"reduction": random.choice((1.0, 50.0)), "offset": 0.0, **rotor}
+    return snapshot
 
 
 def _donor(random: Random) -> Data:

@@ -154,7 +154,7 @@ def _blocks(random: Random, joint: Joint) -> dict[str, object]:
     """Some of what a joint may have."""
     blocks = {
         "limit": Limit(-1.0, 1.0, random.choice((None, 2.0))),
-        "dynamics": Dynamics(0.0, random.choice((0.0, 0.2))),
+        "dynamics": Dynamics(0.0, random.choice((0.0, 0.2)), random.choice((None, None, 0.0, 0.1))),
         "calibration": Calibration(random.choice((None, 0.5))),
         "safety_controller": SafetyController(1.0, 1.0),
     }
@@ -190,7 +190,7 @@ def _element(tag: str, value: msgspec.Struct) -> str:
             inside += "".join(_element(tagged, one) for one in field)
         elif field is not None and name in _ATTRIBUTES:
             inside += f"<{tagged} {_ATTRIBUTES[name]}={_quoted(field)}/>"
-        elif field is not None and name != "actuated":
+        elif field is not None and name not in ("actuated", "command"):
             attributes += f" {name}={_quoted(field)}"
     return f"<{tag}{attributes}>{inside}</{tag}>"
 

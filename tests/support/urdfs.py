@@ -60,9 +60,10 @@ def limit(lower: float = -3, upper: float = 3, velocity: float = 10, effort: flo
     return f'<limit lower="{lower!r}" upper="{upper!r}" velocity="{velocity!r}" effort="{effort!r}"/>'
 
 
-def dynamics(damping: float, friction: float) -> str:
-    """Losses of a joint."""
-    return f'<dynamics damping="{damping!r}" friction="{friction!r}"/>'
+def dynamics(damping: float, friction: float, armature: float | None = None) -> str:
+    """Losses of a joint, and what its drive adds to the inertia."""
+    more = "" if armature is None else f' armature="{armature!r}"'
+    return f'<dynamics damping="{damping!r}" friction="{friction!r}"{more}/>'
 
 
 def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:

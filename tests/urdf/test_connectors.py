@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from support.robots import robots, tree
 
-from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.connectors import connector_names, connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Mimic, Robot
+from urdfsync.urdf.robot import Joint, Mimic, Robot, Transmission
 
 HAND = tree(
     Joint("j2", "fixed", "palm", "thumb"),
@@ -51,6 +51,20 @@ def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
     assert names.drives["elbow"].support == "elbowSupport_2"
     assert names.frames["hand"] == "handFrame_2"
     assert names.couplings == {"follow": "followMimic_2"}
+
+
+def test_a_motor_has_a_flange_where_a_joint_that_can_be_driven_has_a_gear() -> None:
+    gear = Transmission(50.0)
+    robot = tree(
+        Joint("elbow", "revolute", "base", "elbowMotor", transmission=gear),
+        Joint("wrist", "revolute", "elbowMotor", "hand"),
+        Joint("follow", "revolute", "hand", "tip", mimic=Mimic("elbow"), transmission=gear),
+        Joint("bolt", "fixed", "hand", "plate", transmission=gear),
+    )
+    motors = {name: drive.motor for name, drive in connector_names(robot, Options(drives="motor")).drives.items()}
+    assert motors == {"elbow": "elbowMotor_2", "wrist": None}
+    assert {drive.motor for drive in connector_names(robot, Options()).drives.values()} == {None}
+    assert connector_options(robot, Options())["elbowMotor_2"] == 'drives = "motor"'
 
 
 @given(robots())

@@ -12,12 +12,12 @@ from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import NO_LIMITS, record_data
-from urdfsync.urdf.model.robot import bench_data, joint_title, robot_data
+from urdfsync.urdf.model.robot import bench_data, joint_model, joint_title, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot, limits_acceleration
+from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -38,8 +38,8 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         files.append(_of_robot("Test", "test", target, options, benches))
         for link in tree.links:
             files += _link(link, tree.link(link.name), imports, package, options)
-        for joint, model in zip(tree.joints, structure.joints, strict=True):
-            files += _joint(joint, model, tree.joint(joint.name), package)
+        for joint in tree.joints:
+            files += _joint(joint, tree.joint(joint.name), package, options)
         if options.base == "floating":
             stance = {"record": f"{target.name}Stance", "height": standing_height(tree, imports)}
             files.append(_of_robot("Stance", "stance", target, options, stance, Role.RECORD))
@@ -145,8 +145,8 @@ def _link(
     )
 
 
-def _joint(joint: Joint, structure: Joint, name: Identifier, package: str) -> tuple[Artifact, Artifact]:
-    """Return record and model of a joint; `structure` is the joint without numbers."""
+def _joint(joint: Joint, name: Identifier, package: str, options: Options) -> tuple[Artifact, Artifact]:
+    """Return record and model of a joint."""
     owner = f"joint {joint.name}"
     named = {
         "within": f"{package}.Joints",
@@ -157,8 +157,7 @@ def _joint(joint: Joint, structure: Joint, name: Identifier, package: str) -> tu
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
-    checks = {"dynamics": structure.dynamics is not None, "accelerations": limits_acceleration(structure)}
-    model = checks | {"note": note}
+    model = joint_model(joint, options) | {"note": note}
     template = f"joint/{joint.type}"
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),

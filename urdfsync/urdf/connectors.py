@@ -6,18 +6,27 @@ with a number; so a new connector never renames an element, whose name is that o
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints, has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, Command, Motion
 
-_VARIABLES: Mapping[Motion, tuple[str, str]] = {"rotational": ("phi", "tau"), "translational": ("s", "f")}
-"""How the names of position and effort end."""
+_VARIABLES: Mapping[Motion, Mapping[Command, str]] = {
+    "rotational": {"position": "phi", "velocity": "w", "effort": "tau"},
+    "translational": {"position": "s", "velocity": "v", "effort": "f"},
+}
+"""How the names of variables of Run end."""
+_IN_RUN: Mapping[Command, Sequence[Command]] = {
+    "position": ("position", "effort"),
+    "velocity": ("velocity", "effort"),
+    "effort": ("position", "velocity", "effort"),
+}
+"""By what commands a joint, the variables that Run has of it: the command is the input, the others are outputs."""
 
 
 class Drive(msgspec.Struct, frozen=True):
@@ -28,10 +37,16 @@ class Drive(msgspec.Struct, frozen=True):
     """The flange that moves."""
     support: str
     """The flange of the drive's housing."""
+    motor: str | None
+    """The flange at the motor's side of the gear; None if there is none."""
+    command: Command | None
+    """Which of the variables is the input of Run; None if Run does not drive the joint."""
     position: str | None
-    """Run's input; None if Run does not drive the joint, or has all positions in one vector."""
+    """A variable of Run. None if it is not there, or is one of the vector of all inputs."""
+    velocity: str | None
+    """Likewise."""
     effort: str | None
-    """Run's output; None if Run does not drive the joint."""
+    """Likewise."""
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -61,14 +76,21 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
     driven, drives = driven_joints(tree.joints, options), {}
     for joint in filter(can_be_driven, tree.joints):
-        identifier, motion, is_driven = tree.joint(joint.name), MOTION_KINDS[joint.type], joint.name in driven
-        position, effort = (f"{identifier.component}_{variable}" for variable in _VARIABLES[motion])
+        identifier, motion = tree.joint(joint.name), MOTION_KINDS[joint.type]
+        command = joint.command if joint.name in driven else None
+        in_vector = command if options.inputs == "vector" else None
         drives[joint.name] = Drive(
             motion,
             free_name(identifier, "Axis", taken),
             free_name(identifier, "Support", taken),
-            position if is_driven and options.inputs == "names" else None,
-            effort if is_driven else None,
+            free_name(identifier, "Motor", taken) if has_motor(joint, options) else None,
+            command,
+            *(
+                f"{identifier.component}_{ending}"
+                if command and variable in _IN_RUN[command] and variable != in_vector
+                else None
+                for variable, ending in _VARIABLES[motion].items()
+            ),
         )
     return Connectors(
         {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
@@ -86,18 +108,29 @@ def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
     named = () if isinstance(options.frames, str) else options.frames
     found = {frame: _option("frames", (*named, link)) for link, frame in every.frames.items() if link not in has.frames}
     for joint, drive in every.drives.items():
-        if not has.drives[joint].effort:
-            driven = (name for name, one in has.drives.items() if one.effort or name == joint)
-            found |= dict.fromkeys(filter(None, (drive.position, drive.effort)), _option("driven", driven))
-        elif drive.position and options.inputs == "vector":
-            found[drive.position] = 'inputs = "names"'
-    return found if options.inputs == "vector" else {"positions": 'inputs = "vector"', **found}
+        if not has.drives[joint].command:
+            driven = (name for name, one in has.drives.items() if one.command or name == joint)
+            variables = filter(None, (drive.position, drive.velocity, drive.effort))
+            found |= dict.fromkeys(variables, _option("driven", driven))
+        elif options.inputs == "vector" and (input_ := getattr(drive, drive.command or "position")):
+            found[input_] = 'inputs = "names"'
+        if drive.motor and not has.drives[joint].motor:
+            found[drive.motor] = 'drives = "motor"'
+    return found if options.inputs == "vector" else {input_vector(has): 'inputs = "vector"', **found}
+
+
+def input_vector(names: Connectors) -> str:
+    """Return the name of the vector of all inputs of Run."""
+    commands = {drive.command for drive in names.drives.values() if drive.command}
+    return "positions" if commands <= {"position"} else "commands"
 
 
 def every_connector(tree: KinematicTree, options: Options) -> Connectors:
-    """Return the names for a robot with all frames, and with a Run that drives all that can be driven."""
+    """Return the names for a robot with all frames and motors, and with a Run that drives all that can be driven."""
     joints = tuple(joint.name for joint in tree.joints)
-    return connector_names(tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names"))
+    return connector_names(
+        tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names", drives="motor")
+    )
 
 
 def _option(key: str, names: Iterable[str]) -> str:

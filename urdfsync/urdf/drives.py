@@ -34,6 +34,11 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
     return frozenset(joint.name for joint in free if can_be_driven(joint))
 
 
+def has_motor(joint: Joint, options: Options) -> bool:
+    """Whether the motor's side of the joint's gear has a flange."""
+    return options.drives == "motor" and joint.transmission is not None and can_be_driven(joint)
+
+
 def can_be_driven(joint: Joint) -> bool:
     """Whether a joint has one axis and follows no other joint."""
     return joint.type in MOTION_KINDS and joint.mimic is None

@@ -18,14 +18,15 @@ Key = tuple[str, str]
 """Kind (`link` or `joint`) and URDF name."""
 
 GENERATED = frozenset(
-    "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix drawnshapes firstjoints fixedstart "
-    "followerangles followerlengths followermultipliers followers frame_a frame_b ground inertialangles jointangles "
-    "jointaxes jointnames jointorigins jointpositions jointrotations joints jointtree linkbodies linkcenters "
-    "linkinertias linkmasses linkpositions linkrotations links m moveablejoints movingjoints name nextjoints "
-    "parameters phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange rotationalsupport "
-    "s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses standingheight "
-    "translationalaxes translationalaxis translationaljoints translationalrange translationalsupport tree turnaxes "
-    "turning turningjoints turninglimits turninglosses v_start visualizationsetup visuals w_start world".split()
+    "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix drawnshapes driveinertias firstjoints "
+    "fixedstart followerangles followerlengths followermultipliers followers frame_a frame_b ground inertialangles "
+    "jointangles jointaxes jointnames jointorigins jointpositions jointrotations joints jointtree linkbodies "
+    "linkcenters linkinertias linkmasses linkpositions linkrotations links m moveablejoints movingjoints name "
+    "nextjoints parameters phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange "
+    "rotationalsupport s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses "
+    "slidingmasses standingheight translationalaxes translationalaxis translationaljoints translationalrange "
+    "translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits turninglosses v_start "
+    "visualizationsetup visuals w_start world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
 

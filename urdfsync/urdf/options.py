@@ -32,6 +32,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None
     """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
+    drives: Literal["joint", "motor"] = "joint"
+    """`motor`: the robot model has a flange at the motor's side of each gear, too."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
     """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
     inputs: Literal["names", "vector"] = "names"

@@ -18,6 +18,7 @@ import msgspec
 Vector: TypeAlias = tuple[float, float, float]
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
+Command = Literal["position", "velocity", "effort"]
 Motion = Literal["rotational", "translational"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
@@ -160,6 +161,17 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
 
     damping: float = 0.0
     friction: float = 0.0
+    armature: float | None = None
+    """Inertia that the drive adds at the joint (kg·m² or kg), as in MuJoCo."""
+
+
+class Transmission(msgspec.Struct, frozen=True, gc=False):
+    """The gear of a drive: position of the motor = `reduction` · (position of the joint - `offset`)."""
+
+    reduction: float = 1.0
+    offset: float = 0.0
+    rotor_inertia: float | None = None
+    """Of the motor, on its own side of the gear; in kg·m²."""
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
@@ -202,27 +214,44 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     safety_controller: SafetyController | None = None
     actuated: bool = False
     """Whether a `<transmission>` or `<ros2_control>` of the robot drives it."""
+    transmission: Transmission | None = None
+    """None if there is no gear: neither reduction nor offset nor rotor."""
+    command: Command = "position"
+    """What `<ros2_control>` gives the joint."""
+
+
+def reflected_inertia(joint: Joint) -> float | None:
+    """Return what the drive adds to the inertia about or along the axis; None if the source gives nothing."""
+    armature = joint.dynamics.armature if joint.dynamics else None
+    rotor = joint.transmission.rotor_inertia if joint.transmission else None
+    if joint.transmission is None or rotor is None:
+        return armature
+    return (armature or 0.0) + rotor * joint.transmission.reduction**2
 
 
 def effective(joint: Joint) -> Joint:
     """Return the joint without what has no effect on one of its type. Records are made from this."""
     kind = JOINT_KINDS[joint.type]
-    limit = joint.limit if kind.motion else None
+    limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
         limit = msgspec.structs.replace(limit, lower=0.0, upper=0.0)
+    if dynamics is not None and not kind.motion:
+        dynamics = Dynamics(dynamics.damping, dynamics.friction)
     return msgspec.structs.replace(
         joint,
         axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
         limit=limit,
-        dynamics=joint.dynamics if kind.has_axis else None,
+        dynamics=dynamics,
         mimic=joint.mimic if kind.motion else None,
         calibration=joint.calibration if kind.motion else None,
         safety_controller=joint.safety_controller if kind.motion else None,
+        transmission=joint.transmission if kind.motion else None,
+        command=joint.command if kind.motion and joint.mimic is None else "position",
     )
 
 
 def structure(joint: Joint) -> Joint:
-    """Return an effective joint without its numbers. Models are made from this."""
+    """Return an effective joint without its numbers and its drive. Models are made from this."""
     dynamics = None if joint.dynamics is None else Dynamics()
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     limit = Limit(acceleration=0.0) if limits_acceleration(joint) else None

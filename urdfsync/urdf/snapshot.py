@@ -37,8 +37,9 @@ def _plain(element: Link | Joint) -> Mapping[str, Any]:
     """Return an element as plain data but for its name."""
     data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
-    if not data.get("actuated", True):
-        del data["actuated"]
+    for key, default in (("actuated", False), ("command", "position")):
+        if data.get(key) == default:
+            del data[key]
     return data
 
 

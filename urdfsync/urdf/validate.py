@@ -110,6 +110,8 @@ _WARNINGS = {
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
     "unknown-actuated-joint": "correct its name, or take it out",
+    "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
+    "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "inertia-not-positive": "export the inertia again; simulation may not be physical",
     "inertia-triangle": "export the inertia again; simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
@@ -335,6 +337,12 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
         if not kind.has_axis and any(value for _, value in losses):
             message = f"{path}: damping and friction have no effect on a {joint.type} joint"
             yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
+        if dynamics.armature and not kind.motion:
+            message = f"{path}: an armature has no effect on a {joint.type} joint"
+            yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
+        elif dynamics.armature is not None and dynamics.armature < 0:
+            message = f"{path}: the armature {dynamics.armature:g} is negative"
+            yield Finding("negative-dynamics", f"{path} / dynamics", message)
         for name, value in losses if kind.has_axis else ():
             if value < 0:
                 message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"

@@ -1,11 +1,11 @@
 within UrdfSync;
 
-package Drives "What moves the joints in the Test models of robots"
+package Drives "Gears of joints, and what moves the joints in the Test models of robots"
   extends Modelica.Icons.SourcesPackage;
 
   annotation (Documentation(info="<html>
 <p>
-A drive acts between the support of a joint and its axis, and stays inside the limits of the joint.
+A drive of a Test model acts between the support of a joint and its axis, and stays inside the limits of the joint.
 </p>
 </html>"));
 end Drives;

@@ -64,7 +64,7 @@ algorithm
   tau := zeros(size(q, 1));
   for i in size(q, 1):-1:1 loop
     p := tree.jointTree[i, 1];
-    tau[i] := tree.turnAxes[i, :]*t[i + 1, :] + tree.slideAxes[i, :]*f[i + 1, :];
+    tau[i] := tree.turnAxes[i, :]*t[i + 1, :] + tree.slideAxes[i, :]*f[i + 1, :] + tree.driveInertias[i]*a[i];
     f[p, :] := f[p, :] + R[i, :, :]*f[i + 1, :];
     t[p, :] := t[p, :] + R[i, :, :]*t[i + 1, :] + cross(r[i, :], R[i, :, :]*f[i + 1, :]);
   end for;
@@ -95,7 +95,7 @@ t = J*z + w x J*w + h x b               N.m
 </pre>
 <p>
 and inwards they add up to what its joint hands on: <code>f[p] += R*f</code>, <code>t[p] += R*t + r x R*f</code>, of which
-<code>tau = e_t*t + e_s*f</code> is along the axis. Losses and mimic joints are not part of it: see
+<code>tau = e_t*t + e_s*f</code> is along the axis. What its drive adds to the inertia adds <code>driveInertias*a</code>. Losses and mimic joints are not part of it: see
 <a href=\"modelica://UrdfSync.Robots.PartialRecordRobot\">PartialRecordRobot</a>.
 </p>
 </html>"));

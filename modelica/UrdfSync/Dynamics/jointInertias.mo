@@ -10,7 +10,7 @@ function jointInertias "Moments of inertia that joints move, one at a time"
     "Positions of the moving joints";
 
   output Modelica.Units.SI.MomentOfInertia D[size(q, 1)]
-    "Per moving joint: that of all bodies behind it about its axis; where it slides their mass, times the square of unitLength";
+    "Per moving joint: that of all bodies behind it about its axis, and of its drive; where it slides their mass, times the square of unitLength";
 
 protected
   Integer p = 1;
@@ -29,6 +29,7 @@ algorithm
     if tree.jointTree[i, 2] == 1 and D[i] <= 1e-13*(J[i + 1, 1, 1] + J[i + 1, 2, 2] + J[i + 1, 3, 3]) then
       D[i] := 0;
     end if;
+    D[i] := D[i] + tree.driveInertias[i];
     J[p, :, :] := J[p, :, :] + UrdfSync.Dynamics.movedInertia(m[i + 1], h[i + 1, :], J[i + 1, :, :], R, r);
     h[p, :] := h[p, :] + R*h[i + 1, :] + m[i + 1]*r;
     m[p] := m[p] + m[i + 1];
@@ -36,7 +37,7 @@ algorithm
 
   annotation (Documentation(info="<html>
 <p>
-The diagonal of the mass matrix, <code>e_t*J*e_t + m*e_s*e_s</code> (Featherstone: Rigid Body Dynamics Algorithms, 2008, section 6.2), with <code>m</code> and <code>J</code> of
+The diagonal of the mass matrix, <code>e_t*J*e_t + m*e_s*e_s + driveInertias</code> (Featherstone: Rigid Body Dynamics Algorithms, 2008, section 6.2), with <code>m</code> and <code>J</code> of
 all that the joint moves. Where it is zero, the free motion of the joint has no solution;
 so what only rounding has left of a moment of inertia is given as zero.
 </p>

@@ -35,7 +35,7 @@ algorithm
     m[p] := m[p] + m[i + 1];
     f := cross(tree.turnAxes[i, :], h[i + 1, :]) + m[i + 1]*tree.slideAxes[i, :];
     t := J[i + 1, :, :]*tree.turnAxes[i, :] + cross(h[i + 1, :], tree.slideAxes[i, :]);
-    M[i, i] := tree.turnAxes[i, :]*t + tree.slideAxes[i, :]*f;
+    M[i, i] := tree.turnAxes[i, :]*t + tree.slideAxes[i, :]*f + tree.driveInertias[i];
     b := i + 1;
     for j in size(q, 1):-1:1 loop
       if b == j + 1 then
@@ -61,7 +61,7 @@ t = J*e_t + h x e_s        kg.m2
 </pre>
 <p>
 and <code>M[i, j] = e_t[j]*t + e_s[j]*f</code> for joint <code>j = i</code> and all joints before it, to whose bodies <code>f</code> and <code>t</code> are moved.
-Mimic joints count as joints of their own. All elements are in kg.m2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
+What a drive adds to the inertia of its joint stands on the diagonal only. Mimic joints count as joints of their own. All elements are in kg.m2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 </html>"));
 end massMatrix;

@@ -28,6 +28,12 @@ model Prismatic "Prismatic joint"
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
+  Modelica.Mechanics.Translational.Components.Mass inertia(
+    m = parameters.dynamics.armature + parameters.transmission.rotorInertia*parameters.transmission.reduction^2,
+    stateSelect = StateSelect.avoid)
+    "What the drive adds to the inertia"
+    annotation (Placement(transformation(extent={{76, 30}, {96, 50}})));
+
 equation
   assert(not checkLimits or prismatic.s >= parameters.limits.lower - 1e-6,
     getInstanceName() + " (joint " + parameters.name + ") is below its lower position limit", AssertionLevel.warning);
@@ -55,6 +61,8 @@ equation
     annotation (Line(points={{6, 6}, {6, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 127, 0}));
   connect(prismatic.axis, friction.flange_b)
     annotation (Line(points={{18, 6}, {40, 6}, {40, 40}, {20, 40}}, color={0, 127, 0}));
+  connect(prismatic.axis, inertia.flange_a)
+    annotation (Line(points={{18, 6}, {40, 6}, {40, 40}, {76, 40}}, color={0, 127, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={

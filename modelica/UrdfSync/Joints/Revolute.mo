@@ -28,6 +28,12 @@ model Revolute "Revolute joint"
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
+  Modelica.Mechanics.Rotational.Components.Inertia inertia(
+    J = parameters.dynamics.armature + parameters.transmission.rotorInertia*parameters.transmission.reduction^2,
+    stateSelect = StateSelect.avoid)
+    "What the drive adds to the inertia"
+    annotation (Placement(transformation(extent={{76, 30}, {96, 50}})));
+
 equation
   assert(not checkLimits or revolute.phi >= parameters.limits.lower - 1e-6,
     getInstanceName() + " (joint " + parameters.name + ") is below its lower position limit", AssertionLevel.warning);
@@ -55,6 +61,8 @@ equation
     annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 0, 0}));
   connect(revolute.axis, friction.flange_b)
     annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {20, 40}}, color={0, 0, 0}));
+  connect(revolute.axis, inertia.flange_a)
+    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {76, 40}}, color={0, 0, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={

@@ -10,7 +10,10 @@ record PrismaticJoint "Numbers of a prismatic joint"
     "Limits";
 
   TranslationalDynamics dynamics
-    "Losses";
+    "Losses, and what the drive adds to the inertia";
+
+  TranslationalTransmission transmission
+    "Gear and rotor of the drive";
 
   TranslationalMimic mimic
     "How the joint follows another one, if it does";

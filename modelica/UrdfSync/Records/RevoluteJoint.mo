@@ -10,7 +10,10 @@ record RevoluteJoint "Numbers of a revolute joint"
     "Limits";
 
   RotationalDynamics dynamics
-    "Losses";
+    "Losses, and what the drive adds to the inertia";
+
+  RotationalTransmission transmission
+    "Gear and rotor of the drive";
 
   RotationalMimic mimic
     "How the joint follows another one, if it does";

@@ -36,6 +36,9 @@ record RigidBodyTree "Bodies and joints of a robot: what the functions of Dynami
   Modelica.Units.SI.MomentOfInertia bodyInertias[:, 3, 3](each min = -Modelica.Constants.inf) = fill(0, 1, 3, 3)
     "Per body: inertia tensor about its origin, in its axes";
 
+  Modelica.Units.SI.MomentOfInertia driveInertias[:] = fill(0, 0)
+    "Per moving joint: what its drive adds to the inertia; where it slides to the mass, times the square of unitLength";
+
   annotation (Documentation(info="<html>
 <p>
 The component <code>tree</code> of <a href=\"modelica://UrdfSync.Records.Robot\">Records.Robot</a>, which follows from the numbers of links and joints.

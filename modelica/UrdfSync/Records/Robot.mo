@@ -100,6 +100,12 @@ record Robot "Numbers of a whole robot: what all robots have"
   SlidingLosses slidingLosses
     "Losses of the moving joints that slide";
 
+  Modelica.Units.SI.Inertia turningInertias[turningJoints] = zeros(turningJoints)
+    "What the drives of the joints that turn add to the inertia about their axes";
+
+  Modelica.Units.SI.Mass slidingMasses[slidingJoints] = zeros(slidingJoints)
+    "What the drives of the joints that slide add to the mass along their axes";
+
   Real followerMultipliers[:] = fill(0, 0)
     "Per row of followers: rad or m of the joint per rad or m of its leader";
 
@@ -167,6 +173,15 @@ record Robot "Numbers of a whole robot: what all robots have"
       size(jointTree, 1))
     "Per body: inertia tensor about its origin";
 
+  final Modelica.Units.SI.MomentOfInertia driveInertias[size(jointTree, 1)] = UrdfSync.Dynamics.jointVector(
+    size(jointTree, 1),
+    turning,
+    turningInertias,
+    sliding,
+    slidingMasses,
+    UrdfSync.Dynamics.unitLength^2)
+    "Per moving joint: what its drive adds to the inertia";
+
   final RigidBodyTree tree(
     jointTree = jointTree,
     linkBodies = linkBodies,
@@ -178,7 +193,8 @@ record Robot "Numbers of a whole robot: what all robots have"
     slideAxes = slideAxes,
     bodyMasses = bodyMasses,
     bodyMoments = bodyMoments,
-    bodyInertias = bodyInertias)
+    bodyInertias = bodyInertias,
+    driveInertias = driveInertias)
     "Bodies and joints, for the functions of Dynamics";
 
   annotation (Documentation(info="<html>

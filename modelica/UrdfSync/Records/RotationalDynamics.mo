@@ -12,6 +12,9 @@ record RotationalDynamics "Losses of a turning joint"
   UrdfSync.Types.RotationalSteepness steepness = 100
     "How sharply the dry friction changes its sign around standstill";
 
+  Modelica.Units.SI.Inertia armature = 0
+    "Inertia that the drive adds at the joint";
+
   annotation (Documentation(info="<html>
 <p>
 The <code>&lt;dynamics&gt;</code> element of URDF, and a number of the friction law that URDF does not have:

@@ -12,6 +12,9 @@ record TranslationalDynamics "Losses of a sliding joint"
   UrdfSync.Types.TranslationalSteepness steepness = 1000
     "How sharply the dry friction changes its sign around standstill";
 
+  Modelica.Units.SI.Mass armature = 0
+    "Mass that the drive adds at the joint";
+
   annotation (Documentation(info="<html>
 <p>
 The <code>&lt;dynamics&gt;</code> element of URDF, and a number of the friction law that URDF does not have:

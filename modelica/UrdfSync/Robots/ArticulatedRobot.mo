@@ -125,7 +125,7 @@ equation
     b_v[i, :] = cross(w[data.jointTree[i, 1], :], cross(w[data.jointTree[i, 1], :], r[i, :]))*R[i, :, :] + 2*v[i]*cross(w[i + 1, :], e_s[i, :]);
     U_t[i, :] = J_A[i + 1, :, :]*e_t[i, :] + H_A[i + 1, :, :]*e_s[i, :];
     U_f[i, :] = e_t[i, :]*H_A[i + 1, :, :] + M_A[i + 1, :, :]*e_s[i, :];
-    D[i] = if jointInertias[i] > 0 then e_t[i, :]*U_t[i, :] + e_s[i, :]*U_f[i, :] else 1;
+    D[i] = if jointInertias[i] > 0 then e_t[i, :]*U_t[i, :] + e_s[i, :]*U_f[i, :] + data.driveInertias[i] else 1;
     u[i] = effort[i] - e_t[i, :]*t_A[i + 1, :] - e_s[i, :]*f_A[i + 1, :];
     for j in 1:3 loop
       for k in 1:3 loop
@@ -165,13 +165,13 @@ solve a system of equations where all axes move freely. Mimic joints join axes, 
 equations as <a href=\"modelica://UrdfSync.Robots.GenericRobot\">GenericRobot</a>, and gives the same motion.
 </p>
 <pre>
-U = I_A*e,   D = e'*U,   u = effort - e'*p_A
+U = I_A*e,   D = e'*U + J_d,   u = effort - e'*p_A
 a = (u - U'*a_p)/D
 I_A of the carrier += X*(I_A - U*U'/D)*X'
 </pre>
 <p>
 for each joint, with its axis <code>e = {e_t, e_s}</code>, the articulated inertia <code>I_A</code> and the bias force <code>p_A</code> of its body, and the spatial acceleration <code>a_p</code> that comes
-from its carrier. <code>D</code> is in kg.m2, <code>u</code> in N.m, <code>a</code> in 1/s2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
+from its carrier; <code>J_d</code> is what the drive adds to the inertia. <code>D</code> is in kg.m2, <code>u</code> in N.m, <code>a</code> in 1/s2: see <a href=\"modelica://UrdfSync.Dynamics\">Dynamics</a>.
 </p>
 <p>
 Symmetric 6 x 6 inertias are kept as three matrices: torque per angular acceleration <code>J</code>, torque per acceleration <code>H</code> (force per angular

@@ -34,7 +34,7 @@ equation
       + 2*v[i]*cross(w[i + 1, :], e_s[i, :]) + e_s[i, :]*a[i];
     f_c[i, :] = R[i, :, :]*f[i + 1, :] + f_c[data.nextJoints[i], :];
     t_c[i, :] = R[i, :, :]*t[i + 1, :] + cross(r[i, :], R[i, :, :]*f[i + 1, :]) + t_c[data.nextJoints[i], :];
-    effort[i] = e_t[i, :]*t[i + 1, :] + e_s[i, :]*f[i + 1, :];
+    effort[i] = e_t[i, :]*t[i + 1, :] + e_s[i, :]*f[i + 1, :] + data.driveInertias[i]*a[i];
   end for;
 
   for i in 1:n + 1 loop

@@ -80,7 +80,7 @@ equation
       annotation (Line(points={{40, 70}, {46, 70}, {46, 44}, {30, 44}, {30, 40}}, color={0, 0, 0}));
     connect(torque[k].support, revolute[k].support)
       annotation (Line(points={{30, 60}, {24, 60}, {24, 40}}, color={0, 0, 0}));
-    torque[k].tau = effort[data.turning[k]];
+    torque[k].tau = effort[data.turning[k]] - data.turningInertias[k]*a[data.turning[k]];
     revolute[k].phi = q[data.turning[k]];
   end for;
 
@@ -93,7 +93,7 @@ equation
       annotation (Line(points={{40, -70}, {46, -70}, {46, -16}, {38, -16}, {38, -24}}, color={0, 127, 0}));
     connect(force[k].support, prismatic[k].support)
       annotation (Line(points={{30, -80}, {14, -80}, {14, -16}, {26, -16}, {26, -24}}, color={0, 127, 0}));
-    force[k].f = effort[data.sliding[k]]/unitLength;
+    force[k].f = effort[data.sliding[k]]/unitLength - data.slidingMasses[k]*unitLength*a[data.sliding[k]];
     prismatic[k].s = unitLength*q[data.sliding[k]];
   end for;
 

@@ -144,7 +144,7 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     "Accelerations of the moving joints";
 
   UrdfSync.Types.JointEffort effort[n]
-    "Efforts that move what is behind the joints";
+    "Efforts that move what is behind the joints, and the inertia of their drives";
 
   UrdfSync.Types.JointEffort load[n]
     "The same with losses and with the loads of joints that follow";

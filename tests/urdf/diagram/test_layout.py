@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from support.robots import random_robot
 
 from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot, Transmission
 
 TYPES: tuple[JointType, ...] = ("fixed", "fixed", "revolute", "revolute", "prismatic", "continuous", "planar")
 
@@ -25,11 +26,13 @@ Segment: TypeAlias = tuple[Point, Point]
 
 
 def random_names(random_: random.Random, links: int, reach: int, mimics: float) -> tuple[KinematicTree, Connectors]:
-    """A random robot; some of its inner links have frames, too."""
+    """A random robot; some of its inner links have frames, too, and some joints motors."""
     names = [f"l{index}" for index in range(links)]
-    tree = KinematicTree.of(random_robot(random_, TYPES, names=names, mimics=mimics, reach=reach))
+    robot = random_robot(random_, TYPES, names=names, mimics=mimics, reach=reach)
+    geared = [replace(joint, transmission=random_.choice((None, Transmission(50.0)))) for joint in robot.joints]
+    tree = KinematicTree.of(replace(robot, joints=tuple(geared)))
     framed = tuple(name for name in names if random_.random() < mimics / 2)
-    return tree, connector_names(tree, Options(frames=framed))
+    return tree, connector_names(tree, Options(frames=framed, drives="motor"))
 
 
 def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
@@ -48,7 +51,8 @@ def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
             if joint.mimic.joint in moving:
                 ends |= {(f"{coupling}.leader", f"{joint.mimic.joint}.axis")}
         elif joint.type in MOTION_KINDS:
-            ends |= {(f"{joint.name}.{end}", f"{joint.name}{end.capitalize()}") for end in ("axis", "support")}
+            ports = ("axis", "support", "motor") if joint.transmission else ("axis", "support")
+            ends |= {(f"{joint.name}.{end}", f"{joint.name}{end.capitalize()}") for end in ports}
     return ends
 
 

@@ -28,6 +28,7 @@ OPTIONS = st.builds(
     visualizer=st.sampled_from(["standard", "visualization2"]),
     collisions=st.booleans(),
     meshes=st.sampled_from(["import", "import", "skip"]),
+    drives=st.sampled_from(["joint", "motor"]),
 )
 REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {Role.RECORD}}
 """Roles of the files that a class may reach."""

@@ -39,6 +39,22 @@ PAIRS = {
 }
 
 
+@pytest.mark.parametrize(("first", "second", "expected"), [
+    ("", "", ["first"]), ("0.1", "", []), ("", "0.1", []), ("0", "0", ["first"]),
+])  # fmt: skip
+def test_a_drive_with_inertia_is_a_mass(first: str, second: str, expected: list[str]) -> None:
+    """Two joints on one axis with nothing between them."""
+    inside = [[f'<dynamics damping="0" armature="{value}"/>'] if value else [] for value in (first, second)]
+    urdf = urdfs.robot(
+        *urdfs.links(base=5.0, ring=None, tool=1.0),
+        urdfs.joint("first", "continuous", "base", "ring", axis="0 0 1", inside=inside[0]),
+        urdfs.joint(
+            "second", "continuous", "ring", "tool", axis="0 0 1", xyz="0 0 0.4", rpy="0 0 0.7", inside=inside[1]
+        ),
+    )
+    assert found(urdf) == expected
+
+
 @pytest.mark.parametrize(
     ("kind", "axis", "xyz", "next_kind", "next_axis", "mass", "expected"), PAIRS.values(), ids=PAIRS
 )

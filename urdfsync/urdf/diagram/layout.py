@@ -43,6 +43,7 @@ PORTS: Mapping[str, Point] = {
     "frame_b": (100, 0),
     "axis": (0, 100),
     "support": (-60, 100),
+    "motor": (80, 100),
     "leader": (-100, 0),
     "follower": (100, 0),
 }
@@ -147,13 +148,16 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     tracks_left = [_tracks(left[column]) for column in range(last_column + 1)]
 
     with_axes = {joints[name][0] for name in names.drives}
+    with_motors = {joints[name][0] for name, drive in names.drives.items() if drive.motor}
     with_couplings = {joints[name][0] for name in names.couplings}
     parents = {joint.parent for joint in tree.joints}
     with_frames = {links[name][0] for name in names.frames if name in parents}
     tops, spines, y = list[int](), list[int](), 0
     for row, tracks in enumerate(tracks_above):
         height = _TRACK * _count(tracks) + _NAME + _SIZE // 2
-        height += (_CONNECTOR + _TRACK) * (row in with_axes) + (_NAME + _SIZE) * (row in with_couplings)
+        height += (_CONNECTOR + _TRACK) * ((row in with_axes) + (row in with_motors)) + (_NAME + _SIZE) * (
+            row in with_couplings
+        )
         tops.append(y if row else FRAME_A[1] + height)
         spines.append(tops[row] - height)
         y = spines[row] - _BELOW - (_CONNECTOR + _TRACK) * (row in with_frames)
@@ -219,6 +223,8 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
         (x, y), (support_x, _) = joints[name].centre, joints[name].port("support")
         placements[drive.axis] = Placement.around((x, y + _ABOVE), _CONNECTOR)
         placements[drive.support] = Placement.around((support_x - _ASIDE, y + _ABOVE), _CONNECTOR)
+        if drive.motor:
+            placements[drive.motor] = Placement.around((x, y + _ABOVE + _CONNECTOR + _TRACK), _CONNECTOR)
     leaves = {leaf.name for leaf in tree.leaves()}
     for name, frame in names.frames.items():
         if name in leaves:
@@ -262,6 +268,10 @@ def _lines(
         lines[axis, drive.axis] = drive.motion, (place(axis), place(drive.axis))
         (x, y), end = place(support), place(drive.support)
         lines[support, drive.support] = drive.motion, _path([(x, y), (x, y + 2), (end[0], y + 2), end])
+        if drive.motor:  # its connector stands above that of the axis: the line passes this
+            start, end = f"{tree.joint(name).component}.motor", place(drive.motor)
+            x, y = place(start)
+            lines[start, drive.motor] = "rotational", ((x, y), (x, end[1]), end)
     for joint, mimic in tree.followers():
         name, coupling = joint.name, names.couplings[joint.name]
         start, axis = f"{coupling}.follower", f"{tree.joint(name).component}.axis"
@@ -272,8 +282,9 @@ def _lines(
             start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[name]
             one, other = place(start), place(axis)
             bends = [(other[0], y)]
-            if leader in names.drives:  # its connector stands above the axis: pass it
-                bends = [(other[0] + _ASIDE, y), (other[0] + _ASIDE, other[1] + 2), (other[0], other[1] + 2)]
+            if leader in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
+                aside = other[0] + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
+                bends = [(aside, y), (aside, other[1] + 2), (other[0], other[1] + 2)]
             lines[start, axis] = motions[leader], _path([one, (x, one[1]), (x, y), *bends, other])
     return lines
 

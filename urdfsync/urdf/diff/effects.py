@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Effect, ElementKey, Target, Version, brings_back, displaced
-from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector
+from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector, input_vector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
@@ -15,7 +15,14 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
 _JUMP = 9.99
-_DRIVE = {"axis": "axis", "support": "support", "position": "position in Run", "effort": "effort in Run"}
+_DRIVE = {
+    "axis": "axis",
+    "support": "support",
+    "motor": "motor",
+    "position": "position in Run",
+    "velocity": "velocity in Run",
+    "effort": "effort in Run",
+}
 """Fields of `Drive`, and what they are in a report."""
 
 
@@ -100,19 +107,18 @@ def interface(
             found.append(Effect((element, "motion"), one.motion, other.motion))
         for field, part in _DRIVE.items():
             add(element, part, *(getattr(drive, field, None) for drive in drives))
-    positions = [renames.get(("joint", name), name) for name in _driven(was)] if earlier.inputs == "vector" else []
-    new_positions = _driven(now) if options.inputs == "vector" else []
-    add(
-        "robot", "input of Run", "positions" if positions else None, "positions" if new_positions else None, "positions"
-    )
-    if positions and new_positions and positions != new_positions:
-        found.append(Effect(("robot", "order of positions"), ", ".join(positions), ", ".join(new_positions)))
+    inputs = [renames.get(("joint", name), name) for name in _driven(was)] if earlier.inputs == "vector" else []
+    new_inputs = _driven(now) if options.inputs == "vector" else []
+    vector, new_vector = input_vector(was), input_vector(now)
+    add("robot", "input of Run", vector if inputs else None, new_vector if new_inputs else None, new_vector)
+    if inputs and new_inputs and inputs != new_inputs:
+        found.append(Effect(("robot", f"order of {new_vector}"), ", ".join(inputs), ", ".join(new_inputs)))
     return sorted(found, key=lambda one: one.old is None)  # what users lose comes first
 
 
 def _driven(connectors: Connectors) -> list[str]:
     """Return the joints that Run drives."""
-    return [name for name, drive in connectors.drives.items() if drive.effort]
+    return [name for name, drive in connectors.drives.items() if drive.command]
 
 
 def _matches(

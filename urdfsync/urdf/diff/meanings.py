@@ -12,10 +12,13 @@ from typing import Any, TypeAlias
 import msgspec
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
+from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.model.robot import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Motion, Visual, effective, structure
+from urdfsync.urdf.snapshot import joints_of
 
 _Fields: TypeAlias = Sequence[str | int]
 _Shapes: TypeAlias = tuple[Visual | Collision, ...]
@@ -34,7 +37,7 @@ _UNITS = {
     "radius": "m",
     "length": "m",
     "mass": "kg",
-    **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "kg·m²"),
+    **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz", "rotor_inertia"), "kg·m²"),
 }
 _POSITION: Mapping[Motion, str] = {"rotational": "rad", "translational": "m"}
 _LOADS: Mapping[Motion, str] = {"rotational": "N·m", "translational": "N"}
@@ -45,6 +48,7 @@ _JOINT_UNITS: Mapping[str, Mapping[Motion, str]] = {
     **dict.fromkeys(_POSITIONS, _POSITION),
     **dict.fromkeys(("effort", "friction"), _LOADS),
     **dict.fromkeys(("damping", "k_velocity"), _LOSSES),
+    "armature": {"rotational": "kg·m²", "translational": "kg"},
     "velocity": {"rotational": "rad/s", "translational": "m/s"},
     **dict.fromkeys(("acceleration", "deceleration"), _ACCELERATIONS),
     "jerk": {"rotational": "rad/s³", "translational": "m/s³"},
@@ -77,7 +81,7 @@ def describe(
                 is_change = by_source and difference.kind is ChangeKind.CHANGED
                 found.append(Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None)
             case ("joints", str(name), *fields):
-                found.append(_of_joint(name, fields, difference, versions))
+                found.append(_of_joint(name, fields, difference, versions, options))
             case ("extensions", str(owner), *fields):
                 found.append(Meaning(_words(owner or "robot", fields or ["extensions"]), ChangeClass.UNMODELLED))
             case (*fields,):
@@ -192,11 +196,17 @@ def _data(
 # --- joints -------------------------------------------------------------------------------------------------------
 
 
-def _of_joint(name: str, fields: _Fields, difference: Difference, versions: Sequence[Version]) -> Meaning:
+def _of_joint(
+    name: str, fields: _Fields, difference: Difference, versions: Sequence[Version], options: Options
+) -> Meaning:
     old, new = (msgspec.convert({"name": name, **version.snapshot["joints"][name]}, Joint) for version in versions)
     changed = (old, _exchanged(old, new, fields)), (new, _exchanged(new, old, fields))
     data = [(effective(one), effective(other)) for one, other in changed]
-    reach = _class((structure(one) != structure(other) for one, other in data), (one != other for one, other in data))
+    models = [[(structure(one), joint_model(one, options)) for one in pair] for pair in data]
+    reach = _class((one != other for one, other in models), (one != other for one, other in data))
+    if fields == ["command"]:
+        driven = (name in driven_joints(joints_of(version.snapshot["joints"]), options) for version in versions)
+        reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
     units = [
         _joint_unit(name, version.snapshot["joints"], fields)
         for version, value in zip(versions, (difference.old, difference.new), strict=True)

@@ -19,7 +19,7 @@ from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
 
-_NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "drive"})
+_NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "drive", "transmission", "command"})
 """Entries of the snapshot, in any block, that are names, or follow from names elsewhere (a transmission that names the
 joint): not part of what makes elements alike."""
 

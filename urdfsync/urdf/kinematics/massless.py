@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.urdf.kinematics.poses import Pose, compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Motion, Vector
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Motion, Vector, reflected_inertia
 
 _ROUNDING = 1e-6  # of angles, and of lengths in relation to where they are
 
@@ -50,8 +50,8 @@ def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None =
     """Return the names of the joints that move no mass, in canonical order.
 
     `passive` are joints without a drive; None for all. A joint is massless if no link below it has inertia about its
-    axis. Links below a passive joint on the same axis do not count: that joint lets them stand still. What followers of
-    a joint move counts for it; they themselves are left out.
+    axis, and its drive adds none. Links below a passive joint on the same axis do not count: that joint lets them stand
+    still. What followers of a joint move counts for it; they themselves are left out.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}
@@ -62,11 +62,14 @@ def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None =
             x, y, z = (dot(row, joint.axis) for row in rotation)
             axes[joint.name] = _Axis(MOTION_KINDS[joint.type], point, (x, y, z))
     followers = tree.followers_by_leader()
-    single = {name for name in axes if name not in followers} - {joint.name for joint, _ in tree.followers()}
+    heavy = {joint.name for joint in tree.joints if reflected_inertia(joint)}
+    single = {name for name in axes if name not in followers} - {joint.name for joint, _ in tree.followers()} - heavy
     loose = single if passive is None else single & passive
 
     def moves_something(joint: Joint) -> bool:
         axis, waiting = axes[joint.name], [joint.child]
+        if joint.name in heavy:
+            return True
         while waiting:
             link = waiting.pop()
             if axis.moves(links[link], poses[link]):

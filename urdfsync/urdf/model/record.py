@@ -11,7 +11,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit, limits_acceleration
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit, limits_acceleration, reflected_inertia
 
 NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
 """Limits of a joint that has none, for the template of its record."""
@@ -51,8 +51,15 @@ def record_data(
     numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
     moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
 
-    def referred(found: list[Joint]) -> list[dict[str, str]]:
-        return [{"component": tree.joint(joint.name).component, "type": joint.type} for joint in found]
+    def referred(found: list[Joint]) -> list[dict[str, Any]]:
+        return [
+            {
+                "component": tree.joint(joint.name).component,
+                "type": joint.type,
+                "has_inertia": reflected_inertia(joint) is not None,
+            }
+            for joint in found
+        ]
 
     axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges
         {"constant": names.drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}

@@ -12,11 +12,12 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.urdf.connectors import Connectors
+from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.drives import has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
@@ -26,6 +27,18 @@ _FRAME_Y = -50  # where the benches of the library have the frame that the robot
 def joint_title(joint: Joint) -> str:
     """Return what a joint is, in words."""
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
+
+
+def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
+    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange."""
+    armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
+    inertia = armature if with_motor else reflected_inertia(joint)
+    return {
+        "dynamics": joint.dynamics is not None,
+        "accelerations": limits_acceleration(joint),
+        "inertia": inertia is not None,
+        "motor": with_motor,
+    }
 
 
 @functools.lru_cache(maxsize=1)
@@ -70,6 +83,7 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
                 "kind": joint.type,
                 "title": joint_title(joint),
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
+                "motor": joint.name in names.drives and names.drives[joint.name].motor is not None,
                 "follows": couplings.get(joint.name),
                 "followers": followers[tree.joint(joint.name).component],
             }
@@ -93,13 +107,13 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     20 has its place beside each.
     """
     top, rows = _icon_top(names), _drives(tree, names)
+    drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "visualizer": options.visualizer,
-        "drives": [
-            row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["effort"] is not None
-        ],
-        "passive": [row["joint"] for row in rows if row["effort"] is None],
+        "drives": [row | {"input": row[row["command"]]} for row in drives],
+        "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
         "inputs": options.inputs,
+        "vector": input_vector(names),
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
         "icon_top": top,

@@ -1,4 +1,4 @@
-"""Read links, joints, materials, drives. A fault becomes a diagnostic, and a default takes the place of the value."""
+"""Read links, joints, materials. A fault becomes a diagnostic, and a default takes the place of the value."""
 
 from __future__ import annotations
 
@@ -159,18 +159,3 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     if absent:
         reader.add(limit, "missing-limit-value", f"{path} / limit has no {'; no '.join(absent)}")
     return joint
-
-
-def read_actuated(reader: Reader, element: Element, path: str) -> Iterator[tuple[str, str]]:
-    """Yield path and name of each joint that a `<transmission>` or `<ros2_control>` drives.
-
-    The latter drives by its own transmissions, and joints that have a `<command_interface>`: others are only measured.
-    An example of a path: `transmission wheel_trans / joint wheel`.
-    """
-    joints = element.findall("joint")
-    if element.tag == "ros2_control":
-        joints = [joint for joint in joints if joint.find("command_interface") is not None]
-        joints += element.findall("transmission/joint")
-    for joint in joints:
-        if name := joint.get("name", ""):
-            yield reader.place(joint, f"{path} / joint {name}"), name

@@ -33,6 +33,8 @@ _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Child elements that stand for a field of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
+_ELSEWHERE = ("transmission",)
+"""Fields whose elements do not stand in the element of their struct."""
 # Elements of URDF: in a place where they mean nothing they are no misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
 _SHOWN_ALONE = 3
@@ -208,6 +210,8 @@ def _schema(
     for field in msgspec.structs.fields(struct):
         kinds = (field.type, *get_args(field.type))
         structs = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
+        if field.name in _ELSEWHERE:
+            continue
         if structs:
             name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
             children[name] = structs[0], field.default

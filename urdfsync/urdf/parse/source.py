@@ -16,7 +16,8 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.elements import read_actuated, read_joint, read_link, read_material, resolve_materials
+from urdfsync.urdf.parse.drives import read_drives, with_drives
+from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
 from urdfsync.urdf.robot import Robot
@@ -127,17 +128,12 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
         return [(element, reader.place(element, path)) for element, path in zip(found, paths, strict=True)]
 
     driving = [*elements("transmission"), *elements("ros2_control")]
-    actuated = [found for element, path in driving for found in read_actuated(reader, element, path)]
-    actuated_names = {name for _, name in actuated}
+    drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
     found_links = [read_link(reader, *place) for place in elements("link")]
     found_joints = [read_joint(reader, *place) for place in elements("joint")]
     links = [link for link in found_links if link.name]
-    joints = [
-        msgspec.structs.replace(joint, actuated=True) if joint.name in actuated_names else joint
-        for joint in found_joints
-        if joint and joint.name
-    ]
+    joints = with_drives(reader, (joint for joint in found_joints if joint and joint.name), drives)
     complete = len(links) == len(found_links) and len(joints) == len(found_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     links_with_materials = resolve_materials(reader, by_path, materials)
@@ -145,10 +141,10 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         known = {joint.name for joint in joints}
-        for path, target in actuated:
-            if target not in known:
-                message = f"{path.partition(' / ')[0]} drives joint {target!r}, which does not exist"
-                hint = validate.perhaps(target, known)
-                reader.extend([validate.Finding("unknown-actuated-joint", path, message, hint)])
+        for drive in drives:
+            if drive.joint not in known:
+                message = f"{drive.path.partition(' / ')[0]} drives joint {drive.joint!r}, which does not exist"
+                hint = validate.perhaps(drive.joint, known)
+                reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     return msgspec.structs.replace(robot, joints=tuple(moving))

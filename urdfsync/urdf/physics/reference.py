@@ -1,7 +1,7 @@
 """The reference: poses and efforts of a robot by Pinocchio, at prescribed motion.
 
-Nothing of ours is between the file and the reference but its XML, from which only `mimic` elements are taken, since
-Pinocchio's reader leaves them out.
+Nothing of ours is between the file and the reference but what Pinocchio's reader leaves out: `mimic` elements, and
+what drives add to the inertia of joints.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes, so that
@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.robot import Mimic
+from urdfsync.urdf.robot import Mimic, effective, reflected_inertia
 
 Array = NDArray[np.float64]
 
@@ -59,6 +60,10 @@ def read(content: bytes, file: str) -> PinocchioRobot:
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
+    robot = read_robot(content, file).robot
+    for joint in map(effective, robot.joints if robot else ()):
+        if inertia := reflected_inertia(joint):
+            model.armature[model.joints[model.getJointId(joint.name)].idx_v] = inertia
     return PinocchioRobot(model, followers)
 
 

@@ -1163,6 +1163,9 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
     dynamics(
       damping = 12,
       friction = 9),
+    transmission(
+      reduction = 101,
+      offset = 0),
     calibration(
       rising = 0,
       falling = Modelica.Constants.inf),

@@ -1142,7 +1142,10 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
       effort = 14),
     dynamics(
       damping = 0.06,
-      friction = 0.25))
+      friction = 0.25),
+    transmission(
+      reduction = 24,
+      offset = 0))
     "Joint 3: \"drive_left\"";
 
   UrdfSync.Records.ContinuousJoint drive_right(
@@ -1158,7 +1161,10 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
       effort = 14),
     dynamics(
       damping = 0.06,
-      friction = 0.25))
+      friction = 0.25),
+    transmission(
+      reduction = 24,
+      offset = 0))
     "Joint 4: \"drive_right\"";
 
   UrdfSync.Records.FixedJoint guide_mount(

@@ -15,6 +15,9 @@ record TurretParameters "Numbers of revolute joint \"turret\" from link \"base_l
     dynamics(
       damping = 12,
       friction = 9),
+    transmission(
+      reduction = 101,
+      offset = 0),
     calibration(
       rising = 0,
       falling = Modelica.Constants.inf),

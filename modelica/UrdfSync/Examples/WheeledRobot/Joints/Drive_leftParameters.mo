@@ -14,7 +14,10 @@ record Drive_leftParameters "Numbers of continuous joint \"drive_left\" from lin
       effort = 14),
     dynamics(
       damping = 0.06,
-      friction = 0.25));
+      friction = 0.25),
+    transmission(
+      reduction = 24,
+      offset = 0));
 
   annotation (Documentation(info="<html>
 <p>

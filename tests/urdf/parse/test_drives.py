@@ -1,0 +1,178 @@
+"""What a source says of the drives of joints, in all forms that are in use."""
+
+from __future__ import annotations
+
+import pytest
+from support import urdfs
+
+from urdfsync.urdf.parse.source import RobotReading, read_robot
+from urdfsync.urdf.robot import Dynamics, Joint, Transmission
+
+BASE = (
+    *map(urdfs.link, ("base", "arm", "wheel", "caster")),
+    urdfs.joint("elbow", "continuous", "base", "arm"),
+    urdfs.joint("drive wheel", "continuous", "base", "wheel"),
+    urdfs.joint("roll", "continuous", "base", "caster"),
+)
+COMMAND, STATE = '<command_interface name="velocity"/>', '<state_interface name="velocity"/>'
+
+
+def read(*elements: str) -> RobotReading:
+    return read_robot(urdfs.robot(*BASE, *elements).encode(), "own.urdf")
+
+
+def actuated(reading: RobotReading) -> list[str]:
+    assert reading.robot is not None
+    return sorted(joint.name for joint in reading.robot.joints if joint.actuated)
+
+
+FORMS = {
+    "with an interface": ("""<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+            <joint name="elbow"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+            <actuator name="m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>""",
+        ["elbow"]),
+    "as for the PR2": ("""<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
+            <joint name="elbow"/><mechanicalReduction>1</mechanicalReduction></transmission>""",
+        ["elbow"]),
+    "no joint": ("<transmission><joint/><actuator name='elbow'/></transmission>", []),
+    "not its own joint": ("<transmission><group><joint name='elbow'/></group></transmission>", []),
+    "ros2_control, with a joint that is measured only": (
+        f"""<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware>
+            <joint name="elbow">{COMMAND}{STATE}</joint><joint name="roll">{STATE}</joint></ros2_control>""",
+        ["elbow"],
+    ),
+    "a transmission of ros2_control": (f"""<ros2_control name="c" type="system"><joint name="roll">{STATE}</joint>
+            <transmission name="t"><plugin>p</plugin><actuator name="m" role="a"/><joint name="elbow" role="j"/>
+            </transmission></ros2_control>""",
+        ["elbow"]),
+    "ros2_control of a sensor": (
+        f'<ros2_control name="c" type="sensor"><joint name="roll">{STATE}</joint></ros2_control>',
+        [],
+    ),
+    "of a simulator": ('<gazebo><transmission><joint name="elbow"/></transmission></gazebo>', []),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("element", "names"), FORMS.values(), ids=FORMS)
+def test_forms(element: str, names: list[str]) -> None:
+    reading = read(element)
+    assert actuated(reading) == names
+    assert not reading.diagnostics
+    assert reading.robot is not None
+    assert len(reading.robot.extensions) == 1, "the element stays an extension"
+
+
+def elbow(reading: RobotReading) -> Joint:
+    assert reading.robot is not None
+    return next(joint for joint in reading.robot.joints if joint.name == "elbow")
+
+
+def transmission(inside_joint: str = "", inside_actuator: str = "", own: str = "") -> str:
+    joint, actuator = f'<joint name="elbow">{inside_joint}</joint>', f'<actuator name="m">{inside_actuator}</actuator>'
+    return f'<transmission name="t">{joint}{actuator}{own}</transmission>'
+
+
+def control(inside: str) -> str:
+    return f'<ros2_control name="c" type="system">{inside}</ros2_control>'
+
+
+ROTOR = '<drake:rotor_inertia value="1e-4"/>'
+GEARS = {
+    "of ROS 1": (
+        transmission("<offset>0.1</offset>", "<mechanicalReduction> -50 </mechanicalReduction>"),
+        Transmission(-50.0, 0.1),
+    ),
+    "at the joint": (transmission("<mechanicalReduction>7</mechanicalReduction>"), Transmission(7.0)),
+    "of the PR2": (transmission(own="<mechanicalReduction>3e1</mechanicalReduction>"), Transmission(30.0)),
+    "of ros2_control": (
+        control(transmission("<mechanical_reduction>325.9</mechanical_reduction><offset>-2</offset>")),
+        Transmission(325.9, -2.0),
+    ),
+    "of Drake, which does not read the other one": (
+        transmission(
+            "", f'<mechanicalReduction>2</mechanicalReduction><drake:gear_ratio value="100"/>{ROTOR}'
+        ),
+        Transmission(100.0, 0.0, 1e-4),
+    ),
+    "a rotor without a gear": (transmission("", ROTOR), Transmission(rotor_inertia=1e-4)),
+    "none": (transmission("<offset>0</offset>", "<mechanicalReduction>1.0</mechanicalReduction>"), None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("element", "gear"), GEARS.values(), ids=GEARS)
+def test_gears_and_rotors(element: str, gear: Transmission | None) -> None:
+    reading = read(element)
+    assert elbow(reading).transmission == gear
+    assert {found.code for found in reading.diagnostics} <= {"xml-prefix"}
+
+
+FAULTS = {
+    "no number": (transmission("", "<mechanicalReduction>1:100</mechanicalReduction>"), "bad-transmission"),
+    "nothing": (transmission("<offset/>"), "bad-transmission"),
+    "zero": (transmission("", "<mechanicalReduction>0</mechanicalReduction>"), "bad-transmission"),
+}
+
+
+@pytest.mark.parametrize(("element", "code"), FAULTS.values(), ids=FAULTS)
+def test_a_faulty_number_of_a_gear_is_a_warning_and_left_out(element: str, code: str) -> None:
+    reading = read(element)
+    assert [(found.code, str(found.severity)) for found in reading.diagnostics] == [(code, "warning")]
+    assert elbow(reading).transmission is None
+
+
+def test_a_rotor_of_negative_inertia_is_told_and_kept() -> None:
+    reading = read(transmission("", '<drake:rotor_inertia value="-1"/>'))
+    assert "negative-dynamics" in {found.code for found in reading.diagnostics}
+    assert elbow(reading).transmission == Transmission(rotor_inertia=-1.0)
+
+
+def test_of_two_gears_the_first_counts() -> None:
+    first, other = (transmission("", f"<mechanicalReduction>{n}</mechanicalReduction>") for n in (5, 6))
+    reading = read(first, other, control(first))
+    assert [found.code for found in reading.diagnostics] == ["duplicate-element"]
+    assert elbow(reading).transmission == Transmission(5.0)
+
+
+def test_a_transmission_of_several_joints_drives_them_without_gears() -> None:
+    gear = "<mechanicalReduction>5</mechanicalReduction>"
+    reading = read(f'<transmission><joint name="elbow">{gear}</joint><joint name="drive wheel"/></transmission>')
+    assert actuated(reading) == ["drive wheel", "elbow"]
+    assert [found.code for found in reading.diagnostics] == ["coupled-transmission"]
+    assert elbow(reading).transmission is None
+
+
+@pytest.mark.parametrize(("names", "command"), [
+    (("velocity",), "velocity"),
+    (("effort", "velocity"), "velocity"),
+    (("effort", "velocity", "position"), "position"),
+    (("effort",), "effort"),
+    (("stiffness",), "position"),
+])  # fmt: skip
+def test_commands(names: tuple[str, ...], command: str) -> None:
+    interfaces = "".join(f'<command_interface name="{name}"/>' for name in names)
+    assert elbow(read(control(f'<joint name="elbow">{interfaces}</joint>'))).command == command
+
+
+def test_an_armature_is_read() -> None:
+    inside = ['<dynamics damping="0.5" armature="0.02"/>']
+    content = urdfs.robot(*map(urdfs.link, "ab"), urdfs.joint("elbow", "continuous", "a", "b", inside=inside))
+    assert elbow(read_robot(content.encode(), "own.urdf")).dynamics == Dynamics(0.5, 0.0, 0.02)
+
+
+def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
+    reading = read(
+        '<transmission name="left">\n<joint name="drive weel"/></transmission>',
+        f'<ros2_control name="all">\n<joint name="zzz">{COMMAND}</joint></ros2_control>',
+    )
+    assert [str(found) for found in reading.diagnostics] == [
+        "own.urdf:11: warning: transmission left drives joint 'drive weel', which does not exist; "
+        "perhaps 'drive wheel' is meant [unknown-actuated-joint]",
+        "own.urdf:13: warning: ros2_control all drives joint 'zzz', which does not exist; "
+        "correct its name, or take it out [unknown-actuated-joint]",
+    ]
+    assert actuated(reading) == []
+
+
+def test_what_a_joint_with_an_error_leaves_out_is_no_second_finding() -> None:
+    reading = read('<transmission name="t"><joint name="bad"/></transmission>', '<joint name="bad" type="fixed"/>')
+    assert {found.code for found in reading.diagnostics} == {"missing-element"}
