@@ -118,6 +118,19 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
     )
 
 
+def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:
+    """Return sources, and arguments of xacro, which are written as on its command line: `NAME:=VALUE`."""
+    values = dict[str, str]()
+    for text in texts:
+        name, is_argument, value = text.partition(":=")
+        if is_argument and name.isidentifier():
+            values[name] = value
+    sources = [Path(text) for text in texts if text.partition(":=")[0] not in values]
+    if values and not any(source.suffix == ".xacro" for source in sources):
+        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is a .xacro file")
+    return sources, values
+
+
 def is_confirmed(question: str, done: str, console: Console) -> bool:
     """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
     if console.json or sys.stdin is None or not sys.stdin.isatty():

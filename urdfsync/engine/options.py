@@ -27,6 +27,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write nothing."""
     trusted: bool = False
     """Write to outputs outside of the configuration's folder, too."""
+    expands: bool = True
+    """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
     compares_state: bool = False
     """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     adopts: bool = False

@@ -50,7 +50,7 @@ _ERRORS = {
     "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
     "not-urdf": "export URDF, and name that file",
-    "xacro-source": "run `xacro FILE.xacro > FILE.urdf`, and name the result",
+    "xacro-source": "call it FILE.xacro, or set `arguments`: then urdfsync expands it",
     # elements and attributes
     "missing-element": "add it",
     "missing-attribute": "add it",
