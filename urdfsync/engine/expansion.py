@@ -32,7 +32,7 @@ COMMAND_SECONDS = 600.0
 """For a command, which may ask a server."""
 _PACKAGE = "package://"
 _HINTS = {
-    "no-xacro": f"`{install_command('xacro')}`",
+    "no-xacro": install_command("xacro"),
     "no-argument": "set it in `arguments`, or give it a default in the file",
     "no-package": "name the folder that it is in in `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
     "xacro": "correct it, then build again",

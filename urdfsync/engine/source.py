@@ -31,10 +31,6 @@ MAX_TEMPLATE = 10_000_000
 NEVER: tuple[str, ...] = ("it was never expanded",)
 """Why a source is stale of which there is no expansion."""
 
-_expansions: dict[tuple[Path, str], Expansion] = {}
-"""The last expansion of each robot, by configuration and name. The daemon judges a source before it builds it: this
-saves one of two expansions, 0.3 s each."""
-
 
 class Source(msgspec.Struct, frozen=True):
     """The text of a source, and what it was made of."""
@@ -87,7 +83,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
         return _read_made(config, robot, inputs, recorded, options)
     content, arguments = _read(config, robot), robot.arguments or {}
     known, changes = None, NEVER
-    for one in (_expansions.get((config.file, robot.name)), recorded):
+    for one in (recorded, options.expansions.get(robot.name)):
         if one is not None and (changes := inputs.find_changes(one, arguments)) == ():
             known = one
             break
@@ -96,7 +92,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
         return Source(content, shown(robot.source), inputs.places(recorded), (), recorded, changes)
     if known is None or options.full:
         known = expansion.expand(inputs, arguments)
-        _expansions[config.file, robot.name] = known
+        options.expansions[robot.name] = known
         if inputs.find_changes(known, arguments):
             mark_incomplete()  # somebody saved meanwhile
     found = expansion.warnings(config, robot, known)

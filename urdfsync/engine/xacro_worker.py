@@ -33,7 +33,7 @@ MEMORY = 1_000_000_000
 
 _FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
 """Events of Python that no expansion needs, by how their names begin; but for these."""
-_ALLOWED = ("os.listdir", "os.scandir")
+_ALLOWED = ("os.listdir", "os.scandir", "os.walk")
 _PLACE = "place"
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """How lines begin by which xacro says where it is."""
@@ -260,7 +260,8 @@ def _problem(error: BaseException, current: str) -> Problem:
         return Problem("no-argument", f"the argument `{cause}` is not set", file, line)
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
-    return Problem("xacro", str(error) or type(cause).__name__, file, line)
+    message = str(cause if str(error).startswith("<class") else error)
+    return Problem("xacro", message or type(cause).__name__, file, line)
 
 
 def main() -> None:
