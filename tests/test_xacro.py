@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
@@ -41,7 +42,7 @@ def without_xacro(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
 
 def test_the_package_is_that_of_the_expanded_file(built: Path, execute: Execute) -> None:
     before = {path.name: path.read_bytes() for path in (built / "modelica").rglob("*.mo")}
-    command = [Path(sys.executable).with_name("xacro"), "urdf/arm.urdf.xacro", "length:=0.5"]
+    command = [str(Path(sys.executable).with_name("xacro")), "urdf/arm.urdf.xacro", "length:=0.5"]
     expanded = subprocess.run(command, capture_output=True, text=True, check=True)
     (built / "urdf/arm.urdf").write_text(expanded.stdout)
     (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
@@ -284,3 +285,84 @@ def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
     execute("build")
     assert "0.75" in execute("record", "urdf/arm.urdf.xacro", "length:=0.75").out
     assert "is an argument of xacro" in execute("record", "urdf/arm.urdf", "length:=0.75", code=2).err
+
+
+@pytest.mark.slow
+def test_the_daemon_sees_each_input(built: Path) -> None:
+    from support.daemon import Watch  # watchdog takes 45 ms
+
+    with Watch(built, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+        watch.rest()
+        for name, text, mass in [
+            ("masses.yaml", "upper: 2.5\n", 2.5),
+            ("parts/beam.xacro", xacros.BEAM.replace('mass value="${mass}"', 'mass value="${mass + 1}"'), 3.5),
+            ("arm.urdf.xacro", xacros.ARM.replace("masses['upper']", "masses['upper'] + 1"), 4.5),
+        ]:
+            since = watch.mark
+            (built / "urdf" / name).write_text(text)
+            watch.wait("built", since=since)
+            assert f"mass = {mass}" in Path(RECORD).read_text()
+        since = watch.mark
+        (built / "urdf/masses.yaml").write_text("upper: [1\n")
+        waiting = watch.wait("waiting", since=since)
+        assert [(found["file"], found["line"]) for found in waiting["diagnostics"]] == [("urdf/masses.yaml", 2)]
+        (built / "urdf/masses.yaml").write_text("upper: 1.25\n")
+        watch.wait("built", since=since)
+        assert "mass = 3.25" in Path(RECORD).read_text()
+
+
+COMMAND = """
+import pathlib, sys
+numbers = pathlib.Path("mass.txt").read_text()
+if numbers == "bad":
+    sys.exit("no such mass")
+pathlib.Path("runs.txt").open("a").write("once\\n")
+pathlib.Path("arm.urdf").write_text(f'''<robot name="arm"><link name="base"><inertial><mass value="{numbers}"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>''')
+"""
+
+
+@pytest.fixture
+def commanded(folder: Path) -> Path:
+    """A project whose source a command writes."""
+    (folder / "make.py").write_text(COMMAND)
+    (folder / "mass.txt").write_text("1.5")
+    command = json.dumps([sys.executable, "make.py"])
+    text = f'[robots.arm]\nsource = "arm.urdf"\ncommand = {command}\ncommand_inputs = ["mass.txt"]\npackage = "Arm"\n'
+    (folder / "urdfsync.toml").write_text(text)
+    return folder
+
+
+def test_a_command_is_run_only_with_the_users_word(
+    commanded: Path, execute: Execute, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with unchanged(commanded):
+        assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
+        assert execute("status").lines == ["arm: not built yet", "  it was never expanded"]
+    home = tmp_path_factory.mktemp("home")
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(home))
+    (home / "urdfsync").mkdir()
+    (home / "urdfsync/trusted.toml").write_text(f"folders = {json.dumps([str(commanded)])}\n")
+    execute("build")
+    assert (commanded / "runs.txt").read_text() == "once\n"
+
+
+def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute) -> None:
+    execute("build", "--trust")
+    record = commanded / "modelica/Arm/Links/BaseParameters.mo"
+    assert execute("build").lines == execute("status").lines == ["arm: in step, 9 files"]  # which asks for no trust
+    (commanded / "mass.txt").write_text("2.5")
+    with unchanged(commanded):
+        assert execute("status").lines == [f"arm: {CHANGED}, 9 files", "  mass.txt"]
+        assert execute("build", "--check", code=1).lines == [f"arm: {CHANGED}"]
+    execute("build", "--trust")
+    assert "mass = 2.5" in record.read_text()
+    assert (commanded / "runs.txt").read_text() == "once\n" * 2
+    (commanded / "arm.urdf").write_text((commanded / "arm.urdf").read_text().replace("2.5", "3.5"))  # by hand
+    execute("build")
+    assert "mass = 3.5" in record.read_text()
+    (commanded / "mass.txt").write_text("bad")
+    with unchanged(commanded):
+        found = execute("build", "--trust", code=2).words
+        assert "urdfsync.toml:3: error: robot `arm`: the command" in found
+        assert "failed: exit code 1: no such mass" in found

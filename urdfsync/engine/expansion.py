@@ -20,12 +20,16 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import depend_on, mark_incomplete, read_file, read_variable
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine import ros_packages
-from urdfsync.engine.xacro_worker import CPU_SECONDS, MEMORY, Answer, Problem, Request
+from urdfsync.engine.xacro_worker import Answer, Problem, Request
 from urdfsync.extras import install_command
 from urdfsync.files import digest, shown
 from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.state.expansion import Expansion
 
+CPU_SECONDS = 20.0
+"""For one expansion, on Linux and macOS. The largest robots take 2 s."""
+MEMORY = 1_000_000_000
+"""Bytes that the process of an expansion may allocate, on Linux."""
 WALL_SECONDS = 120.0
 """For one expansion, everywhere: a busy machine may need so long for its CPU time."""
 COMMAND_SECONDS = 600.0
@@ -38,7 +42,6 @@ _HINTS = {
     "xacro": "correct it, then build again",
     "xacro-limits": "look for a macro or an expression that never ends",
 }
-_LIMITS = f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000_000} GB"
 
 
 class Inputs:
@@ -68,35 +71,45 @@ class Inputs:
         # else both have nothing in common
         return Path(os.path.relpath(file, self._root) if file.parts[:2] == self._root.parts[:2] else file).as_posix()
 
-    def find_changes(
-        self, known: Expansion, arguments: Mapping[str, str], command: Sequence[str] = ()
-    ) -> tuple[str, ...]:
-        """Return what is other than when the source was made; files of packages that are not here are as they were."""
-        changed = [] if known.source == self.name(self.source, {}) else ["source"]
-        changed += [] if known.arguments == arguments else ["arguments"]
-        changed += [] if known.command == tuple(command) else ["command"]
-        for name, sha256 in known.files.items():
-            path = self.path(name)
-            if path is not None and file_hash(path) != sha256:
-                changed.append(name)
-        for name, names in known.patterns.items():
-            path = self.path(name)
-            if path is not None and names_hash(path) != names:
-                changed.append(name)
-        return (*changed, *(f"${name}" for name, value in known.variables.items() if variable_hash(name) != value))
+    def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
+        """Return what a source would be made of now, by the names in an expansion; without what would be made.
 
-    def made(self, command: tuple[str, ...], files: Sequence[Path]) -> Expansion:
-        """Return what a source that a command writes is made of now."""
-        hashes = {self.name(path, {}): file_hash(path) for path in files}
-        return Expansion(source=self.name(self.source, {}), command=command, files=hashes)
+        Files of packages that are not on this machine are as they were. A command names its files itself.
+        """
+        files, patterns = dict(names.files), dict(names.patterns)
+        if robot.command:
+            files = {self.name(path, {}): None for path in robot.command_inputs}
+        for name in files:
+            if (path := self.path(name)) is not None:
+                files[name] = file_hash(path)
+        for name in patterns:
+            if (path := self.path(name)) is not None:
+                patterns[name] = names_hash(path)
+        return Expansion(
+            source=self.name(self.source, {}),
+            arguments=robot.arguments or {},
+            command=robot.command,
+            files=files,
+            patterns=patterns,
+            variables={name: variable_hash(name) for name in names.variables},
+        )
 
-    def places(self, known: Expansion | None) -> list[tuple[int, str, int]]:
+    def find_changes(self, robot: RobotConfig, known: Expansion) -> tuple[str, ...]:
+        """Return what is other than when a source was made."""
+        now, changed = self.look(robot, known), []
+        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(known, key)]
+        changed += [name for name in {**known.files, **now.files} if known.files.get(name) != now.files.get(name)]
+        changed += [name for name in known.patterns if known.patterns[name] != now.patterns[name]]
+        return (*changed, *(f"${name}" for name in known.variables if known.variables[name] != now.variables[name]))
+
+    def places(self, known: Expansion) -> list[tuple[int, str, int]]:
         """Return the line of each element in an expansion, with the file as people see it and the line it is from."""
-        if known is None:
+        try:
+            files = [shown(self.path(name) or Path(name)) for name in known.files]
+            entries = (map(int, re.split("[=:]", entry)) for entry in known.places.split())
+            return [(line, files[number], origin) for line, number, origin in entries]
+        except (IndexError, ValueError):  # not from here
             return []
-        files = [shown(self.path(name) or Path(name)) for name in known.files]
-        entries = (map(int, re.split("[=:]", entry)) for entry in known.places.split())
-        return [(line, files[number], origin) for line, number, origin in entries]
 
     def paths(self, known: Expansion) -> list[Path]:
         """Return the paths of all files that a source was made of."""
@@ -107,7 +120,7 @@ def file_hash(path: Path) -> str | None:
     """Return the hash of a file; None if there is none that can be read."""
     try:
         return digest(read_file(path))
-    except OSError:
+    except (OSError, ValueError):  # a name may be a stranger's, and none of a file
         return None
 
 
@@ -116,7 +129,8 @@ def names_hash(pattern: Path) -> str:
     if glob.has_magic(str(pattern.parent)):
         mark_incomplete()  # which folders are looked through is not recorded
     depend_on(pattern.parent)
-    return digest("\0".join(sorted(Path(path).name for path in glob.glob(str(pattern)))).encode(errors="replace"))  # noqa: PTH207 - as xacro does
+    names = sorted(Path(path).name for path in glob.glob(str(pattern)))  # noqa: PTH207 - as xacro does
+    return digest("\0".join(names).encode(errors="surrogateescape"))
 
 
 def variable_hash(name: str) -> str | None:
@@ -128,12 +142,12 @@ def variable_hash(name: str) -> str | None:
 def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     """Expand a source by xacro, in a process of its own. Raises SourceError."""
     folders = tuple(map(str, inputs.package_paths))
-    answer = _ask(Request(str(inputs.source), arguments, folders))
+    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY))
     if (problem := answer.problem) is not None:
-        message = problem.message or _LIMITS
+        message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
-        hint = _HINTS[problem.code]
-        raise SourceError(Diagnostic(Severity.ERROR, problem.code, message, file, problem.line, hint=hint))
+        place, hint = (file, problem.line), _HINTS.get(problem.code, _HINTS["xacro"])
+        raise SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(

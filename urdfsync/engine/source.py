@@ -78,25 +78,45 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
-    recorded = store.load_expansion(robot.name)
-    if robot.command:
-        return _read_made(config, robot, inputs, recorded, options)
-    content, arguments = _read(config, robot), robot.arguments or {}
-    known, changes = None, NEVER
-    for one in (recorded, options.expansions.get(robot.name)):
-        if one is not None and (changes := inputs.find_changes(one, arguments)) == ():
+    recorded, stale = store.load_expansion(robot.name), NEVER
+    known = None
+    for one in filter(None, (recorded, options.expansions.get(robot.name))):
+        if not (stale := inputs.find_changes(robot, one)):
             known = one
             break
-    if known is None and not options.expands:
-        content = recorded.text.encode() if recorded else b""
-        return Source(content, shown(robot.source), inputs.places(recorded), (), recorded, changes)
-    if known is None or options.full:
-        known = expansion.expand(inputs, arguments)
-        options.expansions[robot.name] = known
-        if inputs.find_changes(known, arguments):
-            mark_incomplete()  # somebody saved meanwhile
-    found = expansion.warnings(config, robot, known)
-    return Source(known.text.encode(), shown(robot.source), inputs.places(known), found, known)
+    if not robot.command:
+        _read(config, robot)  # says what is wrong with a file that xacro can't read
+    elif not is_file(robot.source):
+        known, stale = None, stale or (robot.source.name,)
+    # a dry run writes nothing, and a command writes the source
+    if options.expands and not (robot.command and options.dry) and (known is None or options.full):
+        known, stale = _expand(config, robot, inputs, options), ()
+    made, content = known or recorded, b""
+    if robot.command and (options.expands or is_file(robot.source)):
+        content = _read(config, robot)
+    elif made is not None:
+        content = made.text.encode()
+    if made is None:
+        return Source(content, shown(robot.source), stale=stale)
+    told = expansion.warnings(config, robot, made)
+    return Source(content, shown(robot.source), inputs.places(made), told, made, stale)
+
+
+def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOptions) -> Expansion:
+    """Make a source by xacro or by its command. Raises SourceError, and ConfigError for a command without trust."""
+    from urdfsync.engine import expansion
+
+    if not robot.command:
+        known = expansion.expand(inputs, robot.arguments or {})
+    elif options.trusted or (untrusted := find_untrusted_command(config, robot)) is None:
+        known = inputs.look(robot, Expansion(source=""))
+        expansion.run_command(config, robot)
+    else:
+        raise ConfigError(untrusted)
+    options.expansions[robot.name] = known
+    if inputs.find_changes(robot, known):
+        mark_incomplete()  # somebody saved meanwhile
+    return known
 
 
 def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
@@ -114,33 +134,6 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
     inputs = expansion.Inputs(place.parent, place, package_paths)
     known = expansion.expand(inputs, arguments)
     return Source(known.text.encode(), shown(file), inputs.places(known))
-
-
-def _read_made(
-    config: Config, robot: RobotConfig, inputs: Inputs, recorded: Expansion | None, options: BuildOptions
-) -> Source:
-    """Read a source that a command writes; run the command before if it, or one of its inputs, has changed.
-
-    A dry run, which writes nothing, runs no command.
-    """
-    from urdfsync.engine import expansion
-
-    now = inputs.made(robot.command, robot.command_inputs)
-    changes = NEVER if recorded is None else inputs.find_changes(recorded, {}, robot.command)
-    if recorded is not None and recorded.files.keys() != now.files.keys():
-        changes = (*changes, "command_inputs")
-    if not is_file(robot.source):
-        changes = changes or (robot.source.name,)
-    if not changes and not options.full:
-        return Source(_read(config, robot), shown(robot.source), expansion=recorded)
-    if options.dry:
-        content = _read(config, robot) if is_file(robot.source) or options.expands else b""
-        return Source(content, shown(robot.source), expansion=recorded, stale=changes)
-    if not options.trusted and (untrusted := find_untrusted_command(config, robot)):
-        raise ConfigError(untrusted)
-    expansion.run_command(config, robot)
-    mark_incomplete()
-    return Source(_read(config, robot), shown(robot.source), expansion=now)
 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:

@@ -26,11 +26,6 @@ from urdfsync.engine import ros_packages
 from urdfsync.files import digest
 from urdfsync.processes import limits, reserve_stdout
 
-CPU_SECONDS = 20.0
-"""For one expansion, on Linux and macOS. The largest robots take 2 s."""
-MEMORY = 1_000_000_000
-"""Bytes that the process may allocate, on Linux."""
-
 _FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
 """Events of Python that no expansion needs, by how their names begin; but for these."""
 _ALLOWED = ("os.listdir", "os.scandir", "os.walk")
@@ -45,6 +40,10 @@ class Request(msgspec.Struct, frozen=True):
     source: str
     arguments: Mapping[str, str]
     package_paths: tuple[str, ...]
+    seconds: float
+    """CPU time that it may take."""
+    memory: int
+    """Bytes that may be allocated."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -177,7 +176,7 @@ def expand(request: Request) -> Answer:
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
-        with limits(CPU_SECONDS, MEMORY), contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+        with limits(request.seconds, request.memory), contextlib.redirect_stderr(said):
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
