@@ -48,13 +48,13 @@ class Inputs:
     """What one source is made of: where these files are, and how the state calls them."""
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
-        self._root, self.source, self.package_paths = root, source, tuple(package_paths)
+        self.root, self.source, self.package_paths = root, source, tuple(package_paths)
         self._packages: dict[str, Path | None] = {}
 
     def path(self, name: str) -> Path | None:
         """Return the path of a file by its name; None if its package is not on this machine."""
         if not name.startswith(_PACKAGE):
-            return Path(os.path.normpath(self._root / name))
+            return Path(os.path.normpath(self.root / name))
         package, _, rest = name.removeprefix(_PACKAGE).partition("/")
         if package not in self._packages:
             self._packages[package] = ros_packages.find_package(package, self.package_paths, self.source)
@@ -64,12 +64,12 @@ class Inputs:
     def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
         """Return how the state calls a file: the same on every machine, if that can be."""
         file = Path(path)
-        if not file.is_relative_to(self._root):
+        if not file.is_relative_to(self.root):
             for package, folder in packages.items():
                 if file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
         # else both have nothing in common
-        return Path(os.path.relpath(file, self._root) if file.parts[:2] == self._root.parts[:2] else file).as_posix()
+        return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
         """Return what a source would be made of now, by the names in an expansion; without what would be made.
@@ -142,7 +142,7 @@ def variable_hash(name: str) -> str | None:
 def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     """Expand a source by xacro, in a process of its own. Raises SourceError."""
     folders = tuple(map(str, inputs.package_paths))
-    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY))
+    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY), inputs.root)
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
@@ -163,14 +163,15 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     )
 
 
-def _ask(request: Request) -> Answer:
-    """Have a file expanded by another process."""
+def _ask(request: Request, folder: Path) -> Answer:
+    """Have a file expanded by another process, which works in a folder."""
     limits = Answer(problem=Problem("xacro-limits", ""))
     try:
         done = subprocess.run(  # noqa: S603 - a command of ours
             python_module("urdfsync.engine.xacro_worker"),
             input=msgspec.json.encode(request),
             capture_output=True,
+            cwd=folder,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the same text each time
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
