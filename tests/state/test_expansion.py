@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -19,15 +20,13 @@ ARM = Expansion(source="arm.xacro", files={"arm.xacro": "1", "arm.yaml": "2"}, t
 def test_it_comes_back(expansion: Expansion) -> None:
     found = loads(dumps(expansion))
     assert found is not None
-    assert (found.source, found.files, found.variables, found.text) == (
-        *(expansion.source, expansion.files),
-        *(expansion.variables, expansion.text),
-    )
-    assert dumps(found) == dumps(expansion)
+    assert msgspec.structs.replace(found, sum="") == expansion
 
 
 def test_line_ends_make_no_difference() -> None:
-    assert loads(dumps(ARM).replace(b"\n", b"\r\n")) == loads(dumps(ARM)) != None  # noqa: E711 - a chain
+    found = loads(dumps(ARM).replace(b"\n", b"\r\n"))
+    assert found is not None
+    assert dumps(found) == dumps(ARM)
 
 
 @pytest.mark.parametrize(
