@@ -205,6 +205,18 @@ def test_a_warning_is_told_at_its_place_by_each_build(project: Path, execute: Ex
         assert f"urdf/parts/beam.xacro:{line}: warning:" in execute("build").err
 
 
+def test_lines_in_messages_are_those_of_xacro(project: Path, execute: Execute) -> None:
+    colour = '<material name="${name}"><color rgba="255 0 0 1"/></material></visual>'
+    beams = "".join(f'<xacro:beam name="beam{n}" parent="base" mass="1" length="1"/>\n' for n in range(5))
+    files = {"parts/beam.xacro": xacros.BEAM.replace("</visual>", colour)}
+    xacros.write(project, files | {"arm.urdf.xacro": xacros.ARM.replace("</robot>", f"{beams}</robot>")})
+    line = 1 + xacros.BEAM[: xacros.BEAM.index("</visual")].count("\n")
+    place = f"urdf/parts/beam.xacro:{line}"
+    words = execute("build").words
+    assert f"{place}: warning: " in words
+    assert f"(and 5 more like it: lines {place})" in words
+
+
 def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, execute: Execute) -> None:
     said = xacros.ARM.replace("</robot>", "<!-- xacro:eval-comments -->${xacro.warning('mind the step')}</robot>")
     xacros.write(project, {"arm.urdf.xacro": said}, xacros.CONFIG.replace("{ length", "{ lenght = 1, length"))

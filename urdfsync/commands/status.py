@@ -101,8 +101,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             console.add_robot(_values(result))
             continue
         # notes about the source are for whoever builds it
-        source, found = sources[result.robot], result.diagnostics
-        quiet = [one for one in found if one.file == source and one.severity is Severity.NOTE]
+        source, found = (sources[result.robot], ".xacro"), result.diagnostics
+        quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
         console.findings(told)
         console.stop_progress()

@@ -23,8 +23,7 @@ class Rendering:
     def __init__(self, config: Config, robot: RobotConfig, options: BuildOptions) -> None:
         inputs = inspect(config, robot, options)
         self.robot, self.domain = robot, inputs.domain
-        self.content = inputs.source.content
-        """The source's bytes."""
+        self.source, self.content = inputs.source, inputs.source.content
         self._templates = inputs.templates
         self._imports: Mapping[str, Import]
         with inputs.source.locating():

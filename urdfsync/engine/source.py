@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import stat
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
+_LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
+"""Lines that a message names."""
 NEVER: tuple[str, ...] = ("it was never expanded",)
 """Why a source is stale of which there is no expansion."""
 
@@ -51,12 +54,26 @@ class Source(msgspec.Struct, frozen=True):
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:
-        """Return a diagnostic about the text with the file and line that the user wrote."""
-        number = bisect_right(self.places, found.line, key=lambda place: place[0]) - 1
-        if found.file != self.name or not found.line or number < 0:
+        """Return a diagnostic about the text with the files and lines that the user wrote."""
+        if not self.places or found.file != self.name or not found.line:
             return found
-        _, file, line = self.places[number]
-        return msgspec.structs.replace(found, file=file, line=line, column=0)
+        (file, line), message = self._place(found.line), self._with_places(found.message)
+        details = tuple(map(self._with_places, found.details))
+        return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
+
+    def _place(self, line: int) -> tuple[str, int]:
+        """Return where the element at a line of the text is from: the root, for a line above it."""
+        number = bisect_right(self.places, line, key=lambda place: place[0])
+        return self.places[max(number - 1, 0)][1:]
+
+    def _with_places(self, text: str) -> str:
+        """Return a message with files and lines in the place of the lines that it names."""
+
+        def replace(match: re.Match[str]) -> str:
+            places = dict.fromkeys(self._place(int(line)) for line in match[2].split(", "))
+            return f"{match[1]} {', '.join(f'{file}:{line}' for file, line in places)}"
+
+        return _LINES.sub(replace, text)
 
     @contextlib.contextmanager
     def locating(self) -> Iterator[None]:

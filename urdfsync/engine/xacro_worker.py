@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import re
 import sys
 import types
 import xml.dom
@@ -214,8 +215,7 @@ def _refuse_events(patterns: dict[str, None]) -> None:
 def _with_package_uris(text: str, packages: Mapping[str, str]) -> str:
     """Replace the folders of packages by `package://NAME`, so that the text is the same on every machine."""
     for name, folder in sorted(packages.items(), key=lambda item: -len(item[1])):
-        for prefix in ("file://", ""):
-            text = text.replace(f'"{prefix}{folder}/', f'"package://{name}/')
+        text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
     return text
 
 
