@@ -76,7 +76,7 @@ def _no_stray_writes() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the user's shell sets must not decide about tests."""
-    for name in ("ROS_PACKAGE_PATH", "NO_COLOR", "FORCE_COLOR", "COLUMNS"):
+    for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR", "COLUMNS"):
         monkeypatch.delenv(name, raising=False)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from benchmarks.measuring import UnexpectedError, measure
-from benchmarks.robots import Source, chain, mesh, write_meshes, write_workspace
+from benchmarks.robots import Source, chain, mesh, write_meshes, write_workspace, write_xacro_workspace
 
 from urdfsync import cli
 
@@ -29,6 +29,16 @@ def test_a_workspace_is_built_without_findings(
     assert "files written" in told.out
     assert "warning" not in told.out + told.err
     assert len(list((place / "modelica/Robot0/Links").glob("*Parameters.mo"))) == 3
+
+
+def test_a_robot_of_xacro_includes_its_links(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(write_xacro_workspace(tmp_path / "place", 3))
+    assert cli.main(["build"]) == 0
+    assert "files written" in capsys.readouterr().out
+    (expanded,) = Path(".urdfsync/robots").glob("*.expanded")
+    assert '"link2.xacro"' in expanded.read_text()
 
 
 def test_each_edit_changes_the_first_mass_alone(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 from support.networks import run_all
 
 from urdfsync import dependencies, registry
-from urdfsync.dependencies import STAT
+from urdfsync.dependencies import STAT, VARIABLE
 
 
 @pytest.fixture
@@ -34,6 +34,19 @@ def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_s
     with dependencies.Dependencies() as found:
         registry.domain("rcnetwork")
     assert (STAT, str(rc_site)) in found.entries
+
+
+def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("LENGTH", raising=False)
+    for value in (None, "", "0.5", "0.6"):
+        if value is not None:
+            monkeypatch.setenv("LENGTH", value)
+        before = dependencies.check_path(VARIABLE, "LENGTH")
+        with dependencies.Dependencies() as found:
+            assert dependencies.read_variable("LENGTH") == value
+        assert found.entries == {(VARIABLE, "LENGTH"): before}
+        monkeypatch.setenv("LENGTH", "another")
+        assert dependencies.check_path(VARIABLE, "LENGTH") != before
 
 
 def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:

@@ -30,6 +30,8 @@ _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
 """How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
 `os.lstat`, what they lead to with `os.stat`."""
+VARIABLE = "variable"
+"""How an environment variable is checked, whose name stands in the place of a path: by its value."""
 Entries = dict[tuple[str, str], tuple[int, ...]]
 """Checks and paths with what was found: a `Stat`, or a tuple of the file type."""
 
@@ -98,6 +100,9 @@ def stat_of(status: os.stat_result) -> Stat:
 
 def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
     """What is at a path now, in the form of `Entries`. Raises OSError."""
+    if check == VARIABLE:
+        value = os.environ.get(os.fspath(path))
+        return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     follow = check in (STAT, STAT_TYPE)
     if check in (LSTAT, STAT):
         return stat_of(os.stat(path, follow_symlinks=follow))
@@ -130,6 +135,13 @@ def is_file(path: str | os.PathLike[str]) -> bool:
 def is_folder(path: str | os.PathLike[str]) -> bool:
     """Whether a folder, or a link to one, is at a path. Raises OSError if the system does not tell."""
     return file_type(path) == stat.S_IFDIR
+
+
+def read_variable(name: str) -> str | None:
+    """The value of an environment variable; None if it is not set."""
+    if (dependencies := _current.get()) is not None:
+        dependencies.add(VARIABLE, name, check_path(VARIABLE, name))
+    return os.environ.get(name)
 
 
 def read_file(path: str | os.PathLike[str]) -> bytes:

@@ -27,7 +27,7 @@ def passes(index: git.Index, configuration: str) -> bool:
 def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
     """Return the file of a configuration, and the key of its answer: all that this depends on beside files."""
     file = f"{index.top}/{configuration}"
-    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH"))
+    variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH"))
     return file, repr(("hook", file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
 
 

@@ -7,9 +7,12 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO
+
+if sys.platform != "win32":
+    import resource
 
 
 def python_module(module: str, *arguments: str) -> list[str]:
@@ -57,3 +60,28 @@ def exit_cause(code: int) -> str:
         return f"exit code {code}"
     names = {one.value: f" ({one.name})" for one in signal.Signals}
     return f"signal {-code}{names.get(-code, '')}"
+
+
+@contextlib.contextmanager
+def limits(seconds: float, memory: int) -> Iterator[None]:
+    """Limit CPU time (s) and memory (bytes, on Linux) of this process, and let no file be written.
+
+    More time ends the process by SIGPROF. Libraries are best loaded before. Windows has no such limits.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    kinds = {resource.RLIMIT_FSIZE: 0, resource.RLIMIT_CORE: 0}
+    if sys.platform == "linux":  # macOS knows this limit, and does not keep it
+        kinds[resource.RLIMIT_DATA] = memory
+    before = {kind: resource.getrlimit(kind) for kind in kinds}
+    for kind, limit in kinds.items():
+        resource.setrlimit(kind, (limit, before[kind][1]))
+    # RLIMIT_CPU counts whole seconds, and all that the process has done before
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        for kind, both in before.items():
+            resource.setrlimit(kind, both)

@@ -12,7 +12,7 @@ import os
 import sys
 
 from urdfsync import __version__, streams
-from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, Dependencies, Entries, check_path, is_young
+from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, VARIABLE, Dependencies, Entries, check_path, is_young
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"
@@ -20,8 +20,8 @@ CONFIGURATION = "urdfsync.toml"
 _FORMAT = "urdfsync answers 3"
 _FOLDER, _NAME = ".urdfsync", "stamp"
 _VARIABLES = (
-    *("ROS_PACKAGE_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM", "COLORTERM", "COLUMNS"),
-    *("LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
+    *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM"),
+    *("COLORTERM", "COLUMNS", "LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
 )
 """Environment variables that decide which files a command finds, and how its output looks."""
 _MAX_ANSWERS = 16
@@ -143,7 +143,10 @@ def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dep
         return
     here, folder = os.getcwd(), os.path.join(os.path.dirname(config_file), _FOLDER)
     dependencies.add_modules()
-    recorded = {(check, os.path.join(here, path)): found for (check, path), found in dependencies.entries.items()}
+    recorded = {
+        (check, path if check == VARIABLE else os.path.join(here, path)): found
+        for (check, path), found in dependencies.entries.items()
+    }
     if (STAT, str(PurePath(config_file))) not in recorded:
         return  # such as `--help`, which reads nothing
     if any(is_young(found, dependencies.started) for (check, _), found in recorded.items() if check in (LSTAT, STAT)):

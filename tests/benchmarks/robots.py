@@ -60,6 +60,27 @@ def write_workspace(folder: Path, robots: int, links: int, geometry: Callable[[i
     return folder
 
 
+def write_xacro_workspace(folder: Path, files: int) -> Path:
+    """Write a robot of xacro that includes so many files, with one link each, and return the folder."""
+    write_workspace(folder, 1, files)
+    urdf = folder / "robot0.urdf"
+    text, opening = (
+        urdf.read_text(encoding="utf-8"),
+        '<robot name="robot0" xmlns:xacro="http://www.ros.org/wiki/xacro">\n',
+    )
+    links = re.findall(r"<link.*?</link>\n", text, re.DOTALL)
+    for number, link in enumerate(links):
+        (folder / f"link{number}.xacro").write_text(f"{opening}{link}</robot>\n", encoding="utf-8")
+        text = text.replace(link, f'<xacro:include filename="link{number}.xacro"/>\n')
+    text = text.replace('<robot name="robot0">\n', opening)
+    urdf.rename(folder / "robot0.urdf.xacro").write_text(text, encoding="utf-8")
+    configuration = folder / "urdfsync.toml"
+    configuration.write_text(
+        configuration.read_text(encoding="utf-8").replace(".urdf", ".urdf.xacro"), encoding="utf-8"
+    )
+    return folder
+
+
 def write_meshes(folder: Path, count: int) -> None:
     """Write the files that `mesh` names for so many links: triangles wound round spheres of different sizes."""
     for number in range(count):

@@ -18,7 +18,7 @@ from support.daemon import LIMIT, Watch
 
 from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
 from benchmarks.published import Published
-from benchmarks.robots import Source, mesh, write_meshes, write_workspace
+from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 REFERENCE = 12.0
@@ -65,14 +65,18 @@ def scaled(at_most: float) -> Reading:
 
 def nothing_to_do(tools: Tools) -> Iterator[Pair]:
     """A command where everything is in step, beside an empty console script."""
-    for outputs, robots, links, bar in (("400", 1, 97, 1.5), ("8,000", 100, 17, 4)):
-        place = write_workspace(tools.folder / outputs, robots, links)
+    places = [
+        ("400 outputs", 1.5, write_workspace(tools.folder / "400", 1, 97)),
+        ("8,000 outputs", 4, write_workspace(tools.folder / "8,000", 100, 17)),
+        ("xacro with 40 included files", 1.6, write_xacro_workspace(tools.folder / "xacro", 40)),
+    ]
+    for title, bar, place in places:
         commands = {"build": tools.urdfsync("build"), "status": tools.urdfsync("status")}
         run([*commands["build"], "--quiet"], place)
         time.sleep(2.1)  # no answer is saved while a file is younger
         for name, command in commands.items():
             run(command, place)
-            what = f"{name}, {outputs} outputs"
+            what = f"{name}, {title}"
             yield Pair(
                 what, _command(command, place, "in step"), "empty console script", tools.empty, [ratio(bar), CPU]
             )
@@ -84,7 +88,7 @@ def nothing_to_do(tools: Tools) -> Iterator[Pair]:
         ):
             run(["git", *arguments], place)
         run(hook, place)
-        what = f"pre-commit hook, {outputs} outputs"
+        what = f"pre-commit hook, {title}"
         yield Pair(what, _command(hook, place, ""), "empty console script", tools.empty, [ratio(6), CPU])
 
 

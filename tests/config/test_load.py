@@ -101,6 +101,16 @@ MISTAKES = {
     "create_parents = 'yes'": '`create_parents` must be true or false, not "yes" [wrong-value]',
     "package_paths = ['a', 1]": '`package_paths` must be a list of strings, not ["a", 1] [wrong-value]',
     "on_build = true": '`on_build` must be "nothing" or "check", not true [wrong-value]',
+    "arguments = { a = [1] }": (
+        '`arguments` must be a table of strings, numbers, true and false, not {"a": [1]} [wrong-value]'
+    ),
+    "command = 'make'": '`command` must be a list of strings, not "make" [wrong-value]',
+    "command_inputs = ['a']": (
+        "robot `arm`: `command_inputs` without `command`; add the command, or take them out [wrong-value]"
+    ),
+    "arguments = {}\ncommand = ['make']": (
+        "robot `arm`: `command` writes a source that xacro does not expand; take one out [wrong-value]"
+    ),
     "renamed = { a = 1 }": '`renamed` must be a table of strings, not {"a": 1} [wrong-value]',
     'output = ""': '`output` is empty; give a path; "." is the folder of the configuration [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.engine.ros_packages import find, libraries
+from urdfsync.engine.ros_packages import find, find_package, libraries
 
 IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 
@@ -31,6 +31,27 @@ def test_packages_are_found_by_the_name_that_they_say(
             (folder / "package.xml").write_text(f"<package format='2'>\n  <name> {name} </name>\n</package>\n")
     folders = [tmp_path / place for place in search]
     assert find(folders, tmp_path / source / "arm.urdf") == {name: tmp_path / place for name, place in found.items()}
+
+
+@pytest.mark.parametrize(
+    ("packages", "place"),
+    [
+        pytest.param({"ws/cad": "arm", "search/arm": "arm"}, "ws/cad", id="around the source"),
+        pytest.param({"search/arm": "arm", "ws/arm": "arm"}, "search/arm", id="in a search path, then beside it"),
+        pytest.param({"ws/arm": "arm", "search/a/b": "arm"}, "ws/arm", id="beside the source"),
+        pytest.param({"search/deep/arm-2.1": "arm", "ws/arm": ""}, "search/deep/arm-2.1", id="its name counts"),
+        pytest.param({"search/arm": ""}, "search/arm", id="without package.xml"),
+        pytest.param({"search/arm": "leg"}, "search/arm", id="of another name, if there is no other"),
+        pytest.param({"search/leg": "leg"}, None, id="none"),
+    ],
+)
+def test_one_package_is_found(tmp_path: Path, packages: dict[str, str], place: str | None) -> None:
+    for folder, name in packages.items():
+        (tmp_path / folder).mkdir(parents=True, exist_ok=True)
+        if name:
+            (tmp_path / folder / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    found = find_package("arm", [tmp_path / "search"], tmp_path / "ws/cad/urdf/arm.xacro")
+    assert found == (tmp_path / place if place else None)
 
 
 def library(folder: Path) -> Path:

@@ -9,7 +9,9 @@ from urdfsync.check.results import CheckOptions
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine import source
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
+from urdfsync.state.store import Store
 
 
 def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> str | None:
@@ -21,7 +23,9 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         users = package.users_files(config, robot)
         every = [*texts.values(), *around.values(), *users.values()]
         needed = libraries.find_libraries(config, robot, every, [name for name, _ in domain.uses(robot.options)])
-        sources = source.read_source(config, robot), source.templates(config, robot, domain).digest, needed.state()
+        request = BuildOptions(dry=True, package_paths=options.package_paths)
+        content = source.read_source(config, robot, Store(config.root), request).content
+        sources = content, source.templates(config, robot, domain).digest, needed.state()
     except (UrdfsyncError, OSError):
         return None
     return digest(

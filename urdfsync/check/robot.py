@@ -65,7 +65,8 @@ def _check(
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     tell(f"{robot.name}: checking files and names")
     result.add(package.source_diagnostics)
-    result.add(package.domain.cross_check(package.rendering.content, shown(robot.source)))
+    found = package.domain.cross_check(package.rendering.content, shown(robot.source))
+    result.add(map(package.rendering.source.locate, found))
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in package.domain.uses(robot.options)]
     needed, missing = libraries.find_libraries(config, robot, contents, uses), compilers.find_missing(options.compiler)

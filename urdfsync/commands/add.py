@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 import msgspec
 
@@ -27,7 +26,12 @@ def add(commands: arguments.Commands) -> None:
         "as it is.",
         epilog="example: urdfsync add cad/gripper.urdf",
     )
-    parser.add_argument("sources", nargs="+", type=Path, metavar="SOURCE", help="the sources of the new robots")
+    parser.add_argument(
+        "sources",
+        nargs="+",
+        metavar="SOURCE",
+        help="the sources of the new robots; of xacro with arguments NAME:=VALUE",
+    )
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
 
 
@@ -35,7 +39,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Write the new tables behind all others, and show what was guessed. Raises ConfigError, SourceError."""
     loaded, domain = arguments.configuration(args), registry.domain(args.domain)
     taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
-    guesses, warnings = guess_robots(domain, loaded.root, args.sources, taken)
+    named, given = arguments.split_sources(args.sources, args.parser)
+    guesses, warnings = guess_robots(domain, loaded.root, named, given, taken)
     known = {robot.source.resolve(): robot.name for robot in loaded.robots}
     for guess in guesses:
         if (source := (loaded.root / guess.source).resolve()) in known:

@@ -62,7 +62,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
         "action": "store_true",
-        "help": "write to an `output` outside of the configuration's folder, too",
+        "help": "write to an `output` outside of the configuration's folder, and run a robot's `command`",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
     # never from the configuration: workers may do whatever they want
@@ -116,6 +116,19 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
         executor=getattr(args, "executor", ""),
         **options,
     )
+
+
+def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:
+    """Return sources, and arguments of xacro, which are written as on its command line: `NAME:=VALUE`."""
+    values = dict[str, str]()
+    for text in texts:
+        name, is_argument, value = text.partition(":=")
+        if is_argument and name.isidentifier():
+            values[name] = value
+    sources = [Path(text) for text in texts if text.partition(":=")[0] not in values]
+    if values and not any(source.suffix == ".xacro" for source in sources):
+        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is a .xacro file")
+    return sources, values
 
 
 def is_confirmed(question: str, done: str, console: Console) -> bool:

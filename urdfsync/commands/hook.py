@@ -18,7 +18,7 @@ from urdfsync import config as configuration
 from urdfsync import git, hook, uptodate
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import LSTAT, STAT, Dependencies
+from urdfsync.dependencies import LSTAT, STAT, VARIABLE, Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError, UrdfsyncError
 from urdfsync.engine import parents
 from urdfsync.engine.actions import Kind
@@ -146,13 +146,16 @@ class RobotFiles:
         """`planned` is the result of a dry run, and `dependencies` are what that has read."""
         self._commit, self.config, self.robot, self.planned = commit, config, robot, planned
         state = config.root / STATE_FOLDER
-        kept = [Store(config.root).path(robot.name), state / ".gitignore", state / ".gitattributes"]
+        store = Store(config.root)
+        kept = [store.path(robot.name), store.expansion(robot.name), state / ".gitignore", state / ".gitattributes"]
         self.outputs = commit.paths([*kept, *parents.files(robot)])
         """Files that a commit has to have if they exist."""
         read = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
         self.inputs = commit.paths([config.file, *read])
         """Files that a commit has to have unless git is told to ignore them."""
-        self.known = self.inputs | commit.paths([robot.source, *(path for _, path in dependencies.entries)])
+        self.known = self.inputs | commit.paths(
+            [robot.source, *(path for check, path in dependencies.entries if check != VARIABLE)]
+        )
         """These, and files that could have been there."""
         self.note(planned)
         self.states = f"{commit.path(state / 'robots')}/"

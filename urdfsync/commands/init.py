@@ -7,7 +7,7 @@ import contextlib
 import json
 import os
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -50,6 +50,7 @@ class Guess(msgspec.Struct, frozen=True):
 
     name: str
     source: str
+    arguments: Mapping[str, str]
     package: str
     options: tuple[Proposal, ...]
 
@@ -65,7 +66,10 @@ def add(commands: arguments.Commands) -> None:
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
     parser.add_argument(
-        "sources", nargs="*", type=Path, metavar="SOURCE", help="URDF files (default: all below this folder)"
+        "sources",
+        nargs="*",
+        metavar="SOURCE",
+        help="URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE",
     )
     parser.add_argument(
         "--merge",
@@ -80,7 +84,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     file = config.working_folder() / (args.config or config.FILE_NAME)
     _refuse_existing(file)
     domain = registry.domain(args.domain)
-    guesses, warnings = guess_robots(domain, file.parent, args.sources)
+    named, given = arguments.split_sources(args.sources, args.parser)
+    guesses, warnings = guess_robots(domain, file.parent, named, given)
     _refuse_existing(file)
     with write_errors(file):
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
@@ -93,12 +98,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 
 def guess_robots(
-    domain: Domain, root: Path, named: Sequence[Path], taken: Collection[str] = ()
+    domain: Domain, root: Path, named: Sequence[Path], given: Mapping[str, str], taken: Collection[str] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each source that is named, or for each below `root` if none is; with warnings about them.
 
-    None gets one of the names of robots and packages that are `taken`. A source that is named twice counts once. Raises
-    ConfigError if there is no source, SourceError if one that is named can't be read, or none of those that were found.
+    Sources of xacro get the arguments that are `given`. No robot gets one of the names of robots and packages that are
+    `taken`. A source that is named twice counts once. Raises ConfigError if there is no source, SourceError if one that
+    is named can't be read, or none of those that were found.
     """
     unique: dict[str, Path] = {}
     for source in named or _search(root, f".{domain.name}"):
@@ -112,7 +118,7 @@ def guess_robots(
     for source in unique.values():
         try:
             used = {*taken, *(name for one in guesses for name in (one.name, one.package))}
-            guess, found = _guess(domain, source, root, used)
+            guess, found = _guess(domain, source, given, root, used)
         except SourceError as error:
             if named:
                 raise
@@ -137,21 +143,26 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
         yield from (Path(parent, name) for name in found)
 
 
-def _guess(domain: Domain, source: Path, root: Path, taken: Collection[str]) -> tuple[Guess, Sequence[Diagnostic]]:
+def _guess(
+    domain: Domain, source: Path, given: Mapping[str, str], root: Path, taken: Collection[str]
+) -> tuple[Guess, Sequence[Diagnostic]]:
     """A robot for a source, under names that are not taken; with warnings. Raises SourceError."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
-    snapshot, reading = source_files.read(domain, domain.options(), config.read_source(source), shown(source))
+    values = given if source.suffix == ".xacro" else {}
+    text = source_files.read_file_source(source, values, config.ros_package_path(os.environ))
+    with text.locating():
+        snapshot, reading = source_files.read(domain, domain.options(), text.content, text.name)
     stem = source.name.partition(".")[0][:_LONGEST]
     name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
     name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
     names = set(map(str.casefold, taken))
     counts = ("", *map(str, range(2, len(taken) + 2)))
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
-    guess = Guess(name + count, path.as_posix(), package + count, tuple(domain.propose(snapshot)))
-    return guess, reading.diagnostics
+    guess = Guess(name + count, path.as_posix(), values, package + count, tuple(domain.propose(snapshot)))
+    return guess, tuple(map(text.locate, reading.diagnostics))
 
 
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
@@ -165,6 +176,7 @@ def robot_table(guess: Guess, domain: Domain) -> str:
     lines = [
         f"[robots.{guess.name}]",
         _assignment("source", guess.source),
+        *([_inline_table("arguments", guess.arguments)] if guess.arguments else []),
         _assignment("package", guess.package)
         + "  # full name, for example Plant.Robots.Arm; its last part names the class",
     ]
@@ -187,6 +199,10 @@ def _assignment(key: str, value: Any) -> str:
         items = (tomli_w.dumps({"item": item}).strip().removeprefix("item = ") for item in plain_value)
         return f"{key} = [{', '.join(items)}]"
     return tomli_w.dumps({key: plain_value}).strip()
+
+
+def _inline_table(key: str, values: Mapping[str, str]) -> str:
+    return f"{key} = {{ {', '.join(_assignment(*item) for item in values.items())} }}"
 
 
 @contextlib.contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -39,7 +40,9 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant\n\n"
         "exit codes: 0 written, or there already; 2 error, 130 interrupted",
     )
-    parser.add_argument("source", type=Path, metavar="SOURCE", help="the URDF file")
+    parser.add_argument(
+        "source", nargs="+", metavar="SOURCE", help="the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
     parser.add_argument("--force", action="store_true", help="replace a FILE that holds something else")
     parser.add_argument(
@@ -57,15 +60,21 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Write the record to its file or to the standard output."""
     file = None if args.output == Path("-") else args.output
     domain = registry.domain(args.domain)
-    target = _target(args, file)
-    snapshot, reading = sources.read(domain, domain.options(), config.read_source(args.source), shown(args.source))
+    named, given = arguments.split_sources(args.source, args.parser)
+    if len(named) != 1:
+        raise arguments.UsageError(args.parser, f"name one source, not {len(named)}")
+    source, target = named[0], _target(args, named[0], file)
+    text = sources.read_file_source(source, given, config.ros_package_path(os.environ))
+    with text.locating():
+        snapshot, reading = sources.read(domain, domain.options(), text.content, text.name)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
-    found = domain.record(reading, shown(args.source), target, domain.options())
+    found = domain.record(reading, shown(source), target, domain.options())
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
     generated = Package([found.artifact], sources.domain_templates(domain), target.package)
-    console.warnings(sorted([*reading.diagnostics, *found.diagnostics], key=lambda diagnostic: diagnostic.line))
+    told = map(text.locate, (*reading.diagnostics, *found.diagnostics))
+    console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))
     record = generated.content(found.artifact.path).decode()
     values = {"class": target.name, "within": target.package}
     if file is None:
@@ -76,7 +85,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
         sys.stdout.write(record)
         return Exit.IN_STEP
-    is_written = _write(record, args.source, file, force=args.force)
+    is_written = _write(record, source, file, force=args.force)
     if console.json:
         console.write_json("record", Exit.IN_STEP, values | {"file": str(file), "written": is_written})
     elif not console.quiet:
@@ -111,7 +120,7 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
     return True
 
 
-def _target(args: argparse.Namespace, file: Path | None) -> Target:
+def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:
     """The class: the chosen one, else that of the file if its name can be a class, else one after the source."""
     name, within = args.class_, args.within
     if name and not is_class_name(name):
@@ -121,7 +130,7 @@ def _target(args: argparse.Namespace, file: Path | None) -> Target:
         message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
         raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
     stem = file.stem if file is not None and is_class_name(file.stem) else ""
-    return Target(within, name or stem or class_name(args.source.name.partition(".")[0]) + _SUFFIX)
+    return Target(within, name or stem or class_name(source.name.partition(".")[0]) + _SUFFIX)
 
 
 def _problem(code: str, message: str, file: Path, hint: str) -> OutputError:

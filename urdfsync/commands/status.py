@@ -17,10 +17,20 @@ from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
-from urdfsync.output.phrases import RESOLVE_HINT, action_counts, change_classes, counted, error_count, generator_change
+from urdfsync.output.phrases import (
+    NOT_EXPANDED,
+    RESOLVE_HINT,
+    action_counts,
+    change_classes,
+    counted,
+    error_count,
+    generator_change,
+)
 from urdfsync.output.phrases import reason as reason_of
 from urdfsync.output.results import action_values, file_line, headline, result_values
 
+_INPUTS = 5
+"""So many inputs that changed are named at most, without --verbose."""
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
 
@@ -85,14 +95,14 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     robots = arguments.select_robots(args, configuration, console)
     sources = {robot.name: shown(robot.source) for robot in robots}
     results = []
-    for result in build(configuration, robots, arguments.request(args, console, dry=True)):
+    for result in build(configuration, robots, arguments.request(args, console, dry=True, expands=False)):
         results.append(result)
         if console.json:
             console.add_robot(_values(result))
             continue
         # notes about the source are for whoever builds it
-        source, found = sources[result.robot], result.diagnostics
-        quiet = [one for one in found if one.file == source and one.severity is Severity.NOTE]
+        source, found = (sources[result.robot], ".xacro"), result.diagnostics
+        quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
         console.findings(told)
         console.stop_progress()
@@ -115,6 +125,8 @@ def is_built(result: Result) -> bool:
 
 def is_in_step(result: Result) -> bool:
     """Whether a build would write nothing, and no file is in conflict; edits and orphans are in order."""
+    if result.stale:
+        return False
     off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
     return not result.failed and off.isdisjoint(map(file_status, result.actions))
 
@@ -136,6 +148,7 @@ def _values(result: Result) -> dict[str, Any]:
         "built": is_built(result),
         "in_step": is_in_step(result),
         "summary": summary(result),
+        "not_expanded": list(result.stale),
         "files": [
             {
                 **action_values(action),
@@ -156,13 +169,15 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     Stale files come last. New files of a robot that was never built are not named.
     """
     yield headline(result, summary(result), is_fine=is_in_step(result))
+    if result.stale:
+        yield from first_lines([line((f"  {name}", "")) for name in result.stale], _INPUTS, "input", verbose=verbose)
     changes = result.changes
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
         yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
-    if not (is_in_step(result) or result.failed):
-        yield line((f"  next build: {', '.join(action_counts(result, {Kind.KEEP}))}", ""))
+    if (actions := action_counts(result, {Kind.KEEP})) and not (is_in_step(result) or result.failed):
+        yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
@@ -183,7 +198,8 @@ def summary(result: Result) -> str:
         return f"{error_count(result.diagnostics)}, so its files were not compared"
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
-    head = f"{'in' if is_in_step(result) else 'out of'} step, {counted(counts.total(), 'file')}"
+    stand = "in step" if is_in_step(result) else NOT_EXPANDED if result.stale else "out of step"
+    head = f"{stand}, {counted(counts.total(), 'file')}"
     if not (is_built(result) or is_in_step(result)):
         head = "not built yet"
         told.pop(FileStatus.STALE, None)

@@ -87,10 +87,15 @@ def in_words(kind: Any) -> str:
     if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
     if origin is Mapping:
-        return "a table of strings"
+        return "a table of strings" if arguments[1] is str else "a table of strings, numbers, true and false"
     if origin in (tuple, list):
         return f"a list of {'strings' if arguments[0] is str else in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
+
+
+def argument_texts(arguments: Mapping[str, str | float | bool]) -> dict[str, str]:
+    """Return arguments as xacro gets them on its command line."""
+    return {name: value if isinstance(value, str) else json.dumps(value) for name, value in arguments.items()}
 
 
 class _Table(NamedTuple):
@@ -199,6 +204,12 @@ class _Reader:
                 self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one of them out")
         for key, message, hint in find_name_problems(keys.package, keys.class_):
             self._report("modelica-name", lines[key], message, hint)
+        if keys.command and keys.arguments is not None:
+            message, hint = f"robot `{name}`: `command` writes a source that xacro does not expand", "take one out"
+            self._report("wrong-value", lines["arguments"], message, hint)
+        elif keys.command_inputs and not keys.command:
+            message = f"robot `{name}`: `command_inputs` without `command`"
+            self._report("wrong-value", lines["command_inputs"], message, "add the command, or take them out")
         source, output = Path(keys.source), _absolute(self._root / keys.output)
         for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
             if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
@@ -220,6 +231,9 @@ class _Reader:
             merging=keys.on_conflict == "merge",
             checking=keys.on_build == "check",
             ignored=frozenset(keys.ignore),
+            arguments=None if keys.arguments is None else argument_texts(keys.arguments),
+            command=keys.command,
+            command_inputs=tuple(_absolute(self._root / path) for path in keys.command_inputs),
             renamed=keys.renamed,
             options=options,
             lines=lines,

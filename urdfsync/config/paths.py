@@ -8,9 +8,8 @@ from pathlib import Path
 
 import urdfsync
 from urdfsync import dependencies
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
-from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 
 
@@ -23,19 +22,12 @@ def working_folder() -> Path:
         raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
 
 
-def read_source(file: Path) -> bytes:
-    """Read a source that is not read by a build. Raises SourceError."""
-    try:
-        return dependencies.read_unrecorded(file)
-    except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
-
-
 def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
-    """The folders of the environment variable ROS_PACKAGE_PATH."""
+    """The folders that hold packages of ROS 1, by ROS_PACKAGE_PATH, and those of ROS 2, by AMENT_PREFIX_PATH."""
     folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    return tuple(Path(folder).absolute() for folder in folders if folder)
+    prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    found = [*filter(None, folders), *(f"{prefix}/share" for prefix in prefixes if prefix)]
+    return tuple(Path(folder).absolute() for folder in found)
 
 
 def library_folder() -> Path:

@@ -18,7 +18,7 @@ from urdfsync.spelling import nearest
 FILE_NAME = "urdfsync.toml"
 STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
-OWN_KEYS = ("source", "package", "class", "renamed")
+OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
 """Keys that `[defaults]` can't have."""
 
 
@@ -27,6 +27,9 @@ class Keys(msgspec.Struct, frozen=True):
 
     source: str
     package: str
+    arguments: Mapping[str, str | int | float | bool] | None = None
+    command: tuple[str, ...] = ()
+    command_inputs: tuple[str, ...] = ()
     class_: str = msgspec.field(name="class", default="")
     output: str = "modelica"
     domain: str = "urdf"
@@ -68,6 +71,12 @@ class RobotConfig(msgspec.Struct, frozen=True):
     """Whether the package is checked after each build."""
     ignored: frozenset[str] = frozenset()
     """Codes of warnings and notes that nobody wants to see."""
+    arguments: Mapping[str, str] | None = None
+    """Arguments of xacro; None for a source that only its suffix may give to xacro."""
+    command: tuple[str, ...] = ()
+    """The command that writes the source; empty for none."""
+    command_inputs: tuple[Path, ...] = ()
+    """The files that this depends on."""
     renamed: Mapping[str, str] = {}
     """Old → new name of elements, as far as the user declares it."""
     lines: Mapping[str, int] = {}
@@ -77,6 +86,11 @@ class RobotConfig(msgspec.Struct, frozen=True):
     def folder(self) -> Path:
         """The folder of the generated package."""
         return self.output.joinpath(*self.target.package.split("."))
+
+    @property
+    def is_xacro(self) -> bool:
+        """Whether xacro expands the source."""
+        return self.arguments is not None or self.source.suffix == ".xacro"
 
     def is_at(self, place: Path) -> bool:
         """Whether a path is the robot's source, or is in its package or around it."""

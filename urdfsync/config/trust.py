@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from pathlib import Path
 
 import msgspec
@@ -32,6 +33,12 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     return _find_untrusted(config, f"`output` leads {_OUT}{shown(robot.output)}", robot.lines.get("output", 0))
 
 
+def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
+    """An error if the user has not named the configuration's folder, whose robot has a command. Raises ConfigError."""
+    message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
+    return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
+
+
 def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
     """An error if a file of the user's lies outside of the configuration's folder, as for an output."""
     place = Path(os.path.realpath(path))
@@ -40,7 +47,7 @@ def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
     return _find_untrusted(config, f"{shown(path)} leads {_OUT}{place}", 0)
 
 
-def _find_untrusted(config: Config, message: str, line: int) -> Diagnostic | None:
+def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
     """An error with this message if the user has not named the configuration's folder. Raises ConfigError."""
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:
@@ -54,4 +61,4 @@ def _find_untrusted(config: Config, message: str, line: int) -> Diagnostic | Non
     if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None
     hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'
-    return Diagnostic(Severity.ERROR, "untrusted-output", message, shown(config.file), line, hint=hint)
+    return Diagnostic(Severity.ERROR, code, message, shown(config.file), line, hint=hint)

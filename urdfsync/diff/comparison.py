@@ -17,8 +17,8 @@ import msgspec
 
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
-from urdfsync.config import Config, RobotConfig, read_source
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -31,8 +31,11 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
 from urdfsync.engine.result import Exit, Result
 from urdfsync.engine.result import exit_code as exit_code_of
+from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
+from urdfsync.state import expansion
+from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
@@ -165,7 +168,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     missing = "" if last else "the record of the last build is lost" if inputs.record else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and found is not None and (found.changes or found.generator):
-        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.content, shown(robot.source))
+        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
             effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
     edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
@@ -175,9 +178,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
 class _VersionedSource(NamedTuple):
     """The content of a source in one version."""
 
-    content: bytes
-    name: str
-    """Its name in diagnostics."""
+    text: Source
     places: tuple[Path, ...]
     """The files from which references count, best first; absolute."""
     revision: Revision | None = None
@@ -192,13 +193,15 @@ def _with_version(
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source, file = robot.source, folder / against
+        arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if file.is_file():
-            other = _VersionedSource(read_source(file), shown(file), (file, source))
+            given = arguments if file.suffix == source.suffix else {}
+            other = _VersionedSource(source_files.read_file_source(file, given, folders), (file, source))
         else:
             revision = Revision(source.parent, against)
-            content = revision.read(source)
-            other = _VersionedSource(content, revision.label(source), (source,), revision, Path(scratch))
-        current = _VersionedSource(read_source(source), shown(source), (source,))
+            text = _in_revision(revision, robot, config)
+            other = _VersionedSource(text, (source,), revision, Path(scratch))
+        current = _VersionedSource(source_files.read_file_source(source, arguments, folders), (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, _, told_before = _read(domain, robot, other, imported, options)
     before = {(one.code, one.message) for one in told_before}
@@ -231,6 +234,18 @@ def _with_version(
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
 
+def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
+    """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
+    label = revision.label(robot.source)
+    if not robot.is_xacro or config is None:
+        return Source(revision.read(robot.source), label)
+    path = Store(config.root).expansion(robot.name)
+    if (found := expansion.loads(revision.read(path))) is None:
+        message, hint = "the expanded source can't be read", "name a revision with a complete build"
+        raise SourceError(Diagnostic(Severity.ERROR, "broken-state", message, revision.label(path), hint=hint))
+    return Source(found.text.encode(), label)
+
+
 def _files_of(
     package: Package, version: Version, changed: Collection[str]
 ) -> dict[str, tuple[Role, str, bytes | tuple[str, ...] | str | None]]:
@@ -255,13 +270,15 @@ def _read(
 
     Raises SourceError for a source that can't be read.
     """
-    snapshot, reading = source_files.read(domain, robot.options, version.content, version.name)
-    found = []
+    text = version.text
+    with text.locating():
+        snapshot, reading = source_files.read(domain, robot.options, text.content, text.name)
+    found_files = []
     for place in version.places:
         lookup = Lookup(place, robot.package_paths + options.package_paths)
-        found.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
+        found_files.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
     joined = []
-    for same in zip(*found, strict=True):  # one file, looked for from several places
+    for same in zip(*found_files, strict=True):  # one file, looked for from several places
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
@@ -270,8 +287,9 @@ def _read(
         domain,
         dependencies,
         recorded,
-        version.name,
+        text.name,
         again=False,
         progress=lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
-    return Version(snapshot, imported.imports), imported, (*reading.diagnostics, *imported.diagnostics)
+    found = map(text.locate, (*reading.diagnostics, *imported.diagnostics))
+    return Version(snapshot, imported.imports), imported, tuple(found)

@@ -92,6 +92,7 @@ class _Builder:
             diagnostics=(*warnings, *plan.diagnostics),
             changes=plan.changes,
             conflict_texts=plan.conflicts,
+            stale=plan.stale,
             drawing=plan.drawing,
             renews_state=any(change.path.parent == state_folder for change in reversed(plan.writes)),
         )

@@ -42,6 +42,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
             found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
         found += _changed_connectors(generation, actions)
+    found = list(map(inputs.source.locate, found))
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 

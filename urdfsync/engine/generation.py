@@ -198,8 +198,9 @@ def generate_robot(inputs: Inputs) -> Generation:
     if options.removes:
         nothing = Package((), inputs.templates, robot.target.package)
         return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, last_packages, frozenset())
-    snapshot, reading = source.read(domain, robot.options, inputs.content, shown(robot.source))
+    snapshot, reading = source.read(domain, robot.options, inputs.source.content, shown(robot.source))
     found = (
+        *inputs.source.diagnostics,
         *reading.diagnostics,
         *source.check_options(inputs.config, robot, domain, snapshot),
         *check_declared(inputs, snapshot),

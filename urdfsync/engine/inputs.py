@@ -19,6 +19,7 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles, text_hash
 from urdfsync.engine.parents import Parents
+from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.state import replaced
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
@@ -46,8 +47,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     written: Mapping[str, FileRecord | None]
     """What builds that are not complete have written since, by key; None for a file that they deleted."""
     templates: Templates
-    content: bytes
-    """Bytes of the source."""
+    source: Source
     generator: Generator
 
     @cached_property
@@ -207,7 +207,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         place = shown(config.file), robot.lines[""]
         raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))
     templates = source.templates(config, robot, domain)
-    content = b"" if options.removes else source.read_source(config, robot)
+    text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"
@@ -215,7 +215,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
     written = _find_written(store, files, {folder, record.folder if record else folder})
     return Inputs(
-        *(config, robot, options, domain, files, around, store, record, former, written, templates, content, generator)
+        *(config, robot, options, domain, files, around, store, record, former, written, templates, text, generator)
     )
 
 

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.state.expansion import Expansion
 from urdfsync.state.record import Choice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -27,6 +28,10 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write nothing."""
     trusted: bool = False
     """Write to outputs outside of the configuration's folder, too."""
+    expands: bool = True
+    """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
+    expansions: dict[str, Expansion] = msgspec.field(default_factory=dict)
+    """Sources that this command, or the daemon, has expanded, by robot: the daemon judges a source, then builds it."""
     compares_state: bool = False
     """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     adopts: bool = False

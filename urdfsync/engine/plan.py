@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
+from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
@@ -18,7 +19,10 @@ from urdfsync.engine.stage import Plan, stage
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     inputs = inspect(config, robot, options)
-    generation = generate_robot(inputs)
+    if inputs.source.is_missing:
+        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale)
+    with inputs.source.locating():
+        generation = generate_robot(inputs)
     decision = decide_package(generation)
     is_still = decision.is_complete and not any(action.writes for action in decision.actions)
     if options.full or options.draw or not is_still:

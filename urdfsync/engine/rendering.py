@@ -23,11 +23,11 @@ class Rendering:
     def __init__(self, config: Config, robot: RobotConfig, options: BuildOptions) -> None:
         inputs = inspect(config, robot, options)
         self.robot, self.domain = robot, inputs.domain
-        self.content = inputs.content
-        """The source's bytes."""
+        self.source, self.content = inputs.source, inputs.source.content
         self._templates = inputs.templates
         self._imports: Mapping[str, Import]
-        generation = generate_robot(inputs)
+        with inputs.source.locating():
+            generation = generate_robot(inputs)
         self.snapshot, self._imports = generation.now.snapshot, generation.imported.imports
         source.check_options(config, robot, self.domain, self.snapshot)
 

@@ -56,6 +56,8 @@ class Result(msgspec.Struct, frozen=True):
     """Nothing was written, whatever the actions say."""
     renews_state: bool = False
     """A build writes to the recorded state that is committed; see `BuildOptions.compares_state`."""
+    stale: tuple[str, ...] = ()
+    """What has changed since the source was expanded, if it was not expanded now: the rest goes by the old text."""
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
@@ -72,7 +74,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def in_step(self) -> bool:
         """Whether every file was what it should be before the build, edits apart."""
-        return not self.failed and all(action.kind in IN_STEP for action in self.actions.decided)
+        return not (self.failed or self.stale) and all(action.kind in IN_STEP for action in self.actions.decided)
 
     @property
     def is_in_step_now(self) -> bool:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import depend_on, file_type, is_file, list_folder, read_file
+from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, list_folder, read_file
 
 _NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
@@ -29,6 +29,19 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
         for name, path in _below(folder):
             found.setdefault(name, path)
     return found
+
+
+def find_package(name: str, folders: Sequence[Path], source: Path) -> Path | None:
+    """Return the folder of a ROS package: around `source`, beside it, below `folders`; None if there is none.
+
+    A folder without `package.xml` counts if it has the name and nothing else does, as for meshes.
+    """
+    named = [folder / name for folder in (*folders, *source.parents)]
+    near = [*source.parents, *named]
+    if found := next((folder for folder in near if _package_name(folder) == name), None):
+        return found
+    plain = [*named, *(folder for folder in source.parents if folder.name == name)]
+    return find(folders, source).get(name) or next(filter(is_folder, plain), None)
 
 
 def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:

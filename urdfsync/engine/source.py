@@ -2,25 +2,159 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import re
 import stat
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from urdfsync.config import Config, RobotConfig, templates_folder
-from urdfsync.dependencies import is_folder, read_file
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.config.trust import find_untrusted_command
+from urdfsync.dependencies import is_file, is_folder, mark_incomplete, read_file, read_unrecorded
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import kind_of, shown, templates_digest
+from urdfsync.state.expansion import Expansion
+from urdfsync.state.store import Store
+
+if TYPE_CHECKING:
+    from urdfsync.engine.expansion import Inputs
 
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
+_LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
+"""Lines that a message names."""
+NEVER: tuple[str, ...] = ("it was never expanded",)
+"""Why a source is stale of which there is no expansion."""
 
-def read_source(config: Config, robot: RobotConfig) -> bytes:
-    """The content of the robot's source. Raises SourceError at the line of the configuration that names it."""
+
+class Source(msgspec.Struct, frozen=True):
+    """The text of a source, and what it was made of."""
+
+    content: bytes
+    name: str
+    """How diagnostics call it."""
+    places: Sequence[tuple[int, str, int]] = ()
+    """Line of each element in the text of an expansion, with the file and line that it is from."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    expansion: Expansion | None = None
+    stale: tuple[str, ...] = ()
+    """What has changed since the source was expanded, if it was not expanded again."""
+
+    @property
+    def is_missing(self) -> bool:
+        """Whether the source was never made, and nothing was made now."""
+        return bool(self.stale) and not self.content
+
+    def locate(self, found: Diagnostic) -> Diagnostic:
+        """Return a diagnostic about the text with the files and lines that the user wrote."""
+        if not self.places or found.file != self.name or not found.line:
+            return found
+        (file, line), message = self._place(found.line), self._with_places(found.message)
+        details = tuple(map(self._with_places, found.details))
+        return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
+
+    def _place(self, line: int) -> tuple[str, int]:
+        """Return where the element at a line of the text is from: the root, for a line above it."""
+        number = bisect_right(self.places, line, key=lambda place: place[0])
+        return self.places[max(number - 1, 0)][1:]
+
+    def _with_places(self, text: str) -> str:
+        """Return a message with files and lines in the place of the lines that it names."""
+
+        def replace(match: re.Match[str]) -> str:
+            places = dict.fromkeys(self._place(int(line)) for line in match[2].split(", "))
+            return f"{match[1]} {', '.join(f'{file}:{line}' for file, line in places)}"
+
+        return _LINES.sub(replace, text)
+
+    @contextlib.contextmanager
+    def locating(self) -> Iterator[None]:
+        """Locate the diagnostics of errors that are raised."""
+        try:
+            yield
+        except UrdfsyncError as error:
+            raise type(error)(*map(self.locate, error.diagnostics)) from None
+
+
+def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions) -> Source:
+    """Read the robot's source, which xacro or a command may have to make first.
+
+    Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
+    that is not trusted.
+    """
+    if not (robot.is_xacro or robot.command):
+        return Source(_read(config, robot), shown(robot.source))
+    from urdfsync.engine import expansion  # 5 ms, and few robots need it
+
+    inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
+    recorded, stale = store.load_expansion(robot.name), NEVER
+    known = None
+    for one in filter(None, (recorded, options.expansions.get(robot.name))):
+        if not (stale := inputs.find_changes(robot, one)):
+            known = one
+            break
+    if not robot.command:
+        _read(config, robot)  # says what is wrong with a file that xacro can't read
+    elif not is_file(robot.source):
+        known, stale = None, stale or (robot.source.name,)
+    # a dry run writes nothing, and a command writes the source
+    if options.expands and not (robot.command and options.dry) and (known is None or options.full):
+        known, stale = _expand(config, robot, inputs, options), ()
+    made, content = known or recorded, b""
+    if robot.command and (options.expands or is_file(robot.source)):
+        content = _read(config, robot)
+    elif made is not None:
+        content = made.text.encode()
+    if made is None:
+        return Source(content, shown(robot.source), stale=stale)
+    told = expansion.warnings(config, robot, made)
+    return Source(content, shown(robot.source), inputs.places(made), told, made, stale)
+
+
+def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOptions) -> Expansion:
+    """Make a source by xacro or by its command. Raises SourceError, and ConfigError for a command without trust."""
+    from urdfsync.engine import expansion
+
+    if not robot.command:
+        known = expansion.expand(inputs, robot.arguments or {})
+    elif options.trusted or (untrusted := find_untrusted_command(config, robot)) is None:
+        known = inputs.look(robot, Expansion(source=""))
+        expansion.run_command(config, robot)
+    else:
+        raise ConfigError(untrusted)
+    options.expansions[robot.name] = known
+    if inputs.find_changes(robot, known):
+        mark_incomplete()  # somebody saved meanwhile
+    return known
+
+
+def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
+    """Read a source that is no robot's. Raises SourceError."""
+    try:
+        content = read_unrecorded(file)
+    except OSError as error:
+        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
+        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
+    if not (arguments or file.suffix == ".xacro"):
+        return Source(content, shown(file))
+    from urdfsync.engine import expansion
+
+    place = file.absolute()
+    inputs = expansion.Inputs(place.parent, place, package_paths)
+    known = expansion.expand(inputs, arguments)
+    return Source(known.text.encode(), shown(file), inputs.places(known))
+
+
+def _read(config: Config, robot: RobotConfig) -> bytes:
+    """Return the bytes of the robot's source. Raises SourceError at the line of the configuration that names it."""
     try:
         if stat.S_ISREG(robot.source.stat().st_mode):
             return read_file(robot.source)
@@ -29,7 +163,7 @@ def read_source(config: Config, robot: RobotConfig) -> bytes:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
     message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
     line = robot.lines.get("source", 0)
-    hint = "correct `source`, or export the file again"
+    hint = "`urdfsync build` runs its command" if robot.command else "correct `source`, or export the file again"
     raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
 
 

@@ -43,6 +43,8 @@ class Plan(msgspec.Struct, frozen=True):
     """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
+    stale: tuple[str, ...] = ()
+    """What has changed since the source was expanded, which it was not again."""
     drawing: Path | None = None
     """Path of the main model's diagram."""
 
@@ -54,6 +56,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
+    plan = msgspec.structs.replace(plan, stale=inputs.source.stale)
     if inputs.options.dry and not inputs.options.compares_state:
         return plan
     record = _record(generation, decision)
@@ -73,6 +76,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing, more = store.drawing(robot.name, picture)
             changes += more
 
+    if record and not inputs.source.stale:
+        changes += store.save_expansion(robot.name, inputs.source.expansion)
     changes += store.changes(robot.name, record, former)
     above = {files.path(inputs.old_folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}

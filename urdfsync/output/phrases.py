@@ -15,6 +15,8 @@ from urdfsync.output.outline import change_row, outline
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
+NOT_EXPANDED = "inputs changed, not expanded"
+"""What is said of a source that xacro, or a command, would have to make again."""
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
 _NAMED = {
     Kind.UPDATE: "{}",
@@ -39,7 +41,7 @@ def summary(result: Result) -> str:
     if result.failed:
         end = "the next build finishes it" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
-    parts = action_counts(result)
+    parts = [NOT_EXPANDED, *action_counts(result)] if result.stale else action_counts(result)
     if result.in_step:
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
         total = sum(action.kind in fine for action in result.actions)

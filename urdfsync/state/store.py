@@ -9,13 +9,14 @@ from typing import TypeAlias
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import Tree, digest, shown, text_digest
-from urdfsync.state import planned, statefile
+from urdfsync.files import Tree, digest, normalised, shown, text_digest
+from urdfsync.state import expansion, planned, statefile
+from urdfsync.state.expansion import Expansion
 from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
-SUFFIX = ".state"
+SUFFIX, EXPANDED = ".state", ".expanded"
 BASE, CONFLICTS, REPLACED = "base", "conflicts", "replaced"
 """Folders beside the records, with one for each robot: kept texts by their hashes, versions of what conflicts, and what
 stood in files that the last build wrote over."""
@@ -30,6 +31,7 @@ _FOR_GIT = {
     ".gitattributes": """\
 # Written by urdfsync. Lines of recorded states stand alone: git unites those of two branches.
 /robots/*.state merge=union
+/robots/*.expanded merge=union
 """,
 }
 
@@ -75,6 +77,11 @@ class Store:
             if strict or any(found.code == "newer-state" for found in error.diagnostics):
                 raise
             return None
+
+    def load_expansion(self, robot: str) -> Expansion | None:
+        """The robot's source as it was expanded last; None if it never was, or if that is lost."""
+        content = self._bytes(self.expansion(robot))
+        return None if content is None else expansion.loads(content)
 
     def planned_files(self) -> tuple[PlannedFile, ...]:
         """What builds that are not complete were about to write, in their order. Raises OutputError for a link."""
@@ -123,6 +130,8 @@ class Store:
         """
         path, content = self.path(robot), statefile.dumps(record).encode() if record else None
         drawing = self._drawing(robot)
+        for name in (*([robot] if record is None else []), *([former] if former else [])):
+            yield from self.save_expansion(name, None)
         if record is None and self._bytes(drawing) is not None:
             yield self._change(drawing, None)
         old = self._bytes(path)
@@ -147,6 +156,16 @@ class Store:
     def path(self, robot: str) -> Path:
         """The file of the robot's record."""
         return self.folder / "robots" / f"{robot}{SUFFIX}"
+
+    def expansion(self, robot: str) -> Path:
+        """The file of the robot's expanded source."""
+        return self.folder / "robots" / f"{robot}{EXPANDED}"
+
+    def save_expansion(self, robot: str, found: Expansion | None) -> list[FileChange]:
+        """How the expanded source of a robot gets to the disk, or how it goes if there is none."""
+        path, content = self.expansion(robot), expansion.dumps(found) if found else None
+        old = self._bytes(path)
+        return [self._change(path, content)] if content != (old and normalised(old)) else []
 
     def _change(self, path: Path, content: bytes | None) -> FileChange:
         return FileChange(path, content, self._seen[path][1] if path in self._seen else None)

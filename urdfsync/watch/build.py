@@ -12,18 +12,22 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
+from urdfsync.state.store import Store
 from urdfsync.watch.paths import RobotPaths
 
 _MANY = 3
 """Least number of lost elements for which a source counts as shrunk; they have to be more than half of all, too."""
 
 
-def judge_source(config: Config, robot: RobotConfig, paths: RobotPaths) -> tuple[tuple[Diagnostic, ...], int]:
+def judge_source(
+    config: Config, robot: RobotConfig, paths: RobotPaths, options: BuildOptions
+) -> tuple[tuple[Diagnostic, ...], int]:
     """Return why the source of a robot is invalid, and how many elements of the last build it lacks, 0 for a few."""
     try:
-        content = source.read_source(config, robot)
+        text = source.read_source(config, robot, Store(config.root), options)
         domain = registry.domain(robot.domain)
-        snapshot, _ = source.read(domain, robot.options, content, shown(robot.source))
+        with text.locating():
+            snapshot, _ = source.read(domain, robot.options, text.content, text.name)
         by_kind = domain.names(snapshot, robot.target)
     except UrdfsyncError as error:
         return error.diagnostics, 0

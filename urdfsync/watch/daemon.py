@@ -316,7 +316,7 @@ class Daemon:
                 self._listener(events.Unchanged(watched.name))
             self._rest(watched)
             return False
-        errors, lost = build.judge_source(self._config, watched.robot, watched.paths)
+        errors, lost = build.judge_source(self._config, watched.robot, watched.paths, self._build_options)
         if errors:
             self._wait_for_valid(watched, errors, now)
             return False

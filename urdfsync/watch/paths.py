@@ -17,6 +17,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
+from urdfsync.engine.expansion import Inputs
 from urdfsync.engine.imports import find_dependencies
 from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.files import placed
@@ -45,6 +46,10 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         state = store.load(robot.name)
+        if (expanded := store.load_expansion(robot.name)) is not None:
+            folders = (*robot.package_paths, *package_paths)
+            inputs.update(map(str, Inputs(config.root, robot.source, folders).paths(expanded)))
+            outputs.add(str(store.expansion(robot.name)))
     if state is None:
         return RobotPaths(frozenset(inputs), frozenset(outputs))
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import math
 
 import pytest
@@ -216,7 +217,11 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<robot name='r'>\n<link name='a'><visual>%b%b</visual></link></robot>" % DEEP, "xml-syntax", 2),
         (b"robot: yes", "xml-syntax", 1),
         (b"<robot>\n\n  <link name='\xe4'/></robot>", "file-encoding", 3),
-        (b"\x1f\x8b\x08\x00", "file-encoding", 1),
+        (gzip.compress(b"<robot name='r'/>"), "compressed", 1),
+        (b"/**:\n  ros__parameters:\n    robot_description: |\n      <robot name='r'/>\n", "robot-description", 3),
+        (b'{"robot_description": "<robot/>"}', "robot-description", 1),
+        (b"<!-- a -->\n<launch>\n<param name='robot_description'/></launch>", "launch-file", 2),
+        (b"from launch import LaunchDescription\n\ndef generate(): ...\n", "launch-file", 1),
         (b"<?xml version='1.0' encoding='klingon'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='rot13'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='idna'?><robot>\xff</robot>", "file-encoding", 1),

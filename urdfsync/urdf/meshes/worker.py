@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import signal
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.processes import reserve_stdout
+from urdfsync.processes import limits, reserve_stdout
 from urdfsync.urdf.meshes.lookup import COLORS, TEXTURED
 from urdfsync.urdf.meshes.process import MEMORY, Answer, MeshError, Request
 
@@ -45,7 +43,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
 
     sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
     try:
-        with _limits(request.seconds):
+        with limits(request.seconds, MEMORY):
             if not request.colors:
                 mesh, facts = geometry.import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
                 files, all_facts = [geometry.binary_stl(mesh)], [facts]
@@ -68,28 +66,6 @@ def _allocated() -> int:
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
-
-
-@contextlib.contextmanager
-def _limits(seconds: float) -> Iterator[None]:
-    """Limit time and memory of one mesh, and let no file be written. Libraries are loaded without limits."""
-    if sys.platform == "win32":
-        yield
-        return
-    limits = {resource.RLIMIT_FSIZE: 0, resource.RLIMIT_CORE: 0}
-    if sys.platform == "linux":  # macOS knows this limit, and does not keep it
-        limits[resource.RLIMIT_DATA] = MEMORY
-    before = {kind: resource.getrlimit(kind) for kind in limits}
-    for kind, limit in limits.items():
-        resource.setrlimit(kind, (limit, before[kind][1]))
-    # ends the process; RLIMIT_CPU counts whole seconds, and all meshes that it has read
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        for kind, both in before.items():
-            resource.setrlimit(kind, both)
 
 
 if __name__ == "__main__":

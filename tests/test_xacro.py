@@ -1,0 +1,380 @@
+"""A project whose source is xacro: what is expanded, when, and what a clone needs."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support import xacros
+from support.answers import save, saved
+from support.commands import Execute
+from support.files import unchanged
+from support.git import NEEDS_GIT, Repository
+from support.xacros import EXPANDED, RECORD
+
+from urdfsync import dependencies
+
+CHANGED = "inputs changed, not expanded"
+
+
+@pytest.fixture
+def project(folder: Path) -> Path:
+    xacros.write(folder)
+    return folder
+
+
+@pytest.fixture
+def built(project: Path, execute: Execute) -> Path:
+    execute("build")
+    return project
+
+
+def without_xacro(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Let processes that are started from now on find a xacro that can't be imported."""
+    (folder / "broken").mkdir()
+    (folder / "broken/xacro.py").write_text("raise ImportError('No module named xacro')\n")
+    monkeypatch.setenv("PYTHONPATH", str(folder / "broken"))
+
+
+def test_the_package_is_that_of_the_expanded_file(built: Path, execute: Execute) -> None:
+    before = {path.name: path.read_bytes() for path in (built / "modelica").rglob("*.mo")}
+    command = [str(Path(sys.executable).with_name("xacro")), "urdf/arm.urdf.xacro", "length:=0.5"]
+    expanded = subprocess.run(command, capture_output=True, text=True, check=True)
+    (built / "urdf/arm.urdf").write_text(expanded.stdout)
+    (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
+    shutil.rmtree(built / "modelica")
+    shutil.rmtree(built / ".urdfsync")
+    execute("build")
+    assert {path.name: path.read_bytes() for path in (built / "modelica").rglob("*.mo")} == before
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("masses.yaml", "upper: 2.5\n"),
+        ("parts/beam.xacro", xacros.BEAM.replace('mass value="${mass}"', 'mass value="${mass + 1}"')),
+        ("arm.urdf.xacro", xacros.ARM.replace("masses['upper']", "masses['upper'] + 1")),
+    ],
+)
+def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: str) -> None:
+    assert "mass = 1.5" in Path(RECORD).read_text()
+    (built / "urdf" / name).write_text(text)
+    with unchanged(built):
+        assert execute("status").lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
+        assert execute("status", "--json").json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
+        execute("build", "--check", code=1)
+        execute("diff", code=1)
+        assert execute("status").lines[0] == f"arm: {CHANGED}, 15 files"
+    execute("build")
+    assert "mass = 2.5" in Path(RECORD).read_text()
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
+def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute) -> None:
+    with (built / "urdf/masses.yaml").open("a") as file:
+        file.write("# a comment\n")
+    assert execute("build").lines == ["arm: in step, 15 files"]
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
+def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')
+    xacros.write(project, {"arm.urdf.xacro": text}, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
+    execute("build")
+    assert "boxSize" not in execute("status").out
+    monkeypatch.setenv("LONG", "3")
+    assert execute("status").lines[1:] == ["  $LONG"]
+    execute("build")
+    (project / "urdfsync.toml").write_text(xacros.CONFIG.replace("0.5", "0.75"))
+    assert execute("status").lines[1:2] == ["  arguments"]
+
+
+def test_a_variable_is_part_of_the_saved_answer(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dependencies, "YOUNG", 50_000_000)
+    files = {"arm.urdf.xacro": xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')}
+    xacros.write(project, files, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
+    execute("build")
+    save("build")
+    assert saved("build") is not None
+    monkeypatch.setenv("LONG", "3")
+    assert saved("build") is None
+
+
+def test_the_saved_answer_knows_each_input(built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dependencies, "YOUNG", 50_000_000)
+    for name in ("masses.yaml", "parts/beam.xacro", "arm.urdf.xacro"):
+        save("build")
+        assert saved("build") is not None
+        with (built / "urdf" / name).open("a") as file:
+            file.write("\n")
+        assert saved("build") is None, name
+
+
+def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    shutil.rmtree(built / "modelica")
+    without_xacro(monkeypatch, built)
+    execute("build")
+    assert execute("build").lines == ["arm: in step, 15 files"]
+    assert execute("status").lines == ["arm: in step, 15 files"]
+    (built / "urdf/masses.yaml").write_text("upper: 2\n")
+    assert "pip install xacro [no-xacro]" in execute("build", code=2).err
+    assert "1.5" in Path(RECORD).read_text()
+
+
+def test_a_package_that_is_not_here_counts_as_unchanged(
+    project: Path, tmp_path_factory: pytest.TempPathFactory, execute: Execute
+) -> None:
+    elsewhere = tmp_path_factory.mktemp("ros")
+    (elsewhere / "beams").mkdir()
+    (elsewhere / "beams/package.xml").write_text("<package><name>beams</name></package>")
+    (elsewhere / "beams/beam.xacro").write_text(xacros.BEAM)
+    files = {"arm.urdf.xacro": xacros.ARM.replace("parts/beam.xacro", "$(find beams)/beam.xacro")}
+    xacros.write(project, files, f'{xacros.CONFIG}package_paths = ["{elsewhere}"]\n')
+    execute("build")
+    assert '"package://beams/beam.xacro"' in EXPANDED.read_text()
+    assert str(elsewhere) not in EXPANDED.read_text()
+    (elsewhere / "beams/beam.xacro").write_text(xacros.BEAM.replace("0.1 0.1", "0.2 0.2"))
+    assert execute("status").lines[1:] == ["  package://beams/beam.xacro"]
+    shutil.rmtree(elsewhere)
+    (project / "urdfsync.toml").write_text(xacros.CONFIG)
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
+def test_packages_of_ros_2_are_found(
+    project: Path, tmp_path_factory: pytest.TempPathFactory, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prefix = tmp_path_factory.mktemp("install")
+    (prefix / "share/beams").mkdir(parents=True)
+    (prefix / "share/beams/package.xml").write_text("<package><name>beams</name></package>")
+    (prefix / "share/beams/beam.xacro").write_text(
+        xacros.BEAM.replace('<box size="0.1 0.1 ${length}"/>', '<mesh filename="file://$(find beams)/a.stl"/>')
+    )
+    xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("parts/beam.xacro", "$(find beams)/beam.xacro")})
+    execute("build", code=2)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    execute("build")
+    assert 'filename="package://beams/a.stl"' in EXPANDED.read_text()
+
+
+def test_files_that_match_a_pattern_are_inputs(project: Path, execute: Execute) -> None:
+    xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("parts/beam.xacro", "parts/*.xacro")})
+    execute("build")
+    (project / "urdf/parts/more.xacro").write_text(f'{xacros.HEAD.format("more")}<link name="more"/></robot>')
+    assert execute("status").lines[:2] == [f"arm: {CHANGED}, 15 files", "  urdf/parts/*.xacro"]
+
+
+def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execute) -> None:
+    more = '<xacro:include filename="more.xacro" optional="true"/>\n</robot>'
+    xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("</robot>", more)})
+    execute("build")
+    (project / "urdf/more.xacro").write_text(f"{xacros.HEAD.format('more')}</robot>")
+    assert execute("status").lines[1:] == ["  urdf/more.xacro"]
+
+
+def test_status_before_the_first_build(project: Path, execute: Execute) -> None:
+    with unchanged(project):
+        assert execute("status").lines == ["arm: not built yet", "  it was never expanded"]
+
+
+@pytest.mark.parametrize("damage", ["<<<<<<< ours\n{}", "{}\n</robot>", "no JSON"])
+def test_a_damaged_expansion_is_none(built: Path, execute: Execute, damage: str) -> None:
+    text = EXPANDED.read_text()
+    EXPANDED.write_text(damage.format(text))
+    execute("build")
+    assert EXPANDED.read_text() == text
+
+
+def test_what_is_wrong_is_told_at_its_place_in_xacro(project: Path, execute: Execute) -> None:
+    xacros.write(project, {"parts/beam.xacro": xacros.BEAM.replace('"${mass}"', '"-${mass}"')})
+    line = 1 + xacros.BEAM[: xacros.BEAM.index("<mass")].count("\n")
+    for _ in range(2):
+        assert f"urdf/parts/beam.xacro:{line}: error:" in execute("build", code=2).err
+
+
+def test_a_warning_is_told_at_its_place_by_each_build(project: Path, execute: Execute) -> None:
+    colour = '<material name="red"><color rgba="255 0 0 1"/></material></visual>'
+    xacros.write(project, {"parts/beam.xacro": xacros.BEAM.replace("</visual>", colour)})
+    line = 1 + xacros.BEAM[: xacros.BEAM.index("</visual")].count("\n")
+    for _ in range(2):
+        assert f"urdf/parts/beam.xacro:{line}: warning:" in execute("build").err
+
+
+def test_lines_in_messages_are_those_of_xacro(project: Path, execute: Execute) -> None:
+    colour = '<material name="${name}"><color rgba="255 0 0 1"/></material></visual>'
+    beams = "".join(f'<xacro:beam name="beam{n}" parent="base" mass="1" length="1"/>\n' for n in range(5))
+    files = {"parts/beam.xacro": xacros.BEAM.replace("</visual>", colour)}
+    xacros.write(project, files | {"arm.urdf.xacro": xacros.ARM.replace("</robot>", f"{beams}</robot>")})
+    line = 1 + xacros.BEAM[: xacros.BEAM.index("</visual")].count("\n")
+    place = f"urdf/parts/beam.xacro:{line}"
+    words = execute("build").words
+    assert f"{place}: warning: " in words
+    assert f"(and 5 more like it: lines {place})" in words
+
+
+def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, execute: Execute) -> None:
+    said = xacros.ARM.replace("</robot>", "<!-- xacro:eval-comments -->${xacro.warning('mind the step')}</robot>")
+    xacros.write(project, {"arm.urdf.xacro": said}, xacros.CONFIG.replace("{ length", "{ lenght = 1, length"))
+    for _ in range(2):
+        words = execute("build").words
+        assert "urdf/arm.urdf.xacro: warning: mind the step" in words
+        assert "urdfsync.toml:3: warning: robot `arm`: the source has no argument `lenght`" in words
+
+
+@NEEDS_GIT
+def test_branches_unite_without_a_conflict(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = Repository(built, monkeypatch)
+    repository.commit()
+    repository.git("checkout", "-qb", "other")
+    (built / "urdf/masses.yaml").write_text("upper: 2\n")
+    execute("build")
+    repository.commit()
+    repository.git("checkout", "-q", "-")
+    (built / "urdf/parts/beam.xacro").write_text(xacros.BEAM.replace("0.1 0.1", "0.3 0.3"))
+    execute("build")
+    repository.commit()
+    repository.git("merge", "-q", "other")
+    execute("build")
+    assert "mass = 2" in Path(RECORD).read_text()
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
+@NEEDS_GIT
+def test_a_revision_is_compared_as_it_was_expanded(
+    built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    repository = Repository(built, monkeypatch)
+    repository.commit()
+    (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
+    assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
+    assert "1.5 → 2.5 kg" in execute("diff", "urdf/arm.urdf.xacro", code=1).out
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+def test_a_hook_asks_for_every_input(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = Repository(built, monkeypatch)
+    repository.commit()
+    (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
+    execute("build")
+    repository.git("add", "modelica", ".urdfsync")
+    assert "git add urdf/masses.yaml" in execute("hook", "check", code=1).out
+    repository.git("add", "urdf")
+    repository.git("reset", "-q", str(EXPANDED))
+    assert f"git add {EXPANDED}" in execute("hook", "check", code=1).out
+    repository.git("add", ".urdfsync")
+    execute("hook", "check")
+    (built / "urdf/masses.yaml").write_text("upper: 2.5 # kg\n")
+    repository.git("add", "urdf")
+    assert "out of step" in execute("hook", "check", code=1).out
+
+
+def test_remove_takes_the_expanded_source_away(built: Path, execute: Execute) -> None:
+    execute("remove", "arm", "--yes")
+    assert not EXPANDED.exists()
+
+
+def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:
+    (built / "urdf/arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
+    execute("build")
+    assert not EXPANDED.exists()
+
+
+def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").unlink()
+    execute("init", "urdf/arm.urdf.xacro", "length:=0.75")
+    assert 'arguments = { length = "0.75" }' in (project / "urdfsync.toml").read_text()
+    execute("build")
+    execute("add", "urdf/arm.urdf.xacro", code=2)
+    shutil.copy("urdf/arm.urdf.xacro", "urdf/second.urdf.xacro")
+    execute("add", "urdf/second.urdf.xacro", "name:=second")
+    execute("build")
+    assert "0.75" in execute("record", "urdf/arm.urdf.xacro", "length:=0.75").out
+    assert "is an argument of xacro" in execute("record", "urdf/arm.urdf", "length:=0.75", code=2).err
+
+
+@pytest.mark.slow
+def test_the_daemon_sees_each_input(built: Path) -> None:
+    from support.daemon import Watch  # watchdog takes 45 ms
+
+    with Watch(built, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+        watch.rest()
+        for name, text, mass in [
+            ("masses.yaml", "upper: 2.5\n", 2.5),
+            ("parts/beam.xacro", xacros.BEAM.replace('mass value="${mass}"', 'mass value="${mass + 1}"'), 3.5),
+            ("arm.urdf.xacro", xacros.ARM.replace("masses['upper']", "masses['upper'] + 1"), 4.5),
+        ]:
+            since = watch.mark
+            (built / "urdf" / name).write_text(text)
+            watch.wait("built", since=since)
+            assert f"mass = {mass}" in Path(RECORD).read_text()
+        since = watch.mark
+        (built / "urdf/masses.yaml").write_text("upper: [1\n")
+        waiting = watch.wait("waiting", since=since)
+        assert [(found["file"], found["line"]) for found in waiting["diagnostics"]] == [("urdf/masses.yaml", 2)]
+        (built / "urdf/masses.yaml").write_text("upper: 1.25\n")
+        watch.wait("built", since=since)
+        assert "mass = 3.25" in Path(RECORD).read_text()
+
+
+COMMAND = """
+import pathlib, sys
+numbers = pathlib.Path("mass.txt").read_text()
+if numbers == "bad":
+    sys.exit("no such mass")
+pathlib.Path("runs.txt").open("a").write("once\\n")
+pathlib.Path("arm.urdf").write_text(f'''<robot name="arm"><link name="base"><inertial><mass value="{numbers}"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>''')
+"""
+
+
+@pytest.fixture
+def commanded(folder: Path) -> Path:
+    """A project whose source a command writes."""
+    (folder / "make.py").write_text(COMMAND)
+    (folder / "mass.txt").write_text("1.5")
+    command = json.dumps([sys.executable, "make.py"])
+    text = f'[robots.arm]\nsource = "arm.urdf"\ncommand = {command}\ncommand_inputs = ["mass.txt"]\npackage = "Arm"\n'
+    (folder / "urdfsync.toml").write_text(text)
+    return folder
+
+
+def test_a_command_is_run_only_with_the_users_word(
+    commanded: Path, execute: Execute, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with unchanged(commanded):
+        assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
+        assert execute("status").lines == ["arm: not built yet", "  it was never expanded"]
+    home = tmp_path_factory.mktemp("home")
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(home))
+    (home / "urdfsync").mkdir()
+    (home / "urdfsync/trusted.toml").write_text(f"folders = {json.dumps([str(commanded)])}\n")
+    execute("build")
+    assert (commanded / "runs.txt").read_text() == "once\n"
+
+
+def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute) -> None:
+    execute("build", "--trust")
+    record = commanded / "modelica/Arm/Links/BaseParameters.mo"
+    assert execute("build").lines == execute("status").lines == ["arm: in step, 9 files"]  # which asks for no trust
+    (commanded / "mass.txt").write_text("2.5")
+    with unchanged(commanded):
+        assert execute("status").lines == [f"arm: {CHANGED}, 9 files", "  mass.txt"]
+        assert execute("build", "--check", code=1).lines == [f"arm: {CHANGED}"]
+    execute("build", "--trust")
+    assert "mass = 2.5" in record.read_text()
+    assert (commanded / "runs.txt").read_text() == "once\n" * 2
+    (commanded / "arm.urdf").write_text((commanded / "arm.urdf").read_text().replace("2.5", "3.5"))  # by hand
+    execute("build")
+    assert "mass = 3.5" in record.read_text()
+    (commanded / "mass.txt").write_text("bad")
+    with unchanged(commanded):
+        found = execute("build", "--trust", code=2).words
+        assert "urdfsync.toml:3: error: robot `arm`: the command" in found
+        assert "failed: exit code 1: no such mass" in found

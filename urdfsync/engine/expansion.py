@@ -1,0 +1,224 @@
+"""Sources that are made before they are read: by xacro, or by a command of the user's.
+
+What a source was made of is recorded with hashes (see `state.expansion`), and it is made again only if that
+has changed.
+"""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+import shlex
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import depend_on, mark_incomplete, read_file, read_variable
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.engine import ros_packages
+from urdfsync.engine.xacro_worker import Answer, Problem, Request
+from urdfsync.extras import install_command
+from urdfsync.files import digest, shown
+from urdfsync.processes import exit_cause, importable, python_module
+from urdfsync.state.expansion import Expansion
+
+CPU_SECONDS = 20.0
+"""For one expansion, on Linux and macOS. The largest robots take 2 s."""
+MEMORY = 1_000_000_000
+"""Bytes that the process of an expansion may allocate, on Linux."""
+WALL_SECONDS = 120.0
+"""For one expansion, everywhere: a busy machine may need so long for its CPU time."""
+COMMAND_SECONDS = 600.0
+"""For a command, which may ask a server."""
+_PACKAGE = "package://"
+_HINTS = {
+    "no-xacro": install_command("xacro"),
+    "no-argument": "set it in `arguments`, or give it a default in the file",
+    "no-package": "name the folder that it is in in `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
+    "xacro": "correct it, then build again",
+    "xacro-limits": "look for a macro or an expression that never ends",
+}
+
+
+class Inputs:
+    """What one source is made of: where these files are, and how the state calls them."""
+
+    def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
+        self.root, self.source, self.package_paths = root, source, tuple(package_paths)
+        self._packages: dict[str, Path | None] = {}
+
+    def path(self, name: str) -> Path | None:
+        """Return the path of a file by its name; None if its package is not on this machine."""
+        if not name.startswith(_PACKAGE):
+            return Path(os.path.normpath(self.root / name))
+        package, _, rest = name.removeprefix(_PACKAGE).partition("/")
+        if package not in self._packages:
+            self._packages[package] = ros_packages.find_package(package, self.package_paths, self.source)
+        folder = self._packages[package]
+        return folder / rest if folder else None
+
+    def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
+        """Return how the state calls a file: the same on every machine, if that can be."""
+        file = Path(path)
+        if not file.is_relative_to(self.root):
+            for package, folder in packages.items():
+                if file.is_relative_to(folder):
+                    return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
+        # else both have nothing in common
+        return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
+
+    def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
+        """Return what a source would be made of now, by the names in an expansion; without what would be made.
+
+        Files of packages that are not on this machine are as they were. A command names its files itself.
+        """
+        files, patterns = dict(names.files), dict(names.patterns)
+        if robot.command:
+            files = {self.name(path, {}): None for path in robot.command_inputs}
+        for name in files:
+            if (path := self.path(name)) is not None:
+                files[name] = file_hash(path)
+        for name in patterns:
+            if (path := self.path(name)) is not None:
+                patterns[name] = names_hash(path)
+        return Expansion(
+            source=self.name(self.source, {}),
+            arguments=robot.arguments or {},
+            command=robot.command,
+            files=files,
+            patterns=patterns,
+            variables={name: variable_hash(name) for name in names.variables},
+        )
+
+    def find_changes(self, robot: RobotConfig, known: Expansion) -> tuple[str, ...]:
+        """Return what is other than when a source was made."""
+        now, changed = self.look(robot, known), []
+        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(known, key)]
+        changed += [name for name in {**known.files, **now.files} if known.files.get(name) != now.files.get(name)]
+        changed += [name for name in known.patterns if known.patterns[name] != now.patterns[name]]
+        return (*changed, *(f"${name}" for name in known.variables if known.variables[name] != now.variables[name]))
+
+    def places(self, known: Expansion) -> list[tuple[int, str, int]]:
+        """Return the line of each element in an expansion, with the file as people see it and the line it is from."""
+        try:
+            files = [shown(self.path(name) or Path(name)) for name in known.files]
+            entries = (map(int, re.split("[=:]", entry)) for entry in known.places.split())
+            return [(line, files[number], origin) for line, number, origin in entries]
+        except (IndexError, ValueError):  # not from here
+            return []
+
+    def paths(self, known: Expansion) -> list[Path]:
+        """Return the paths of all files that a source was made of."""
+        return [path for path in map(self.path, known.files) if path is not None]
+
+
+def file_hash(path: Path) -> str | None:
+    """Return the hash of a file; None if there is none that can be read."""
+    try:
+        return digest(read_file(path))
+    except (OSError, ValueError):  # a name may be a stranger's, and none of a file
+        return None
+
+
+def names_hash(pattern: Path) -> str:
+    """Return a hash of the names of files that match a pattern."""
+    if glob.has_magic(str(pattern.parent)):
+        mark_incomplete()  # which folders are looked through is not recorded
+    depend_on(pattern.parent)
+    names = sorted(Path(path).name for path in glob.glob(str(pattern)))  # noqa: PTH207 - as xacro does
+    return digest("\0".join(names).encode(errors="surrogateescape"))
+
+
+def variable_hash(name: str) -> str | None:
+    """Return the hash of an environment variable; None if it is not set."""
+    value = read_variable(name)
+    return None if value is None else digest(value.encode(errors="surrogateescape"))
+
+
+def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
+    """Expand a source by xacro, in a process of its own. Raises SourceError."""
+    folders = tuple(map(str, inputs.package_paths))
+    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY), inputs.root)
+    if (problem := answer.problem) is not None:
+        message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
+        file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
+        place, hint = (file, problem.line), _HINTS.get(problem.code, _HINTS["xacro"])
+        raise SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
+    names = {path: inputs.name(path, answer.packages) for path in answer.files}
+    number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
+    return Expansion(
+        source=inputs.name(inputs.source, {}),
+        arguments=arguments,
+        files={names[path]: answer.files[path] for path in number},
+        patterns={inputs.name(path, answer.packages): names_hash(Path(path)) for path in answer.patterns},
+        variables={name: variable_hash(name) for name in answer.variables},
+        unused=answer.unknown,
+        warnings=answer.warnings,
+        places=" ".join(f"{line}={number[file]}:{origin}" for line, file, origin in answer.places),
+        text=answer.text,
+    )
+
+
+def _ask(request: Request, folder: Path) -> Answer:
+    """Have a file expanded by another process, which works in a folder."""
+    limits = Answer(problem=Problem("xacro-limits", ""))
+    try:
+        done = subprocess.run(  # noqa: S603 - a command of ours
+            python_module("urdfsync.engine.xacro_worker"),
+            input=msgspec.json.encode(request),
+            capture_output=True,
+            cwd=folder,
+            timeout=WALL_SECONDS,
+            env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the same text each time
+            start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
+            check=False,
+        )
+        return msgspec.json.decode(done.stdout, type=Answer)
+    except subprocess.TimeoutExpired:
+        return limits
+    except msgspec.DecodeError:  # it ended before it was done
+        if done.returncode < 0:
+            return limits
+        words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+        return Answer(problem=Problem("xacro", ": ".join([exit_cause(done.returncode), *words])))
+
+
+def run_command(config: Config, robot: RobotConfig) -> None:
+    """Run the command that writes a robot's source, in the configuration's folder. Raises SourceError if it fails."""
+    try:
+        done = subprocess.run(  # noqa: S603 - the user trusts this configuration
+            robot.command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            cwd=config.root,
+            timeout=COMMAND_SECONDS,
+            check=False,
+        )
+        words = done.stdout.decode(errors="replace").strip().splitlines()[-1:]
+        reason = ": ".join([exit_cause(done.returncode), *words]) if done.returncode else ""
+    except subprocess.TimeoutExpired:
+        reason = f"it takes more than {COMMAND_SECONDS:g} s"
+    except OSError as error:
+        reason = error.strerror or str(error)
+    if reason:
+        message = f"robot `{robot.name}`: the command `{shlex.join(robot.command)}` failed: {reason}"
+        place, hint = (shown(config.file), robot.lines.get("command", 0)), "correct it, then build again"
+        raise SourceError(Diagnostic(Severity.ERROR, "command", message, *place, hint=hint))
+
+
+def warnings(config: Config, robot: RobotConfig, known: Expansion) -> tuple[Diagnostic, ...]:
+    """Return what xacro said of a source, and the arguments that it does not have."""
+    found = []
+    for name in known.unused:
+        message = f"robot `{robot.name}`: the source has no argument `{name}`"
+        place = shown(config.file), robot.lines.get("arguments", 0)
+        found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
+    for said in known.warnings:
+        message, hint = said.removeprefix("warning: "), "correct the source, if it matters"
+        found.append(Diagnostic(Severity.WARNING, "xacro-warning", message, shown(robot.source), hint=hint))
+    return tuple(found)

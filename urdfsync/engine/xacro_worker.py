@@ -1,0 +1,274 @@
+"""The program that expands one xacro file, within limits; `expansion` starts it.
+
+xacro evaluates expressions of Python, so a file is a program. What it does not need is refused here: the network, other
+programs, and writing. Python's own evaluation is no wall against somebody who means it (see SECURITY.md).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import re
+import sys
+import types
+import xml.dom
+import xml.dom.minidom
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import IO, Any
+from xml.dom import expatbuilder
+from xml.parsers import expat
+
+import msgspec
+
+from urdfsync.dependencies import read_unrecorded
+from urdfsync.engine import ros_packages
+from urdfsync.files import digest
+from urdfsync.processes import limits, reserve_stdout
+
+_FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
+"""Events of Python that no expansion needs, by how their names begin; but for these."""
+_ALLOWED = ("os.listdir", "os.scandir", "os.walk")
+_PLACE = "place"
+_SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
+"""How lines begin by which xacro says where it is."""
+
+
+class Request(msgspec.Struct, frozen=True):
+    """What to expand; paths are absolute."""
+
+    source: str
+    arguments: Mapping[str, str]
+    package_paths: tuple[str, ...]
+    seconds: float
+    """CPU time that it may take."""
+    memory: int
+    """Bytes that may be allocated."""
+
+
+class Problem(msgspec.Struct, frozen=True):
+    """Why a file can't be expanded."""
+
+    code: str
+    message: str
+    file: str = ""
+    line: int = 0
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """What came of it, and all that it depends on, even if it failed; files are absolute."""
+
+    text: str = ""
+    places: tuple[tuple[int, str, int], ...] = ()
+    """Line of each element in the text, and the file and line that it is from."""
+    files: Mapping[str, str | None] = {}
+    """Hash of each file that was read; None for one that is not there."""
+    patterns: tuple[str, ...] = ()
+    variables: tuple[str, ...] = ()
+    """The environment variables that were asked for."""
+    packages: Mapping[str, str] = {}
+    """Folders of the ROS packages that were asked for."""
+    unknown: tuple[str, ...] = ()
+    """Arguments that nobody asked for."""
+    warnings: tuple[str, ...] = ()
+    problem: Problem | None = None
+
+
+class PackageNotFoundError(Exception):
+    """There is no ROS package of this name."""
+
+
+class _Asked(dict[str, str]):
+    """A mapping that notes which keys were asked for."""
+
+    def __init__(self, values: Mapping[str, str]) -> None:
+        super().__init__(values)
+        self.asked: dict[str, None] = {}
+
+    def __contains__(self, key: object) -> bool:
+        self.asked[str(key)] = None
+        return super().__contains__(key)
+
+    def __getitem__(self, key: str) -> str:
+        self.asked[key] = None
+        return super().__getitem__(key)
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Return a value, or the default."""
+        self.asked[key] = None
+        return super().get(key, default)
+
+
+class _Files:
+    """Opens files for xacro, and notes their hashes."""
+
+    def __init__(self) -> None:
+        self.hashes: dict[str, str | None] = {}
+
+    def open(self, path: str) -> IO[Any]:
+        """Open a file as text; parsers of XML get its bytes. Raises OSError."""
+        path = os.path.abspath(path)  # noqa: PTH100 - links are not followed
+        self.hashes[path] = None
+        content = read_unrecorded(path)
+        self.hashes[path] = digest(content)
+        file = _File(io.BytesIO(content), encoding="utf-8")
+        file.name = path
+        return file
+
+
+class _File(io.TextIOWrapper):
+    """A text with the name of its file, which messages about YAML have."""
+
+    name = ""
+
+
+class _Builder(expatbuilder.ExpatBuilderNS):
+    """Builds a document whose elements have the file and line that they are from."""
+
+    file = ""
+
+    def start_element_handler(self, name: str, attributes: list[str]) -> None:
+        """Build an element."""
+        super().start_element_handler(name, attributes)
+        self.curNode.setUserData(_PLACE, (self.file, self.getParser().CurrentLineNumber), _Copied())
+
+
+class _Copied(xml.dom.UserDataHandler):
+    """Gives copies of an element, such as those of a macro, the place of the original."""
+
+    def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - as DOM has it
+        """Take part in the copying of an element."""
+        if operation == self.NODE_CLONED and dst is not None:
+            dst.setUserData(key, data, self)
+
+
+def _parse(file: _File) -> Any:
+    """Parse a file as `minidom.parse` does. Raises ExpatError."""
+    builder = _Builder()
+    builder.file = file.name
+    return builder.parseFile(file.buffer)
+
+
+def expand(request: Request) -> Answer:
+    """Expand a file as the program `xacro` does, but for the comment at its top. Changes this process for good."""
+    try:
+        import xacro
+    except ImportError as error:
+        return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
+    files, patterns, packages, said = _Files(), dict[str, None](), dict[str, str](), io.StringIO()
+    folders = [Path(folder) for folder in request.package_paths]
+
+    def find(name: str) -> str:
+        if (folder := ros_packages.find_package(name, folders, Path(request.source))) is None:
+            raise PackageNotFoundError(name)
+        packages[name] = str(folder)
+        return packages[name]
+
+    # xacro asks ROS 2 for packages, which need not be installed
+    ament = types.ModuleType("ament_index_python.packages")
+    ament.get_package_share_directory = find  # type: ignore[attr-defined]
+    sys.modules.update({"ament_index_python": types.ModuleType("ament_index_python"), ament.__name__: ament})
+    xacro.open = files.open
+    xml.dom.minidom.parse = _parse  # type: ignore[assignment]
+    arguments, environment = _Asked(request.arguments), _Asked(os.environ)
+    os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only notes who asks
+    _refuse_events(patterns)
+    text, problem = "", None
+    places: tuple[tuple[int, str, int], ...] = ()
+    try:
+        with limits(request.seconds, request.memory), contextlib.redirect_stderr(said):
+            xacro.init_stacks(request.source)
+            document = xacro.parse(None, request.source)
+            xacro.process_doc(document, mappings=arguments)
+            text = _with_package_uris(document.toprettyxml(indent="  "), packages)
+            places = tuple(_places(document, text))
+    except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
+        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source)
+    lines = [line.strip() for line in said.getvalue().splitlines()]
+    return Answer(
+        text,
+        places,
+        files.hashes,
+        tuple(patterns),
+        tuple(environment.asked),
+        packages,
+        tuple(name for name in request.arguments if name not in arguments.asked),
+        tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
+        problem,
+    )
+
+
+def _refuse_events(patterns: dict[str, None]) -> None:
+    """Refuse what no expansion needs, from now on; note the patterns of files that are looked for."""
+
+    def refuse(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "glob.glob":
+            patterns[os.path.abspath(arguments[0])] = None  # noqa: PTH100
+        is_write = event == "open" and arguments[2] & (os.O_WRONLY | os.O_RDWR | os.O_CREAT)
+        if is_write or (event.startswith(_FORBIDDEN) and event not in _ALLOWED):
+            raise PermissionError(f"an expansion may not do this: {event}")
+
+    sys.addaudithook(refuse)
+
+
+def _with_package_uris(text: str, packages: Mapping[str, str]) -> str:
+    """Replace the folders of packages by `package://NAME`, so that the text is the same on every machine."""
+    for name, folder in sorted(packages.items(), key=lambda item: -len(item[1])):
+        text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
+    return text
+
+
+def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
+    """Yield the line of each element in a text, and where the element is from."""
+    lines = list[int]()
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
+    parser.Parse(text.encode(), True)  # noqa: FBT003 - it has no keywords
+    elements = document.getElementsByTagName("*")
+    for line, element in zip(lines, elements, strict=True):
+        file, origin = element.getUserData(_PLACE)
+        yield line, file, origin
+
+
+def _problem(error: BaseException, current: str) -> Problem:
+    """Why an expansion failed: the innermost cause, and where xacro was then; `current` is the file in hand."""
+    place, frame = None, error.__traceback__
+    while frame is not None:  # the innermost element that xacro has in hand
+        names = frame.tb_frame.f_locals
+        node = next((names[name] for name in ("node", "elt", "tag") if hasattr(names.get(name), "getUserData")), None)
+        node = node if node is None or node.nodeType == node.ELEMENT_NODE else node.parentNode
+        place = (node.getUserData(_PLACE) if node is not None else None) or place
+        frame = frame.tb_next
+    cause = error
+    while (inner := getattr(cause, "exc", None)) is not None:  # that of a XacroException
+        cause = inner
+    file, line = place or (current, 0)
+    match cause:
+        case PackageNotFoundError():
+            return Problem("no-package", f"there is no package `{cause}`", file, line)
+        case RecursionError():
+            return Problem("xacro", "it includes or calls itself without end", file, line)
+        case MemoryError():
+            return Problem("xacro-limits", "", file, line)
+        case expat.ExpatError():
+            return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
+        case FileNotFoundError() | PermissionError() | IsADirectoryError() if cause.filename:
+            return Problem("xacro", f"{cause.filename} can't be read: {cause.strerror}", file, line)
+    if type(cause).__name__ == "ArgException":
+        return Problem("no-argument", f"the argument `{cause}` is not set", file, line)
+    if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
+        return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
+    message = str(cause if str(error).startswith("<class") else error)
+    return Problem("xacro", message or type(cause).__name__, file, line)
+
+
+def main() -> None:
+    """Expand what stdin asks for."""
+    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
+    with reserve_stdout() as answers:
+        answers.write(msgspec.json.encode(expand(request)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,66 @@
+"""An expanded source, text ↔ value: `.urdfsync/robots/<robot>.expanded`, which is committed.
+
+It holds the text that xacro made, or a command wrote, and the hashes of all that it was made of. So a build expands
+only what has changed, and a clone needs no xacro. Two versions that git has united are none: their sum does not fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from urdfsync.files import digest
+
+_HEADER = "# This robot's source, expanded, and what it is made of. Written by urdfsync: commit it, don't edit it.\n"
+_END = "\n}\n"
+"""Ends the JSON object in front of the text."""
+
+
+class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
+    """A text, and what it was made of.
+
+    Files are named relative to the configuration's folder, as `package://NAME/…` or, if nothing else will do, absolute.
+    """
+
+    format: int = 1
+    source: str
+    """Name of the source."""
+    arguments: Mapping[str, str] = {}
+    command: tuple[str, ...] = ()
+    """The command that wrote the source; empty for xacro."""
+    files: Mapping[str, str | None] = {}
+    """Hashes of the files that were read, by name; None for one that was not there."""
+    patterns: Mapping[str, str] = {}
+    """Hashes of the names that patterns such as `parts/*.xacro` matched."""
+    variables: Mapping[str, str | None] = {}
+    """Hashes of environment variables; None for one that was not set."""
+    unused: tuple[str, ...] = ()
+    """Arguments that the source does not have."""
+    warnings: tuple[str, ...] = ()
+    """What xacro said."""
+    places: str = ""
+    """Where elements come from: for example `12=0:7`, line 12 of the text is from line 7 of the first of `files`, in
+    the order of their names."""
+    sum: str = ""
+    """Hash of all else."""
+    text: str = ""
+
+
+def dumps(expansion: Expansion) -> bytes:
+    """The expansion as text: the same value gives the same text everywhere."""
+    bare = msgspec.structs.replace(expansion, sum="", text="")
+    everything = msgspec.json.encode(bare, order="sorted") + expansion.text.encode()
+    head = msgspec.json.encode(msgspec.structs.replace(bare, sum=digest(everything)), order="sorted")
+    return f"{_HEADER}{msgspec.json.format(head, indent=1).decode()}\n{expansion.text}".encode()
+
+
+def loads(content: bytes) -> Expansion | None:
+    """Read an expansion; None for what is none, such as two versions in one text."""
+    text = content.decode(errors="replace").replace("\r\n", "\n").removeprefix(_HEADER)
+    head, _, rest = text.partition(_END)
+    try:
+        found = msgspec.structs.replace(msgspec.json.decode(f"{head}{_END}", type=Expansion), text=rest)
+    except (msgspec.DecodeError, RecursionError):
+        return None
+    return found if found.format == 1 and dumps(found) == (_HEADER + text).encode() else None
