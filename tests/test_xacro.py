@@ -179,7 +179,10 @@ def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execu
 
 def test_status_before_the_first_build(project: Path, execute: Execute) -> None:
     with unchanged(project):
-        assert execute("status").lines == ["arm: not built yet", "  it was never expanded"]
+        assert execute("status").lines == [
+            "arm: not expanded, so its files were not compared",
+            "  no expansion is recorded",
+        ]
 
 
 @pytest.mark.parametrize("damage", ["<<<<<<< ours\n{}", "{}\n</robot>", "no JSON"])
@@ -350,7 +353,10 @@ def test_a_command_is_run_only_with_the_users_word(
 ) -> None:
     with unchanged(commanded):
         assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
-        assert execute("status").lines == ["arm: not built yet", "  it was never expanded"]
+        assert execute("status").lines == [
+            "arm: not expanded, so its files were not compared",
+            "  no expansion is recorded",
+        ]
     home = tmp_path_factory.mktemp("home")
     monkeypatch.setenv("XDG_CONFIG_HOME", str(home))
     (home / "urdfsync").mkdir()

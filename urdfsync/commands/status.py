@@ -196,6 +196,8 @@ def summary(result: Result) -> str:
     """How a package stands, as the rest of a line that names the robot."""
     if result.failed:
         return f"{error_count(result.diagnostics)}, so its files were not compared"
+    if result.stale and not result.actions:
+        return "not expanded, so its files were not compared"
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
     stand = "in step" if is_in_step(result) else NOT_EXPANDED if result.stale else "out of step"

@@ -31,7 +31,7 @@ MAX_TEMPLATE = 10_000_000
 
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """Lines that a message names."""
-NEVER: tuple[str, ...] = ("it was never expanded",)
+NEVER: tuple[str, ...] = ("no expansion is recorded",)
 """Why a source is stale of which there is no expansion."""
 
 
