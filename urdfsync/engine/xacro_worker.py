@@ -253,7 +253,7 @@ def _problem(error: BaseException, current: str) -> Problem:
             return Problem("xacro-limits", "", file, line)
         case expat.ExpatError():
             return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
-        case FileNotFoundError() | PermissionError() | IsADirectoryError() if cause.filename:
+        case OSError() if cause.filename:
             return Problem("xacro", f"{cause.filename} can't be read: {cause.strerror}", file, line)
     if type(cause).__name__ == "ArgException":
         return Problem("no-argument", f"the argument `{cause}` is not set", file, line)
