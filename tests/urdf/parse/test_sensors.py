@@ -100,6 +100,7 @@ def test_forms(element: str, expected: list[Sensor]) -> None:
     reading = read(element)
     assert sorted(sensors(reading), key=lambda sensor: sensor.name) == expected
     assert not reading.diagnostics
+    assert not expected or not reading.unmodelled, "a sensor that is modelled is in no note"
 
 
 @pytest.mark.parametrize(("element", "message"), [

@@ -70,7 +70,9 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
             kind = "joint" if one.kind == "force_torque" else "link"
             message = f"{path} is at {kind} {one.at!r}, which does not exist: it is left out"
             reader.add(one.element, "unknown-sensor-place", message)
-        elif placed.setdefault((one.name, place), one._replace(at=place)).kind != one.kind:
+            continue
+        reader.modelled.add(one.element)
+        if placed.setdefault((one.name, place), one._replace(at=place)).kind != one.kind:
             message = f"{place!r} has another {path}, and the first counts"
             reader.add(one.element, "duplicate-element", message, "give each sensor a name of its own")
     counts = Counter(name for name, _ in placed)
@@ -84,9 +86,9 @@ def _found(root: Element) -> Iterator[_Found]:
         parent = element.find("parent")
         inside = [child.tag for child in element]
         kind = next((_TYPES[word] for word in (element.get("type", ""), *inside) if word in _TYPES), None)
-        if kind:
-            name = element.get("name", "") or f"{at} {kind}"
-            yield _Found(element, name, kind, at if parent is None else parent.get("link", at))
+        place = at if parent is None else parent.get("link", at)
+        if kind and place:
+            yield _Found(element, element.get("name", "") or f"{place} {kind}", kind, place)
     for element in root.iterfind("ros2_control/sensor"):
         states = [state.get("name", "").partition(".")[0] for state in element.findall("state_interface")]
         kind = next((_STATES[state] for state in states if state in _STATES), None)

@@ -58,7 +58,7 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    unmodelled = summary(note_unmodelled(reader.kept, reader.unknown, document.lines), file)
+    unmodelled = summary(note_unmodelled(reader.kept, reader.modelled, reader.unknown, document.lines), file)
     return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
 
 
