@@ -46,7 +46,7 @@ ROBOT = f"""<robot name="own" version="1.2">
   <transmission name="t"><joint name="spin"/></transmission>
   <ros2_control name="c" type="system"><joint name="grip"><command_interface name="position"/></joint></ros2_control>
   <gazebo reference="arm"><material>Gazebo/Red</material></gazebo>
-  <sensor name="eye" type="camera"/>
+  <sensor name="eye" type="camera"><parent link="arm"/></sensor>
   <frame name="f"/>
 </robot>
 """

@@ -7,12 +7,14 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import Any
 
+import msgspec
+
 from support import robots
 from support.robots import NAMES
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Import, Version
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.robot import Mesh
+from urdfsync.urdf.robot import Camera, Mesh, Sensor
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 from urdfsync.urdf.validate import ADVICE, check
 
@@ -31,6 +33,9 @@ def mutated(old: Version, random: Random, count: int) -> Version:
     for _ in range(count):
         changed = copy.deepcopy(snapshot)
         random.choice(MUTATIONS)(changed, random)
+        for name, sensor in list(changed["sensors"].items()):
+            if sensor["at"] not in changed["joints" if sensor["kind"] == "force_torque" else "links"]:
+                del changed["sensors"][name]
         findings = {finding.code for finding in check(from_snapshot(changed))}
         if not any(ADVICE[code][0] is Severity.ERROR for code in findings):
             snapshot = changed
@@ -61,6 +66,9 @@ def rename(snapshot: Data, part: str, old: str, new: str) -> None:
         for holder, key in mentions:
             if holder.get(key) == old:
                 holder[key] = new
+    for sensor in snapshot.get("sensors", {}).values():
+        if sensor["at"] == old and (part == "joints") == (sensor["kind"] == "force_torque"):
+            sensor["at"] = new
 
 
 def _snapshot(random: Random) -> Data:
@@ -71,7 +79,18 @@ def _snapshot(random: Random) -> Data:
             rotor = random.choice(({}, {"rotor_inertia": 1.0}))
             joint["command"] = random.choice(("velocity", "effort"))
             joint["transmission"] = {"reduction": random.choice((1.0, 50.0)), "offset": 0.0, **rotor}
+    snapshot["sensors"] = {name: _sensor(snapshot, random) for name in ("eye", "arm") if random.random() < 0.3}
     return snapshot
+
+
+def _sensor(snapshot: Data, random: Random) -> Data:
+    """A sensor on some link, or in some joint."""
+    kind = random.choice(("imu", "camera", "force_torque" if snapshot["joints"] else "imu"))
+    sensor = Sensor("", kind, random.choice(list(snapshot["joints" if kind == "force_torque" else "links"])))  # type: ignore[arg-type]
+    if kind == "camera":
+        sensor = msgspec.structs.replace(sensor, camera=Camera())
+    numbers = msgspec.to_builtins(sensor)
+    return {key: list(item) if isinstance(item, tuple) else item for key, item in numbers.items() if key != "name"}
 
 
 def _donor(random: Random) -> Data:
@@ -147,6 +166,16 @@ def _change_shapes(snapshot: Data, random: Random) -> None:
                 shape |= {what: new[what]} if what in new else {}
 
 
+def _change_sensors(snapshot: Data, random: Random) -> None:
+    """A sensor comes, goes, is another one or has another number."""
+    name = random.choice(("eye", "arm"))
+    if name in snapshot["sensors"] and random.random() < 0.5:
+        holder, key = random.choice(_numbers(snapshot["sensors"][name]))
+        holder[key] += 0.5
+    elif snapshot["sensors"].pop(name, None) is None or random.random() < 0.5:
+        snapshot["sensors"][name] = _sensor(snapshot, random)
+
+
 def _rename(snapshot: Data, random: Random) -> None:
     part, new = random.choice(("links", "joints")), random.choice(NAMES)
     if snapshot[part] and new not in snapshot[part]:
@@ -187,5 +216,5 @@ def _change_rest(snapshot: Data, random: Random) -> None:
 
 MUTATIONS: tuple[Callable[[Data, Random], None], ...] = (
     *(_change_number, _take_over, _take_over, _take_over, _toggle, _toggle, _change_shapes, _change_shapes),
-    *(_rename, _add_leaf, _remove_leaf, _remove_leaf, _move, _change_rest),
+    *(_rename, _add_leaf, _remove_leaf, _remove_leaf, _move, _change_rest, _change_sensors),
 )

@@ -139,3 +139,18 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
 )
 def test_what_is_driven_counts_and_so_does_the_approach(urdf: str, options: dict[str, Any], names: list[str]) -> None:
     assert [found.message.split("'")[1] for found in passive_warnings(urdf, **options)] == names
+
+
+SENSING = STATUE.replace("</robot>", '<gazebo reference="head"><sensor name="imu" type="imu"/></gazebo></robot>')
+
+
+@pytest.mark.parametrize(("text", "options", "message"), [
+    (SENSING, {}, "the record approach has no sensors (imu)"),
+    (SENSING, {"drives": "motor"}, "the record approach has no sensors (imu) and no flanges of motors"),
+    (SENSING, {"approach": ("package", "record")}, None),
+    (STATUE, {}, None),
+])  # fmt: skip
+def test_what_the_record_approach_leaves_out_is_a_note(text: str, options: dict[str, Any], message: str | None) -> None:
+    reading = DOMAIN.read(text.encode(), "own.urdf", Options(**{"approach": ("record",), **options}))
+    found = [one for one in reading.diagnostics if one.code == "not-in-record"]
+    assert [one.message for one in found] == ([message] if message else [])

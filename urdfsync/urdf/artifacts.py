@@ -13,6 +13,7 @@ from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import NO_LIMITS, record_data
 from urdfsync.urdf.model.robot import bench_data, joint_model, joint_title, robot_data
+from urdfsync.urdf.model.sensors import sensor_records
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
@@ -40,6 +41,9 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             files += _link(link, tree.link(link.name), imports, package, options)
         for joint in tree.joints:
             files += _joint(joint, tree.joint(joint.name), package, options)
+        if tree.sensors:
+            data = {"record": f"{target.name}Sensors", "sensors": sensor_records(tree, names)}
+            files.append(_of_robot("Sensors", "sensors", target, options, data, Role.RECORD))
         if options.base == "floating":
             stance = {"record": f"{target.name}Stance", "height": standing_height(tree, imports)}
             files.append(_of_robot("Stance", "stance", target, options, stance, Role.RECORD))
@@ -102,6 +106,8 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
     classes = dict.fromkeys(models(tree.joints, target, options))
     if whole and options.base == "floating":
         classes[f"{name}Stance"] = None
+    if whole and tree.sensors:
+        classes[f"{name}Sensors"] = None
     if "record" in options.approach:
         classes[f"{name}{_PARAMETERS}"] = None
     folders = {"Links": [tree.link(link.name) for link in tree.links]} if whole else {}

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.urdf.drives import can_be_driven, driven_joints, has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.names import GENERATED, Identifier
+from urdfsync.urdf.names import GENERATED, Identifier, identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Command, Motion
 
@@ -58,10 +58,14 @@ class Connectors(msgspec.Struct, frozen=True):
     """Of joints that can be driven."""
     couplings: dict[str, str]
     """Of joints that follow another one."""
+    sensors: dict[str, str]
+    """Components of sensors."""
+    sensor_frames: dict[str, str]
+    """Of cameras and laser scanners."""
 
     def __hash__(self) -> int:
         """Return a hash of the elements that have connectors."""
-        return hash((*self.frames, *self.drives))
+        return hash((*self.frames, *self.drives, *self.sensors))
 
 
 def connector_names(tree: KinematicTree, options: Options) -> Connectors:
@@ -92,10 +96,23 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
                 for variable, ending in _VARIABLES[motion].items()
             ),
         )
+    frames = {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed}
+    couplings = {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()}
+    flanges = (flange for drive in drives.values() for flange in (drive.axis, drive.support, drive.motor))
+    used = {name.lower() for name in (*frames.values(), *couplings.values(), *filter(None, flanges))}
+    # Sensors give way to all else, and their frames to them: so a new sensor renames nothing but sensors.
+    sensors = identify([("sensor", sensor.name) for sensor in tree.sensors], used | taken)
+    used |= {identifier.component.lower() for identifier in sensors.values()}
     return Connectors(
-        {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed},
+        frames,
         drives,
-        {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()},
+        couplings,
+        {name: identifier.component for (_, name), identifier in sensors.items()},
+        {
+            sensor.name: free_name(sensors["sensor", sensor.name], "Frame", taken | used)
+            for sensor in tree.sensors
+            if sensor.kind in ("camera", "lidar")
+        },
     )
 
 

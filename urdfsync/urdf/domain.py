@@ -37,7 +37,7 @@ from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
-from urdfsync.urdf.unsimulated import massless_passive_joints, out_of_scope
+from urdfsync.urdf.unsimulated import left_to_package, massless_passive_joints, out_of_scope
 from urdfsync.urdf.validate import ADVICE
 
 
@@ -54,7 +54,9 @@ def _read(content: bytes, file: str, options: Options) -> Reading:
     tree = KinematicTree.of(robot)
     if "record" in options.approach:
         diagnostics += tuple(out_of_scope(tree, file, lines))
-    if "package" in options.approach:
+    if "package" not in options.approach:
+        diagnostics += tuple(left_to_package(tree, options, file))
+    else:
         diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
     return Reading(to_snapshot(robot), diagnostics, lines)
 
@@ -64,7 +66,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "planar-not-generic", "texture"),
+        *("mass-jump", "not-in-record", "planar-not-generic", "texture"),
     }
 )
 

@@ -18,6 +18,7 @@ import msgspec
 Vector: TypeAlias = tuple[float, float, float]
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
+SensorKind = Literal["imu", "force_torque", "camera", "lidar"]
 Command = Literal["position", "velocity", "effort"]
 Motion = Literal["rotational", "translational"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
@@ -264,6 +265,49 @@ def limits_acceleration(joint: Joint) -> bool:
     return limit is not None and (limit.acceleration is not None or limit.deceleration is not None)
 
 
+class Camera(msgspec.Struct, frozen=True, gc=False):
+    """Numbers of a camera; 0 for what the source does not say."""
+
+    width: float = 0.0
+    height: float = 0.0
+    horizontal_angle: float = 0.0
+    near: float = 0.0
+    far: float = 0.0
+
+
+class Lidar(msgspec.Struct, frozen=True, gc=False):
+    """Numbers of a laser scanner; 0 for what the source does not say."""
+
+    samples: float = 0.0
+    min_angle: float = 0.0
+    max_angle: float = 0.0
+    vertical_samples: float = 0.0
+    vertical_min_angle: float = 0.0
+    vertical_max_angle: float = 0.0
+    min_range: float = 0.0
+    max_range: float = 0.0
+
+
+class Sensor(msgspec.Struct, frozen=True, gc=False):
+    """A sensor on the link `at`, or for force and torque in the joint of that name; `origin` is its place on the link.
+
+    The wrench is about the origin of the joint.
+    """
+
+    name: str
+    kind: SensorKind
+    at: str
+    origin: Origin = Origin()
+    """Of a force-torque sensor, the axes alone."""
+    update_rate: float = 0.0
+    camera: Camera | None = None
+    lidar: Lidar | None = None
+    in_parent: bool = False
+    """Whether the wrench is in the axes of the parent link, not of the child."""
+    on_child: bool = False
+    """Whether the wrench is what the parent does to the child, not the other way round."""
+
+
 class Extension(msgspec.Struct, frozen=True, gc=False):
     """An element that urdfsync keeps but does not model: for example transmission, gazebo or sensor.
 
@@ -283,3 +327,4 @@ class Robot(msgspec.Struct, frozen=True, gc=False):
     links: tuple[Link, ...] = ()
     joints: tuple[Joint, ...] = ()
     extensions: tuple[Extension, ...] = ()
+    sensors: tuple[Sensor, ...] = ()

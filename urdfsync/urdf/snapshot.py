@@ -3,7 +3,8 @@
     {"name": …,
      "links": {name: {"inertial": {…}, "visuals": [{…}], "collisions": [{…}]}},
      "joints": {name: {"type": …, "parent": …, "child": …, "origin": {"xyz": […], "rpy": […]}, …}},
-     "extensions": {owner: {tag: [text, …]}}}
+     "extensions": {owner: {tag: [text, …]}},
+     "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}}}   if there are any
 
 Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
 What the model does not have (no inertial, no limit, no colour, no drive) is left out, so that its coming and going is
@@ -19,7 +20,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Snapshot
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.robot import Joint, Link, Robot, Sensor
 
 
 def to_snapshot(robot: Robot) -> Snapshot:
@@ -30,10 +31,12 @@ def to_snapshot(robot: Robot) -> Snapshot:
     by_name = operator.attrgetter("name")
     joints = {joint.name: _plain(joint) for joint in sorted(robot.joints, key=by_name)}
     links = {link.name: _plain(link) for link in sorted(robot.links, key=by_name)}
-    return {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
+    snapshot: Snapshot = {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
+    sensors = {sensor.name: _plain(sensor) for sensor in sorted(robot.sensors, key=by_name)}
+    return {**snapshot, "sensors": sensors} if sensors else snapshot
 
 
-def _plain(element: Link | Joint) -> Mapping[str, Any]:
+def _plain(element: Link | Joint | Sensor) -> Mapping[str, Any]:
     """Return an element as plain data but for its name."""
     data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
@@ -69,7 +72,10 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
     ]
     robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
     links = msgspec.convert([{"name": name, **link} for name, link in snapshot["links"].items()], tuple[Link, ...])
-    return msgspec.structs.replace(robot, links=links, joints=joints_of(snapshot["joints"]))
+    sensors = msgspec.convert(
+        [{"name": name, **sensor} for name, sensor in snapshot.get("sensors", {}).items()], tuple[Sensor, ...]
+    )
+    return msgspec.structs.replace(robot, links=links, joints=joints_of(snapshot["joints"]), sensors=sensors)
 
 
 def joints_of(joints: Mapping[str, Any]) -> tuple[Joint, ...]:

@@ -37,6 +37,15 @@ def massless_passive_joints(
             yield Diagnostic(Severity.WARNING, "passive-moves-no-mass", message, file, line, hint=hint)
 
 
+def left_to_package(tree: KinematicTree, options: Options, file: str) -> Iterator[Diagnostic]:
+    """Yield a note if the robot or the options have something that only the package approach has a place for."""
+    names = ", ".join(sensor.name for sensor in tree.sensors)
+    parts = [f"sensors ({names})"] * bool(names) + ["flanges of motors"] * (options.drives == "motor")
+    if parts:
+        message, hint = f"the record approach has no {' and no '.join(parts)}", 'add "package" to `approach` for them'
+        yield Diagnostic(Severity.NOTE, "not-in-record", message, file, hint=hint)
+
+
 def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:
     """Yield a warning for each joint that leaves the record without tables, or else for each that can't move freely.
 

@@ -113,6 +113,8 @@ _WARNINGS = {
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
     "unknown-actuated-joint": "correct its name, or take it out",
+    "unknown-sensor-place": "correct the name of the link or joint",
+    "bad-sensor": "correct the number; it is taken as 0",
     "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "inertia-not-positive": "export the inertia again; simulation may not be physical",

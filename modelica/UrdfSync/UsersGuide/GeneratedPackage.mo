@@ -57,6 +57,8 @@ Whatever can be connected has a name of its own, made from the name of its link 
 <li>A joint that can be driven has its axis and the housing of its drive, <code>elbowAxis</code> and <code>elbowSupport</code>. Joints that follow another one,
 planar and floating joints have none.</li>
 <li>With the option <code>drives = \"motor\"</code> a joint whose URDF has a gear or a rotor has the flange of its motor, too: <code>elbowMotor</code>.</li>
+<li>A sensor of the URDF is a component of <a href=\"modelica://UrdfSync.Sensors\">Sensors</a>, with its numbers in <code>MyRobotSensors</code>, and a camera or laser scanner
+has a frame. Run has what the others measure as outputs.</li>
 <li>If a link or joint has such a name already, the connector gives way: it is <code>elbowAxis_2</code> then.</li>
 <li>Start values stand at the joints: <code>elbow(phi_start = 0.5)</code>, <code>lift(s_start = 0.1)</code>, and <code>w_start</code>, <code>v_start</code> for speeds.
 Unless you say otherwise, a joint starts at zero, or at the end of its range that is next to zero. <code>fixedStart = false</code> makes them guesses, for axes that

@@ -6,7 +6,7 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
   replaceable Menagerie robot(
     fixedStart = false)
     "The robot"
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 445}})));
 
   Modelica.Blocks.Interfaces.RealInput lift_s(unit = "m")
     "Where joint \"lift\" is to go"
@@ -53,6 +53,22 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     "Moves joint \"shoulder\", through a filter"
     annotation (Placement(transformation(extent={{-40, 120}, {-20, 140}})));
 
+  Modelica.Blocks.Interfaces.RealOutput imu_a[3](each unit = "m/s2") = robot.imu.a
+    "Acceleration minus gravity that sensor \"imu\" shows"
+    annotation (Placement(transformation(extent={{340, 70}, {360, 90}}), iconTransformation(extent={{100, 86}, {108, 94}})));
+
+  Modelica.Blocks.Interfaces.RealOutput imu_w[3](each unit = "rad/s") = robot.imu.w
+    "Angular velocity that sensor \"imu\" shows"
+    annotation (Placement(transformation(extent={{340, 50}, {360, 70}}), iconTransformation(extent={{100, 76}, {108, 84}})));
+
+  Modelica.Blocks.Interfaces.RealOutput lift_sensor_f[3](each unit = "N") = robot.lift_sensor.f
+    "Force that sensor \"lift\" shows"
+    annotation (Placement(transformation(extent={{340, 30}, {360, 50}}), iconTransformation(extent={{100, 66}, {108, 74}})));
+
+  Modelica.Blocks.Interfaces.RealOutput lift_sensor_t[3](each unit = "N.m") = robot.lift_sensor.t
+    "Torque that sensor \"lift\" shows"
+    annotation (Placement(transformation(extent={{340, 10}, {360, 30}}), iconTransformation(extent={{100, 56}, {108, 64}})));
+
 equation
   connect(world.frame_b, robot.frame_a)
     annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
@@ -76,12 +92,12 @@ equation
     annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 0, 0}));
 
   annotation (
-    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 290}}), graphics={
-      Rectangle(extent={{-100, 100}, {100, 290}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 330}}), graphics={
+      Rectangle(extent={{-100, 100}, {100, 330}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 146}, {94, 164}}, textColor={64, 64, 64}, textString="lift"),
       Text(extent={{-94, 126}, {94, 144}}, textColor={64, 64, 64}, textString="rotational"),
       Text(extent={{-94, 106}, {94, 124}}, textColor={64, 64, 64}, textString="shoulder")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 405}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 465}})),
     Documentation(info="<html>
 <p>
 Robot Menagerie in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -6,7 +6,7 @@ model MenagerieTest "Quick check of robot Menagerie: every axis moves inside its
 
   replaceable Menagerie robot
     "The robot"
-    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 385}})));
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 445}})));
 
   UrdfSync.Drives.TranslationalSweep liftDrive(
     s_start = robot.lift.s_start,
@@ -50,7 +50,7 @@ equation
 
   annotation (
     experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 405}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 465}})),
     Documentation(info="<html>
 <p>
 Simulates without inputs: every axis of robot Menagerie moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

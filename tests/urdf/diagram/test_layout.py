@@ -18,19 +18,23 @@ from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot, Transmission
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot, Sensor, SensorKind, Transmission
 
+KINDS: tuple[SensorKind, ...] = ("imu", "camera", "force_torque")
 TYPES: tuple[JointType, ...] = ("fixed", "fixed", "revolute", "revolute", "prismatic", "continuous", "planar")
 
 Segment: TypeAlias = tuple[Point, Point]
 
 
 def random_names(random_: random.Random, links: int, reach: int, mimics: float) -> tuple[KinematicTree, Connectors]:
-    """A random robot; some of its inner links have frames, too, and some joints motors."""
+    """A random robot; some of its inner links have frames, too, some joints motors; there may be sensors."""
     names = [f"l{index}" for index in range(links)]
     robot = random_robot(random_, TYPES, names=names, mimics=mimics, reach=reach)
     geared = [replace(joint, transmission=random_.choice((None, Transmission(50.0)))) for joint in robot.joints]
-    tree = KinematicTree.of(replace(robot, joints=tuple(geared)))
+    kinds = random_.choices(KINDS, k=random_.choice((0, 1, 6)) * bool(robot.joints))
+    places = [random_.choice(geared).name if kind == "force_torque" else random_.choice(names) for kind in kinds]
+    sensors = [Sensor(f"s{number}", kind, at) for number, (kind, at) in enumerate(zip(kinds, places, strict=True))]
+    tree = KinematicTree.of(replace(robot, joints=tuple(geared), sensors=tuple(sensors)))
     framed = tuple(name for name in names if random_.random() < mimics / 2)
     return tree, connector_names(tree, Options(frames=framed, drives="motor"))
 
@@ -40,6 +44,11 @@ def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
     ends = {("frame_a", f"{tree.links[0].name}.frame_a")}
     moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
     ends |= {(f"{link}.frame_a", frame) for link, frame in names.frames.items()}
+    for sensor in tree.sensors:
+        if sensor.kind != "force_torque":
+            ends |= {(f"{sensor.at}.frame_a", f"{sensor.name}.frame_a")}
+        if sensor.kind == "camera":
+            ends |= {(f"{sensor.name}.frame_b", f"{sensor.name}Frame")}
     for joint in tree.joints:
         ends |= {
             (f"{joint.parent}.frame_a", f"{joint.name}.frame_a"),

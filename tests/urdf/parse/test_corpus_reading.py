@@ -55,6 +55,9 @@ ODD = {
     # <robot> without a name, which yourdfpy does not read.
     "oems/xacro_generated/open-manipulator_robotis/open_manipulator_description/urdf/open_manipulator.urdf":
         ["missing-name", "second-reader-failed", "unknown-material"],
+    # A camera on camera_link, which the file does not have.
+    "oems/xacro_generated/open-manipulator_robotis/open_manipulator_description/urdf/open_manipulator_robot.urdf":
+        ["unknown-sensor-place"],
     "random/spot_ros/spot_description/urdf/spot_arm.urdf": [],
     # Velocity limits of 0 in all joints, and in one that does not move.
     "matlab/qarm_description/urdf/quanserQArm.urdf": ["zero-limits"],

@@ -27,7 +27,7 @@ def test_all_that_is_not_modelled_is_one_note() -> None:
         '<gazebo><plugin name="control" filename="a.so"/></gazebo>',
         '<gazebo><plugin filename="b.so"/></gazebo>',
         '<gazebo reference="arm"><material>Gazebo/Red</material><selfCollide>true</selfCollide>'
-        '<sensor name="eye" type="camera"><plugin name="driver" filename="c.so"/></sensor></gazebo>',
+        '<sensor name="eye" type="contact"><plugin name="driver" filename="c.so"/></sensor></gazebo>',
         '<frame name="n"/>',
         '<link name="tip" group="left"><verbose value="1"/></link>',
         joint("k", "fixed", "arm", "tip"),
@@ -48,6 +48,14 @@ def test_all_that_is_not_modelled_is_one_note() -> None:
         "line 10: <verbose> link tip",
         "line 10: attribute link group",
     )
+
+
+def test_sensors_without_a_model_or_a_place_are_named() -> None:
+    (note,) = notes(
+        '<sensor name="free" type="imu"/>',
+        '<ros2_control name="c" type="sensor"><sensor name="pose"><state_interface name="x"/></sensor></ros2_control>',
+    )
+    assert note.message == "not modelled: 2 sensors (free, pose)"
 
 
 def test_more_than_three_names_are_cut_off() -> None:

@@ -17,7 +17,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
-Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling"]
+Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling", "sensor"]
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
 """Of the legend: what it is of, its text, its place, and its width."""
 
@@ -38,6 +38,7 @@ _LEGENDS: Mapping[Kind, str] = {
     "translational": "translational joint",
     "free": "planar or floating joint",
     "coupling": "mimic coupling, ratio",
+    "sensor": "sensor",
 }
 
 
@@ -76,16 +77,17 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
         extent=diagram.extent,
         lines=_lines(diagram),
         junctions=_junctions(diagram),
-        placements=diagram.placements,
+        placements={name: box for name, box in diagram.placements.items() if name != "sensorParameters"},
         parts=parts,
-        axes={drive.axis: drive.motion for drive in names.drives.values()},
+        axes={drive.axis: drive.motion for drive in names.drives.values()}
+        | {drive.motor: "rotational" for drive in names.drives.values() if drive.motor},
         supports={drive.support: drive.motion for drive in names.drives.values()},
         legend=legend,
     )
 
 
 def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]]:
-    """Yield the components of links, joints and couplings."""
+    """Yield the components of links, joints, couplings and sensors."""
     for link in tree.links:
         yield (
             tree.link(link.name).component,
@@ -98,6 +100,7 @@ def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]
     for joint, mimic in tree.followers():
         ratio = f"× {_rounded(mimic.multiplier)}" if types[mimic.joint] in MOTION_KINDS else "held"
         yield names.couplings[joint.name], _Part("coupling", ratio)
+    yield from ((component, _Part("sensor")) for component in names.sensors.values())
 
 
 def _rounded(value: float) -> str:

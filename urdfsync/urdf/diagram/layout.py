@@ -23,7 +23,7 @@ Lines consist of axis-parallel segments. All coordinates are even, y points upwa
 from __future__ import annotations
 
 import heapq
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -150,6 +150,9 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     with_axes = {joints[name][0] for name in names.drives}
     with_motors = {joints[name][0] for name, drive in names.drives.items() if drive.motor}
     with_couplings = {joints[name][0] for name in names.couplings}
+    highest = defaultdict[int, int](int)  # by row, the most sensors below one link
+    for link, count in Counter(_carriers(tree).values()).items():
+        highest[links[link][0]] = max(highest[links[link][0]], count)
     parents = {joint.parent for joint in tree.joints}
     with_frames = {links[name][0] for name in names.frames if name in parents}
     tops, spines, y = list[int](), list[int](), 0
@@ -160,7 +163,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         )
         tops.append(y if row else FRAME_A[1] + height)
         spines.append(tops[row] - height)
-        y = spines[row] - _BELOW - (_CONNECTOR + _TRACK) * (row in with_frames)
+        y = spines[row] - _BELOW - (_CONNECTOR + _TRACK) * (row in with_frames) - (_SIZE + _NAME) * highest[row]
     trunks = [FRAME_A[0] + _FRAME // 2 + _TRUNK // 2 + _TRACK * (_count(tracks_left[0]) + 1)]
     for tracks in tracks_left[1:]:
         trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(tracks) - 1))
@@ -181,7 +184,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         detours=detours,
         top=tops[0],
         right=trunks[-1] + _MARGIN,
-        bottom=y,
+        bottom=y - (_SIZE + _NAME if tree.sensors else 0),
     )
 
 
@@ -214,6 +217,12 @@ def _cells(tree: KinematicTree) -> tuple[Mapping[str, _Cell], Mapping[str, _Cell
     return {link.name: links[link.name] for link in tree.links}, joints
 
 
+def _carriers(tree: KinematicTree) -> dict[str, str]:
+    """Return the link below which each sensor stands: that of force and torque below the joint's child."""
+    children = {joint.name: joint.child for joint in tree.joints}
+    return {sensor.name: children[sensor.at] if sensor.kind == "force_torque" else sensor.at for sensor in tree.sensors}
+
+
 def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
     """Return the places of all components, in the order in which they are drawn."""
     links = {name: Placement.around((x + _LINK_X, y - _LINK_Y)) for name, (x, y) in grid.links.items()}
@@ -232,6 +241,20 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
             placements[frame] = Placement.around((x + _JOINT_X, y))
         else:
             placements[frame] = Placement.around((links[name].centre[0], links[name].y1 - _CONNECTOR), _CONNECTOR)
+    below = {
+        name: placements[names.frames[name]].y1 if name in names.frames and name not in leaves else place.y1
+        for name, place in links.items()
+    }
+    if tree.sensors:
+        placements["sensorParameters"] = Placement.around((FRAME_A[0], grid.bottom + _SIZE // 2))
+    for sensor, link in _carriers(tree).items():
+        middle = links[link].centre[0], below[link] - _NAME - _SIZE // 2
+        placements[names.sensors[sensor]] = place = Placement.around(middle)
+        below[link] = place.y1
+        if sensor in names.sensor_frames:
+            placements[names.sensor_frames[sensor]] = Placement.around(
+                (place.x2 + _TRACK + _CONNECTOR // 2, middle[1]), _CONNECTOR
+            )
     placements |= {tree.link(name).component: place for name, place in links.items()}
     placements |= {tree.joint(name).component: place for name, place in joints.items()}
     return placements | {names.couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
@@ -244,6 +267,10 @@ def _lines(
     lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
     children = tree.children()
     motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.type in MOTION_KINDS}
+    carried = defaultdict[str, list[str]](list)
+    for sensor in tree.sensors:
+        if sensor.kind != "force_torque":
+            carried[sensor.at].append(sensor.name)
 
     def place(end: str) -> Point:
         component, _, port = end.partition(".")
@@ -259,6 +286,11 @@ def _lines(
             connect_frames("frame_a", own, name)
         if name in names.frames:
             connect_frames(own, names.frames[name], name)
+        for called in carried[name]:
+            connect_frames(own, f"{names.sensors[called]}.frame_a", name)
+            if frame := names.sensor_frames.get(called):
+                port = f"{names.sensors[called]}.frame_b"
+                lines[port, frame] = "frame", (place(port), place(frame))
         for joint in children.get(name, ()):
             component = tree.joint(joint.name).component
             connect_frames(own, f"{component}.frame_a", name)

@@ -32,6 +32,17 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
             kind, _, name = owner.partition(" ")
             if (kind, name) not in gone:
                 extensions[f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner] = tags
+    sensors = snapshot.get("sensors", {})
+    if renames:
+        sensors = {
+            name: {
+                **sensor,
+                "at": renames.get(
+                    ("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"]), sensor["at"]
+                ),
+            }
+            for name, sensor in sensors.items()
+        }
     robot = joints_of(joints)
     passive = passive_joints(robot)
     drives = {
@@ -46,6 +57,7 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
             name: {key: value for key, value in joint.items() if key != "actuated"} | drives.get(name, {})
             for name, joint in joints.items()
         },
+        "sensors": sensors,
         "extensions": {owner: _keyed(tags) for owner, tags in extensions.items()},
     }
 

@@ -107,6 +107,9 @@ def interface(
             found.append(Effect((element, "motion"), one.motion, other.motion))
         for field, part in _DRIVE.items():
             add(element, part, *(getattr(drive, field, None) for drive in drives))
+    for name in dict.fromkeys([*was.sensors, *now.sensors]):
+        add(f"sensor {name}", "component", was.sensors.get(name), now.sensors.get(name), None)
+        add(f"sensor {name}", "frame", was.sensor_frames.get(name), now.sensor_frames.get(name), None)
     inputs = [renames.get(("joint", name), name) for name in _driven(was)] if earlier.inputs == "vector" else []
     new_inputs = _driven(now) if options.inputs == "vector" else []
     vector, new_vector = input_vector(was), input_vector(now)

@@ -36,6 +36,9 @@ _UNITS = {
     "size": "m",
     "radius": "m",
     "length": "m",
+    **dict.fromkeys(("near", "far", "min_range", "max_range"), "m"),
+    **dict.fromkeys(("horizontal_angle", "min_angle", "max_angle", "vertical_min_angle", "vertical_max_angle"), "rad"),
+    "update_rate": "Hz",
     "mass": "kg",
     **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz", "rotor_inertia"), "kg·m²"),
 }
@@ -82,6 +85,17 @@ def describe(
                 found.append(Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None)
             case ("joints", str(name), *fields):
                 found.append(_of_joint(name, fields, difference, versions, options))
+            case ("sensors", str(name), *fields):
+                structural = not fields or fields[0] in ("kind", "at", "in_parent", "on_child")
+                reach = ChangeClass.STRUCTURAL if structural else ChangeClass.PARAMETER
+                has_models = "package" in options.approach
+                found.append(
+                    Meaning(
+                        _words(f"sensor {name}", fields),
+                        reach if has_models else ChangeClass.UNMODELLED,
+                        _unit(fields),
+                    )
+                )
             case ("extensions", str(owner), *fields):
                 found.append(Meaning(_words(owner or "robot", fields or ["extensions"]), ChangeClass.UNMODELLED))
             case (*fields,):

@@ -10,9 +10,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
+from msgspec.structs import replace
 
 from urdfsync.urdf.names import Identifier, Key, identify, natural_key
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Robot, effective, structure
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Origin, Robot, Sensor, effective, structure
 
 
 class KinematicTree(msgspec.Struct, frozen=True):
@@ -24,10 +25,12 @@ class KinematicTree(msgspec.Struct, frozen=True):
     links: tuple[Link, ...]
     joints: tuple[Joint, ...]
     names: Mapping[Key, Identifier]
+    sensors: tuple[Sensor, ...] = ()
+    """In natural order of their names."""
 
     def __hash__(self) -> int:
         """Return a hash of the elements; their names have none."""
-        return hash((self.links, self.joints))
+        return hash((self.links, self.joints, self.sensors))
 
     @classmethod
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
@@ -49,12 +52,16 @@ class KinematicTree(msgspec.Struct, frozen=True):
             waiting += children[joints[-1].child]
         keys = [("link", link.name) for link in robot.links] + [("joint", joint.name) for joint in joints]
         order = (links[root], *(links[joint.child] for joint in joints))
-        return cls(order, tuple(joints), identify(keys, taken))
+        sensors = tuple(sorted(robot.sensors, key=lambda sensor: natural_key(sensor.name)))
+        return cls(order, tuple(joints), identify(keys, taken), sensors)
 
     def structure(self) -> KinematicTree:
         """Return the tree without numbers."""
         links = tuple(Link(link.name) for link in self.links)
-        return KinematicTree(links, tuple(map(structure, self.joints)), self.names)
+        sensors = [
+            replace(sensor, origin=Origin(), update_rate=0.0, camera=None, lidar=None) for sensor in self.sensors
+        ]
+        return KinematicTree(links, tuple(map(structure, self.joints)), self.names, tuple(sensors))
 
     def link(self, name: str) -> Identifier:
         """Return the identifier of a link."""

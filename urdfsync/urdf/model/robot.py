@@ -16,6 +16,7 @@ from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
 
@@ -90,6 +91,11 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
             for joint in tree.joints
         ],
         "couplings": list(couplings.values()),
+        "sensors": sensor_models(tree, names),
+        "sensor_frames": [
+            {"connector": connector, "name": name, "y": top - 10 - _ROW * row}
+            for row, (name, connector) in enumerate(names.sensor_frames.items(), len(names.frames))
+        ],
         "top": top,
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
@@ -107,6 +113,7 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     20 has its place beside each.
     """
     top, rows = _icon_top(names), _drives(tree, names)
+    sensors = sensor_outputs(tree, names)
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "visualizer": options.visualizer,
@@ -114,6 +121,8 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
         "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
         "inputs": options.inputs,
         "vector": input_vector(names),
+        "sensors": sensors,
+        "lowest": min([_FRAME_Y - 230, *(sensor["y"] - 20 for sensor in sensors)]),
         "bottom": _FRAME_Y - 150,
         "top": _FRAME_Y + top * 3 // 2,
         "icon_top": top,
@@ -134,7 +143,7 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
 
 def _icon_top(names: Connectors) -> int:
     """Return where the icon ends above: over the picture there is a row for each connector at one side."""
-    rows = max(len(names.frames), len(names.drives))
+    rows = max(len(names.frames) + len(names.sensor_frames), len(names.drives))
     return _PICTURE + _ROW * rows + 10 if rows else _PICTURE
 
 

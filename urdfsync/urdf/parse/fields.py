@@ -54,6 +54,8 @@ class Reader:
         self.diagnostics: list[Diagnostic] = []
         """Without the name of the file."""
         self.extensions: list[Extension] = []
+        self.modelled = set[Element]()
+        """Of `kept` and the elements in them, those that something in the package shows."""
         self.kept: list[tuple[str, Element]] = []
         """The elements that became extensions, each with its owner."""
         self.unknown: list[tuple[str, Element]] = []

@@ -19,6 +19,7 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.drives import read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
+from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
 from urdfsync.urdf.robot import Robot
 
@@ -57,7 +58,7 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    unmodelled = summary(note_unmodelled(reader.kept, reader.unknown, document.lines), file)
+    unmodelled = summary(note_unmodelled(reader.kept, reader.modelled, reader.unknown, document.lines), file)
     return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
 
 
@@ -137,7 +138,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     complete = len(links) == len(found_links) and len(joints) == len(found_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     links_with_materials = resolve_materials(reader, by_path, materials)
-    robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions))
+    sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
+    robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions), sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         known = {joint.name for joint in joints}

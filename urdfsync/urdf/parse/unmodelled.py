@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -29,16 +29,21 @@ def is_loop(element: Element) -> bool:
 
 
 def note_unmodelled(
-    kept: Iterable[tuple[str, Element]], attributes: Iterable[tuple[str, Element]], lines: Mapping[Element, int]
+    kept: Iterable[tuple[str, Element]],
+    modelled: Container[Element],
+    attributes: Iterable[tuple[str, Element]],
+    lines: Mapping[Element, int],
 ) -> Iterator[Diagnostic]:
     """Yield one note on all that is in no model, each with its line as detail; none if there is nothing.
 
     `kept` are the elements that the reader did not ask for, each with its owner, and `attributes` are such attributes.
+    Those that are `modelled` all the same are left out.
     """
     found = defaultdict[str, list[_Part]](list)
     for owner, element in kept:
         for part in _parts(owner, element):
-            found[part.kind].append(part)
+            if part.element not in modelled:
+                found[part.kind].append(part)
     for name, element in attributes:
         found["attribute"].append(_Part("attribute", f"{element.tag} {name}", element))
     if not found:
@@ -64,6 +69,8 @@ def _parts(owner: str, element: Element) -> Iterator[_Part]:
                 yield _Part("gazebo plugin", plugin.get("name", plugin.get("filename", "")), plugin)
             if one.tag not in ("sensor", "plugin", "joint"):
                 yield _Part("gazebo setting", one.tag, one)
+    elif element.tag == "ros2_control":
+        yield from (_Part("sensor", one.get("name", ""), one) for one in element.findall("sensor"))
     elif element.tag == "sensor":
         yield _Part("sensor", element.get("name") or owner, element)
     elif element.tag not in _READ and not is_loop(element) and (owner or element.tag != "inertial"):

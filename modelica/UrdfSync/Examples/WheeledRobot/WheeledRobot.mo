@@ -23,6 +23,10 @@ model WheeledRobot "Robot WheeledRobot"
     "Frame of link \"lidar\""
     annotation (Placement(transformation(extent={{40, -322}, {60, -302}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b lidar_sensorFrame
+    "Frame of sensor \"lidar\""
+    annotation (Placement(transformation(extent={{48, -372}, {60, -360}}), iconTransformation(extent={{92, 152}, {108, 168}})));
+
   Modelica.Mechanics.Rotational.Interfaces.Flange_a caster_swivelAxis
     "Axis of joint \"caster_swivel\""
     annotation (Placement(transformation(extent={{-52, 14}, {-40, 26}}), iconTransformation(extent={{-104, 256}, {-96, 264}})));
@@ -101,6 +105,10 @@ model WheeledRobot "Robot WheeledRobot"
     lidar_mast.m +
     lidar.m
     "Mass of the whole robot";
+
+  parameter WheeledRobotSensors sensorParameters
+    "Numbers of the sensors"
+    annotation (Placement(transformation(extent={{-110, -412}, {-90, -392}})));
 
   replaceable Links.Base_link base_link(
     animation = animation,
@@ -294,6 +302,10 @@ model WheeledRobot "Robot WheeledRobot"
     "Continuous joint \"lidar_spin\" from link \"lidar_mast\" to link \"lidar\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -322}, {12, -302}})));
 
+  UrdfSync.Sensors.Lidar lidar_sensor(parameters = sensorParameters.lidar_sensor)
+    "Sensor \"lidar\" of link \"lidar\""
+    annotation (Placement(transformation(extent={{24, -376}, {44, -356}})));
+
 equation
   connect(frame_a, base_link.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));
@@ -351,6 +363,10 @@ equation
     annotation (Line(points={{12, -312}, {20, -312}, {20, -338}, {24, -338}}, color={95, 95, 95}, thickness=0.5));
   connect(lidar.frame_a, lidarFrame)
     annotation (Line(points={{24, -338}, {20, -338}, {20, -312}, {50, -312}}, color={95, 95, 95}, thickness=0.5));
+  connect(lidar.frame_a, lidar_sensor.frame_a)
+    annotation (Line(points={{24, -338}, {20, -338}, {20, -366}, {24, -366}}, color={95, 95, 95}, thickness=0.5));
+  connect(lidar_sensor.frame_b, lidar_sensorFrame)
+    annotation (Line(points={{44, -366}, {54, -366}}, color={95, 95, 95}, thickness=0.5));
   connect(caster_swivel.axis, caster_swivelAxis)
     annotation (Line(points={{-46, 10}, {-46, 20}}, color={0, 0, 0}));
   connect(caster_swivel.support, caster_swivelSupport)
@@ -399,8 +415,9 @@ equation
       Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_left"),
       Text(extent={{0, 213}, {88, 227}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="wheel_right"),
       Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="camera_optical_frame"),
-      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -356}, {228, 34}})),
+      Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar"),
+      Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lidar")}),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -412}, {228, 34}})),
     Documentation(info="<html>
 <p>
 Links and joints of robot WheeledRobot, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

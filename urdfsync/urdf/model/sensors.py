@@ -1,0 +1,64 @@
+"""Template data of sensors: components of the robot model, outputs of Run, and the record of their numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfsync.urdf.connectors import Connectors
+from urdfsync.urdf.kinematics.tree import KinematicTree
+
+_ROW = 20  # height of an output in the diagram of Run
+_TOP = 80  # of the first one, below those of the drives
+_ICON_ROW, _ICON_TOP = 10, 90
+
+_OUTPUTS = {
+    "imu": (("a", "m/s2", "acceleration minus gravity"), ("w", "rad/s", "angular velocity")),
+    "force_torque": (("f", "N", "force"), ("t", "N.m", "torque")),
+}
+"""By kind: the outputs of a sensor, their units, and what they are."""
+
+
+def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return the structure of each sensor; `tree` may have no numbers."""
+    return [
+        {
+            "component": names.sensors[sensor.name],
+            "kind": sensor.kind,
+            "title": f'sensor "{sensor.name}" of {"joint" if sensor.kind == "force_torque" else "link"} "{sensor.at}"',
+            "joint": tree.joint(sensor.at).component if sensor.kind == "force_torque" else None,
+            "in_parent": sensor.in_parent,
+            "sign": "-" if sensor.on_child else "",
+            "frame": names.sensor_frames.get(sensor.name),
+        }
+        for sensor in tree.sensors
+    ]
+
+
+def sensor_records(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return the numbers of each sensor."""
+    return [
+        model
+        | {
+            "name": sensor.name,
+            "origin": sensor.origin,
+            "update_rate": sensor.update_rate,
+            "camera": sensor.camera,
+            "lidar": sensor.lidar,
+        }
+        for sensor, model in zip(tree.sensors, sensor_models(tree, names), strict=True)
+    ]
+
+
+def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return the outputs of Run, with their places: a column at the right, below those of the drives."""
+    outputs = [
+        {
+            "component": names.sensors[sensor.name],
+            "output": output,
+            "unit": unit,
+            "text": f'{what} that sensor "{sensor.name}" shows',
+        }
+        for sensor in tree.sensors
+        for output, unit, what in _OUTPUTS.get(sensor.kind, ())
+    ]
+    return [one | {"y": _TOP - _ROW * k, "icon_y": _ICON_TOP - _ICON_ROW * k} for k, one in enumerate(outputs)]
