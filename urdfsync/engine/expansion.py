@@ -86,7 +86,7 @@ class Inputs:
             if (path := self.path(name)) is not None:
                 patterns[name] = names_hash(path)
         return Expansion(
-            source=self.name(self.source, {}),
+            source=robot.source_text,
             arguments=robot.arguments or {},
             command=robot.command,
             files=files,
@@ -151,7 +151,6 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(
-        source=inputs.name(inputs.source, {}),
         arguments=arguments,
         files={names[path]: answer.files[path] for path in number},
         patterns={inputs.name(path, answer.packages): names_hash(Path(path)) for path in answer.patterns},
