@@ -218,6 +218,7 @@ def warnings(config: Config, robot: RobotConfig, known: Expansion) -> tuple[Diag
         place = shown(config.file), robot.lines.get("arguments", 0)
         found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
     for said in known.warnings:
-        message, hint = said.removeprefix("warning: "), "correct the source, if it matters"
-        found.append(Diagnostic(Severity.WARNING, "xacro-warning", message, shown(robot.source), hint=hint))
+        severity = Severity.WARNING if said.startswith(("warning: ", "error: ")) else Severity.NOTE
+        message = said.removeprefix("warning: ").removeprefix("error: ")
+        found.append(Diagnostic(severity, "xacro-said", message, shown(robot.source)))
     return tuple(found)
