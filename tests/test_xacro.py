@@ -221,11 +221,13 @@ def test_lines_in_messages_are_those_of_xacro(project: Path, execute: Execute) -
 
 
 def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, execute: Execute) -> None:
-    said = xacros.ARM.replace("</robot>", "<!-- xacro:eval-comments -->${xacro.warning('mind the step')}</robot>")
+    said = "${xacro.warning('mind the step')}${xacro.message('go on')}</robot>"
+    said = xacros.ARM.replace("</robot>", said)
     xacros.write(project, {"arm.urdf.xacro": said}, xacros.CONFIG.replace("{ length", "{ lenght = 1, length"))
     for _ in range(2):
         words = execute("build").words
-        assert "urdf/arm.urdf.xacro: warning: mind the step" in words
+        assert "urdf/arm.urdf.xacro: warning: mind the step [xacro-said]" in words
+        assert "urdf/arm.urdf.xacro: note: go on [xacro-said]" in words
         assert "urdfsync.toml:3: warning: robot `arm`: the source has no argument `lenght`" in words
 
 

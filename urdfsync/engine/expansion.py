@@ -86,7 +86,7 @@ class Inputs:
             if (path := self.path(name)) is not None:
                 patterns[name] = names_hash(path)
         return Expansion(
-            source=self.name(self.source, {}),
+            source=robot.source_text,
             arguments=robot.arguments or {},
             command=robot.command,
             files=files,
@@ -151,7 +151,6 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(
-        source=inputs.name(inputs.source, {}),
         arguments=arguments,
         files={names[path]: answer.files[path] for path in number},
         patterns={inputs.name(path, answer.packages): names_hash(Path(path)) for path in answer.patterns},
@@ -219,6 +218,7 @@ def warnings(config: Config, robot: RobotConfig, known: Expansion) -> tuple[Diag
         place = shown(config.file), robot.lines.get("arguments", 0)
         found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
     for said in known.warnings:
-        message, hint = said.removeprefix("warning: "), "correct the source, if it matters"
-        found.append(Diagnostic(Severity.WARNING, "xacro-warning", message, shown(robot.source), hint=hint))
+        severity = Severity.WARNING if said.startswith(("warning: ", "error: ")) else Severity.NOTE
+        message = said.removeprefix("warning: ").removeprefix("error: ")
+        found.append(Diagnostic(severity, "xacro-said", message, shown(robot.source)))
     return tuple(found)

@@ -125,8 +125,9 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
 
     if not robot.command:
         known = expansion.expand(inputs, robot.arguments or {})
+        known = msgspec.structs.replace(known, source=robot.source_text)
     elif options.trusted or (untrusted := find_untrusted_command(config, robot)) is None:
-        known = inputs.look(robot, Expansion(source=""))
+        known = inputs.look(robot, Expansion())
         expansion.run_command(config, robot)
     else:
         raise ConfigError(untrusted)

@@ -24,8 +24,8 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     """
 
     format: int = 1
-    source: str
-    """Name of the source."""
+    source: str = ""
+    """The source as the configuration names it."""
     arguments: Mapping[str, str] = {}
     command: tuple[str, ...] = ()
     """The command that wrote the source; empty for xacro."""
