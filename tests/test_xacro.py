@@ -328,6 +328,18 @@ def test_the_daemon_sees_each_input(built: Path) -> None:
         assert "mass = 3.25" in Path(RECORD).read_text()
 
 
+@pytest.mark.slow
+def test_the_daemon_sees_a_file_that_was_wrong_from_the_beginning(project: Path) -> None:
+    from support.daemon import Watch
+
+    xacros.write(project, {"masses.yaml": "upper: [1\n"})
+    with Watch(project, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+        watch.wait("waiting")
+        (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
+        watch.wait("built")
+        assert "mass = 2.5" in Path(RECORD).read_text()
+
+
 COMMAND = """
 import pathlib, sys
 numbers = pathlib.Path("mass.txt").read_text()

@@ -318,6 +318,7 @@ class Daemon:
             return False
         errors, lost = build.judge_source(self._config, watched.robot, watched.paths, self._build_options)
         if errors:
+            self._watch_culprits(watched, errors)
             self._wait_for_valid(watched, errors, now)
             return False
         source = watched.files[str(watched.robot.source)].sha256
@@ -327,6 +328,14 @@ class Daemon:
             watched.state = Unsettled(now + self._options.recheck_shrunk, watched.hashes, shrunk=source)
             return False
         return True
+
+    def _watch_culprits(self, watched: WatchedRobot, errors: Sequence[Diagnostic]) -> None:
+        """Watch the files that errors name: xacro may have read one that no build has recorded yet."""
+        named = {os.path.abspath(error.file) for error in errors if error.file}  # noqa: PTH100
+        if not named <= watched.files.keys():
+            watched.paths = msgspec.structs.replace(watched.paths, inputs=watched.paths.inputs | named)
+            watched.read_files()
+            self._watch_folders()
 
     def _wait_for_valid(self, watched: WatchedRobot, errors: tuple[Diagnostic, ...], now: float) -> None:
         """Wait for the exporter, which may be at work on a source that is invalid; after some time that is an error."""
