@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 from support import xacros
 from support.answers import save, saved
@@ -17,6 +18,7 @@ from support.git import NEEDS_GIT, Repository
 from support.xacros import EXPANDED, RECORD
 
 from urdfsync import dependencies
+from urdfsync.state.expansion import dumps, loads
 
 CHANGED = "inputs changed, not expanded"
 
@@ -123,6 +125,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
+    assert execute("status").lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 
@@ -191,6 +194,20 @@ def test_a_damaged_expansion_is_none(built: Path, execute: Execute, damage: str)
     EXPANDED.write_text(damage.format(text))
     execute("build")
     assert EXPANDED.read_text() == text
+
+
+def test_an_expansion_of_a_stranger_is_only_compared(built: Path, execute: Execute) -> None:
+    own = loads(EXPANDED.read_bytes())
+    assert own is not None
+    files = {"a\0b": "1", "/dev/zero": "1", "package://../../etc/passwd": "1", "a" * 9999: "1", "\x1b[31mred": "1"}
+    odd = msgspec.structs.replace(own, files={**own.files, **files}, places="x=1:2 7", variables={"a=b": "1", "": "1"})
+    EXPANDED.write_bytes(dumps(odd))
+    with unchanged(built):
+        said = execute("status", "-v").out
+    assert said.startswith(f"arm: {CHANGED}")
+    assert "\x1b" not in said
+    execute("build")
+    assert EXPANDED.read_bytes() == dumps(own)
 
 
 def test_what_is_wrong_is_told_at_its_place_in_xacro(project: Path, execute: Execute) -> None:
@@ -282,6 +299,16 @@ def test_a_hook_asks_for_every_input(built: Path, execute: Execute, monkeypatch:
 def test_remove_takes_the_expanded_source_away(built: Path, execute: Execute) -> None:
     execute("remove", "arm", "--yes")
     assert not EXPANDED.exists()
+
+
+def test_a_robot_of_another_name_takes_its_expansion_along(
+    built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_xacro(monkeypatch, built)
+    (built / "urdfsync.toml").write_text(xacros.CONFIG.replace("robots.arm", "robots.leg"))
+    execute("build")
+    assert not EXPANDED.exists()
+    assert execute("status").lines == ["leg: in step, 15 files"]
 
 
 def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:

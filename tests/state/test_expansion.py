@@ -23,6 +23,12 @@ def test_it_comes_back(expansion: Expansion) -> None:
     assert msgspec.structs.replace(found, sum="") == expansion
 
 
+@given(st.binary() | TEXTS.map(lambda text: dumps(ARM).replace(b"arm", text.encode(), 1)))
+def test_nothing_else_is_an_error(content: bytes) -> None:
+    found = loads(content)
+    assert found is None or dumps(found) == content
+
+
 def test_line_ends_make_no_difference() -> None:
     found = loads(dumps(ARM).replace(b"\n", b"\r\n"))
     assert found is not None

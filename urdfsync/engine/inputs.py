@@ -207,7 +207,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         place = shown(config.file), robot.lines[""]
         raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))
     templates = source.templates(config, robot, domain)
-    text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options)
+    text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, former)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"

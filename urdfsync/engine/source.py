@@ -84,8 +84,10 @@ class Source(msgspec.Struct, frozen=True):
             raise type(error)(*map(self.locate, error.diagnostics)) from None
 
 
-def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions) -> Source:
-    """Read the robot's source, which xacro or a command may have to make first.
+def read_source(
+    config: Config, robot: RobotConfig, store: Store, options: BuildOptions, former: str | None = None
+) -> Source:
+    """Read the robot's source, which xacro or a command may have to make first; `former` is its name in the state.
 
     Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
     that is not trusted.
@@ -95,8 +97,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
-    recorded, stale = store.load_expansion(robot.name), NEVER
-    known = None
+    recorded, known, stale = store.load_expansion(former or robot.name), None, NEVER
     for one in filter(None, (recorded, options.expansions.get(robot.name))):
         if not (stale := inputs.find_changes(robot, one)):
             known = one
