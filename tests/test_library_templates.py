@@ -70,7 +70,13 @@ def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifa
     visuals, collisions = link_shapes(link, IMPORTS, "UrdfSync", Options())
     named = named_data("Links", name, record)
     if visuals:
-        data = {"name": link.name, "inertial": None, "visuals": visuals, "collisions": collisions}
+        data: dict[str, Any] = {
+            "name": link.name,
+            "inertial": None,
+            "visuals": visuals,
+            "collisions": collisions,
+            "contact": {},
+        }
         yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)
     data = link_model(visuals, collisions, Options()) | {"note": f"{note} {RECORD_NOTE}"}
     yield Artifact(f"Links/{name}.mo", Role.MODEL, "link/model.mo.jinja", named | data, name)

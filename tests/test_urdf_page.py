@@ -18,6 +18,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.snapshot import to_snapshot
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+BALL = '<geometry><sphere radius="0.05"/></geometry>'
 ROBOT = f"""<robot name="own" version="1.2">
   <material name="blue"><color rgba="0 0 1 1"/><texture filename="a.png"/></material>
   <material name="red"><color rgba="1 0 0 1"/></material>
@@ -33,7 +34,7 @@ ROBOT = f"""<robot name="own" version="1.2">
     <collision><geometry><sphere radius="0.3"/></geometry></collision>
   </link>
   <link name="hand"><inertial><mass value="1"/>{INERTIA}</inertial></link>
-  <link name="tip"><inertial><mass value="1"/>{INERTIA}</inertial></link>
+  <link name="tip"><collision>{BALL}</collision><inertial><mass value="1"/>{INERTIA}</inertial></link>
   <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
     <limit lower="-1" upper="1.1" effort="10" velocity="2" acceleration="3" deceleration="4" jerk="5"/>
     <dynamics damping="0.5" friction="0.6" armature="0.03"/><calibration rising="0.7" falling="0.8"/>
@@ -45,7 +46,8 @@ ROBOT = f"""<robot name="own" version="1.2">
   <joint name="spin" type="continuous"><parent link="arm"/><child link="top"/></joint>
   <transmission name="t"><joint name="spin"/></transmission>
   <ros2_control name="c" type="system"><joint name="grip"><command_interface name="position"/></joint></ros2_control>
-  <gazebo reference="arm"><material>Gazebo/Red</material></gazebo>
+  <gazebo reference="arm"><material>Gazebo/Red</material>
+    <mu1>0.5</mu1><mu2>0.6</mu2><kp>1e5</kp><kd>3</kd><minDepth>0.001</minDepth><maxVel>0.2</maxVel></gazebo>
   <sensor name="eye" type="camera"><parent link="arm"/></sensor>
   <frame name="f"/>
 </robot>
@@ -55,7 +57,7 @@ CHANGED = {
     "robot name": ('name="own"', 'name="mine"'),
     "robot version": ('version="1.2"', 'version="1.1"'),
     "link name": (r'(?s)"hand"(.*)"hand"', r'"claw"\1"claw"'),
-    "inertial": (r'(?s)(<link name="tip">)<inertial>.*?</inertial>', r"\1"),
+    "inertial": (r'(?s)(<link name="hand">)<inertial>.*?</inertial>', r"\1"),
     "inertial/mass value": ('mass value="2"', 'mass value="2.5"'),
     **{f"inertial/inertia {name}": (rf'{name}="([\d.]+)"', rf'{name}="1\1"') for name in INERTIAS},
     "visual name": ('"tube"', '"pipe"'),
@@ -96,6 +98,15 @@ CHANGED = {
     "transmission": ("<transmission.*</transmission>", ""),
     "ros2_control": (r'(?s)<ros2.*?</ros2_control>', ""),
     "gazebo": ("Gazebo/Red", "Gazebo/Blue"),
+    **{f"gazebo {name}": (rf"<{name}>", f"<{name}>1") for name in ("mu1", "mu2", "kp", "kd", "minDepth", "maxVel")},
+    **{
+        f"contact {name}": ('<link name="tip">', f'<link name="tip"><contact><{name} value="1"/></contact>')
+        for name in ("lateral_friction", "stiffness", "damping")
+    },
+    **{
+        f"collision/contact_coefficients {name}": (f"({BALL})", rf'\1<contact_coefficients {name}="9"/>')
+        for name in ("mu", "kp", "kd")
+    },
     "sensor": ('type="camera"', 'type="ray"'),
     "loop_joint": ("</robot>", '<loop_joint name="l"/></robot>'),
     "gazebo/joint": ("</robot>", '<gazebo><joint name="l"/></gazebo></robot>'),
@@ -138,7 +149,7 @@ def before(folder: Path) -> Package:
 
 def package(folder: Path, text: str) -> Package:
     (folder / "own.urdf").write_text(text)
-    return generate(folder / "own.urdf", Target("Own", "Own"), approach=("package", "record"))
+    return generate(folder / "own.urdf", Target("Own", "Own"), approach=("package", "record"), base="floating")
 
 
 def is_used(old: Mapping[str, str], new: Mapping[str, str]) -> bool:

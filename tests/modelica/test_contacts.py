@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.modelica import GRAVITY, Array, Run, Series, Task, compile_task, simulate
+from support.modelica import GRAVITY, Array, Run, Series, Task, bench, compile_task, simulate
 from support.packages import generate
+from support.urdfs import joint, link, robot
 
 from urdfsync.domain import Target
 
@@ -271,3 +272,62 @@ def test_the_wheels_of_a_cart_stand_on_their_shapes_and_take_it_as_far_as_they_r
     gone = series.values["robot.chassis.frame_a.r_0[1]"]
     assert turned[-1] > 0.5
     assert gone[-1] == pytest.approx(RADIUS * turned[-1], rel=0.02)
+
+
+# --- Surfaces of links --------------------------------------------------------------------------------------------
+
+
+FOOT, SLIP = 2.0, 0.001
+"""Mass of the foot in kg, and the slip speed of the ground in m/s."""
+SURFACE = {"mu": 0.3, "kp": 2e4, "kd": 40.0, "min_depth": 0.002}
+INERTIAL = '<mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+
+
+def foot(surface: str) -> str:
+    """A ball that slides along x and z, and does not turn."""
+    slide = '<limit lower="-9" upper="9" effort="1" velocity="9"/>'
+    return robot(
+        link("base"),
+        link("sledge"),
+        f'<link name="foot"><inertial>{INERTIAL}</inertial>'
+        '<collision><geometry><sphere radius="0.1"/></geometry></collision></link>',
+        joint("x", "prismatic", "base", "sledge", xyz="0 0 0", rpy="0 0 0", axis="1 0 0", inside=[slide]),
+        joint("z", "prismatic", "sledge", "foot", xyz="0 0 0", rpy="0 0 0", axis="0 0 1", inside=[slide]),
+        surface,
+    )
+
+
+def test_the_surface_of_a_link_is_what_its_urdf_says(modelica_library: Path, tmp_path: Path) -> None:
+    """A foot rests, swings and slides as the equations of a spring, a damper and Coulomb's friction say."""
+    mu, kp, kd, free = SURFACE.values()
+    gazebo = (
+        f'<gazebo reference="foot"><mu1>{mu}</mu1><kp value="{kp}"/><collision><surface><contact><ode>'
+        f"<kd>{kd}</kd><min_depth>{free}</min_depth></ode></contact></surface></collision></gazebo>"
+    )
+    package = generate(foot(gazebo).encode(), Target("Foot", "Bot"), base="floating").write(tmp_path)
+    rest = 0.1 - free - FOOT * GRAVITY / kp
+    body = f"""
+    inner UrdfSync.Contacts.Ground ground(load = {FOOT * GRAVITY}, slipSpeed = {SLIP}, dampingRatio = 0);
+    Foot.Bot dropped(animation = false, z(s_start = 0.105));
+    Foot.Bot swinging(animation = false, z(s_start = {rest!r}, v_start = 0.05));
+    Foot.Bot sliding(animation = false, x(v_start = 2), z(s_start = {rest!r}));
+    equation
+    connect(world.frame_b, dropped.frame_a);
+    connect(world.frame_b, swinging.frame_a);
+    connect(world.frame_b, sliding.frame_a);"""
+    values = [f"{name}.{joint}.prismatic.{value}" for name in ("dropped", "swinging", "sliding")
+              for joint, value in (("z", "s"), ("x", "v"))]  # fmt: skip
+    run = Run(2, 0.01, tolerance=1e-11)
+    (series,) = simulate(modelica_library, [package], [bench(body, [run], values, packages=["Foot"])])
+    height = {name: series.values[f"{name}.z.prismatic.s"] for name in ("dropped", "swinging", "sliding")}
+    assert height["dropped"][-1] == pytest.approx(rest, abs=1e-6 * (0.1 - rest))
+
+    decay, times = kd / (2 * FOOT), series.times
+    omega = math.sqrt(kp / FOOT - decay**2)
+    swing = 0.05 / omega * np.exp(-decay * times) * np.sin(omega * times)
+    assert np.abs(height["swinging"] - rest - swing).max() < 1e-6 * 0.05 / omega
+
+    speed = series.values["sliding.x.prismatic.v"][times <= 0.6]
+    course = np.sqrt(speed**2 + SLIP**2) - SLIP * np.arcsinh(SLIP / speed)  # falls by mu*g in each second
+    assert np.abs(course - course[0] + mu * GRAVITY * times[times <= 0.6]).max() < 1e-6
+    assert np.abs(height["sliding"] - rest).max() < 1e-6 * (0.1 - rest)

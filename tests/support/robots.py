@@ -109,7 +109,9 @@ def dressed(robot: Robot, random: Random) -> Robot:
     links = tuple(_dressed_link(random, link) for link in robot.links)
     joints = tuple(msgspec.structs.replace(joint, **_blocks(random, joint)) for joint in robot.joints)
     driven, first = [joint.name for joint in joints if joint.type in MOTION_KINDS], links[0].name
-    extensions = [Extension("", "gazebo", f"<gazebo reference={quoteattr(first)}><mu1>0.2</mu1></gazebo>")]
+    extensions = [
+        Extension("", "gazebo", f"<gazebo reference={quoteattr(first)}><selfCollide>1</selfCollide></gazebo>")
+    ]
     if driven:
         drive = f"<joint name={quoteattr(driven[0])}><hardwareInterface>E</hardwareInterface></joint>"
         extensions.append(Extension("", "transmission", f'<transmission name="t">{drive}</transmission>'))

@@ -142,9 +142,11 @@ def _link(
         "record": name.record,
         "title": f'link "{link.name}"',
     }
-    record = {"name": link.name, "inertial": link.inertial, "visuals": visuals, "collisions": collisions}
+    contact = msgspec.to_builtins(link.contact) or {}
+    shapes = {"visuals": visuals, "collisions": collisions}
+    record = {"name": link.name, "inertial": link.inertial, "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>. {_EDIT}"
-    model = link_model(visuals, collisions, options) | {"note": note}
+    model = link_model(visuals, collisions, options, link.contact) | {"note": note}
     return (
         Artifact(f"Links/{name.record}.mo", Role.RECORD, "link/record.mo.jinja", named | record, owner),
         Artifact(f"Links/{name.type}.mo", Role.MODEL, "link/model.mo.jinja", named | model, owner),

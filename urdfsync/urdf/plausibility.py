@@ -16,6 +16,7 @@ from urdfsync.urdf.robot import (
     Collision,
     Cylinder,
     Geometry,
+    Inertial,
     Joint,
     Link,
     Mesh,
@@ -50,7 +51,8 @@ def find_implausible(robot: Robot) -> Iterator[Finding]:
     length = max(distances.values())
     yield from _check_masses(robot, masses, length)
     for link in robot.links:
-        yield from _check_inertia(link, length)
+        if link.inertial is not None and link.inertial.mass:
+            yield from _check_inertia(link, link.inertial, length)
         yield from _check_shapes(link, length)
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in robot.links}
     for joint in robot.joints:
@@ -86,24 +88,22 @@ def _check_masses(robot: Robot, masses: Mapping[str, float], length: float) -> I
         if not masses[joint.child] and masses[joint.parent]:
             message = f"joint {joint.name!r} moves no mass: no link behind it has an <inertial>"
             yield Finding("no-inertia", f"joint {joint.name}", message)
-    radii = [radius for link in robot.links if (radius := _radius(link)) and math.isfinite(radius)]
-    size = 2 * max([length / 2, *radii, *map(_gyration, robot.links)])
-    if total > _HEAVY and total > _DENSEST * size**3:
+    if total <= _HEAVY:
+        return
+    radii = [radius for link in robot.links if math.isfinite(radius := _radius(link))]
+    size = 2 * max([length / 2, *radii, *(_gyration(link.inertial) for link in robot.links if link.inertial)])
+    if total > _DENSEST * size * size * size:  # a power of a large number is an error
         message = f"the masses add up to {total:.6g} kg in a robot of {size:.3g} m: they may be in grams"
         yield Finding("mass-unit", "robot", message)
 
 
-def _check_inertia(link: Link, length: float) -> Iterator[Finding]:
-    """Some body as large as the link has its radius of gyration."""
-    if link.inertial is None or not link.inertial.mass:
-        return
-    gyration, radius, place = _gyration(link), _radius(link), f"link {link.name} / inertial"
-    if gyration == 0 and radius and link.inertial.mass > _LIGHT:
-        message = f"{place}: a body of {link.inertial.mass:g} kg that has a shape has no inertia"
+def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
+    """Some body as large as the link, which has a mass, has its radius of gyration."""
+    gyration, radius, place = _gyration(inertial), _radius(link), f"link {link.name} / inertial"
+    if gyration == 0 and radius and inertial.mass > _LIGHT:
+        message = f"{place}: a body of {inertial.mass:g} kg that has a shape has no inertia"
     elif _MARKER < radius < math.inf and gyration > _GYRATION * radius:
-        message = (
-            f"{place}: the radius of gyration is {gyration:.3g} m, but no point of the link is beyond {radius:.3g} m"
-        )
+        message = f"{place}: the radius of gyration is {gyration:.3g} m, but the link ends at {radius:.3g} m"
     elif not _MARKER < radius < math.inf and gyration > _UNKNOWN_GYRATION * max(length, _UNKNOWN_SIZE):
         message = f"{place}: the radius of gyration is {gyration:.3g} m in a robot of {length:.3g} m"
     else:
@@ -116,12 +116,13 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
     groups: Mapping[str, Sequence[Visual | Collision]] = {"visual": link.visuals, "collision": link.collisions}
     for kind, shapes in groups.items():
         for number, shape in enumerate(shapes, start=1):
-            away = math.hypot(*shape.origin.xyz)
-            own = _extent(shape.geometry)
-            if length and away - (own if math.isfinite(own) else 0) > max(_FAR * length, _FAR_AWAY):
-                place = f"link {link.name} / {kind} {number}"
-                message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
-                yield Finding("shape-far", f"{place} / origin", message)
+            away, far = math.hypot(*shape.origin.xyz), max(_FAR * length, _FAR_AWAY)
+            if length and away > far:
+                extent = _extent(shape.geometry)
+                if away - (extent if math.isfinite(extent) else 0) > far:
+                    place = f"link {link.name} / {kind} {number}"
+                    message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
+                    yield Finding("shape-far", f"{place} / origin", message)
 
 
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
@@ -147,12 +148,11 @@ def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]
         yield Finding("length-unit", place, message)
 
 
-def _gyration(link: Link) -> float:
-    """Return the root mean square distance of a link's mass from its centre in m; 0 without mass or inertia."""
-    if link.inertial is None or not link.inertial.mass:
-        return 0.0
-    inertia = link.inertial.inertia
-    return math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / link.inertial.mass)
+def _gyration(inertial: Inertial) -> float:
+    """Return the root mean square distance of the mass from its centre in m; 0 without mass or inertia."""
+    inertia = inertial.inertia
+    trace = max(inertia.ixx + inertia.iyy + inertia.izz, 0.0)
+    return math.sqrt(trace / 2 / inertial.mass) if inertial.mass else 0.0
 
 
 def _radius(link: Link) -> float:

@@ -135,6 +135,21 @@ class Inertial(msgspec.Struct, frozen=True, gc=False):
     inertia: Inertia = Inertia()
 
 
+class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaults=True):
+    """How the collisions of a link feel at the ground; None for what the ground itself says."""
+
+    mu: float | None = None
+    mu2: float | None = None
+    """Friction in the second direction: of all directions `mu` counts."""
+    kp: float | None = None
+    """Stiffness of a point, in N/m."""
+    kd: float | None = None
+    """Its damping beside that of the ground, in N·s/m."""
+    min_depth: float | None = None
+    """How deep in the ground a point is without a force."""
+    max_vel: float | None = None
+
+
 class Link(msgspec.Struct, frozen=True, gc=False):
     """A rigid body; without `inertial` it is massless."""
 
@@ -142,6 +157,7 @@ class Link(msgspec.Struct, frozen=True, gc=False):
     inertial: Inertial | None = None
     visuals: tuple[Visual, ...] = ()
     collisions: tuple[Collision, ...] = ()
+    contact: Contact | None = None
 
 
 class Limit(msgspec.Struct, frozen=True, gc=False):

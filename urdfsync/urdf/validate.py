@@ -100,6 +100,7 @@ _WARNINGS = {
     "missing-mass": "add the mass",
     "missing-inertia": "add all six components of the inertia",
     "missing-gain": "add k_velocity=…",
+    "bad-contact": "write a decimal number",
     "unknown-geometry": "use one of box, cylinder, capsule, sphere, mesh",
     "unknown-material": "define it in the robot or in a visual",
     "material-redefined": "give each material a name of its own",

@@ -15,14 +15,15 @@ protected
 
 equation
   (f, t) = UrdfSync.Contacts.Functions.points(
-    frame_a.r_0[3] - ground.height,
+    frame_a.r_0[3] - ground.height + minDepth,
     Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, {0, 0, 1}),
     Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, v_0),
     Modelica.Mechanics.MultiBody.Frames.angularVelocity2(frame_a.R),
-    ground.stiffness,
-    ground.damping,
-    ground.friction,
-    ground.slipSpeed,
+    stiffness,
+    damping,
+    viscosity,
+    friction,
+    slipSpeed,
     parameters.origin.xyz,
     R,
     corners);

@@ -19,11 +19,12 @@ has a contact of its own, which acts at the lowest points of the true geometry: 
 The forces are those of a penalty method, see <a href=\"modelica://UrdfSync.Contacts.Functions.point\">Contacts.Functions.point</a>: at depth <code>p</code>,
 </p>
 <pre>
-f_n = c*p*max(0, 1 - d*v_n)                               N, normal
+f_n = max(0, c*p*max(0, 1 - d*v_n) - k_d*v_n)             N, normal
 f_t = -mu*f_n*v_t/sqrt(v_t*v_t + v_s^2)                   N, along the ground
 </pre>
 <p>
-with stiffness <code>c</code>, damping <code>d</code>, coefficient of friction <code>mu</code> and slip speed <code>v_s</code>. Links touch the ground only:
+with stiffness <code>c</code>, damping <code>d</code> and <code>k_d</code>, coefficient of friction <code>mu</code> and slip speed <code>v_s</code>. They are those of
+the ground, or those that the URDF says of a link (<a href=\"modelica://UrdfSync.Records.Contact\">Records.Contact</a>). Links touch the ground only:
 they pass through each other. There is no rolling resistance and no resistance against spinning on one point.
 </p>
 </html>"));

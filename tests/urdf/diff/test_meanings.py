@@ -54,7 +54,7 @@ ROBOT = urdfs.robot(
             ("bolt", "fixed", "eight", "turn"),
         )
     ),
-    '<gazebo reference="one"><mu1>1</mu1></gazebo>',
+    '<gazebo reference="one"><selfCollide>1</selfCollide></gazebo>',
 )
 
 
@@ -257,7 +257,7 @@ def with_caster(old: str, new: str) -> tuple[str, ...]:
 
 
 def tags(*links: str) -> list[str]:
-    return [f'<gazebo reference="{link}"><mu1>1</mu1></gazebo>' for link in links]
+    return [f'<gazebo reference="{link}"><selfCollide>1</selfCollide></gazebo>' for link in links]
 
 
 def said(old: Sequence[str], new: Sequence[str], options: Options = FIXED) -> set[str]:
@@ -316,3 +316,13 @@ def test_drives_and_extensions(old: Sequence[str], new: Sequence[str], expected:
 @pytest.mark.parametrize("options", [Options(driven=("wheel",)), Options(approach=("record",))])
 def test_where_the_source_does_not_decide_drives_are_text(options: Options) -> None:
     assert said(CASTERS, (*CASTERS, WHEEL), options) == {"robot / extensions: added, unmodelled"}
+
+
+def test_a_contact_is_in_the_record_and_which_numbers_it_has_in_the_model_of_a_mobile_robot() -> None:
+    def foot(inner: str) -> list[str]:
+        return [urdfs.link("foot", 1.0), f'<gazebo reference="foot">{inner}</gazebo>' if inner else ""]
+
+    mobile = Options(base="floating")
+    assert said(foot("<kp>1e5</kp>"), foot("<kp>2e5</kp>"), mobile) == {"link foot / contact / kp: changed, parameter"}
+    assert said(foot(""), foot("<kp>2e5</kp>"), mobile) == {"link foot / contact: added, structural"}
+    assert said(foot(""), foot("<kp>2e5</kp>")) == {"link foot / contact: added, parameter"}

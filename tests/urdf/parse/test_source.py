@@ -431,7 +431,7 @@ def test_the_first_definition_of_a_material_counts_and_those_of_the_robot_come_f
 def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
     text = """<robot name="r" xmlns:drake="urn:drake" xmlns:other="urn:other">
       <link name="a">
-        <contact b="2" a="&lt;1>"> <!-- no --> <stiffness value="3"/> </contact>
+        <touch b="2" a="&lt;1>"> <!-- no --> <stiffness value="3"/> </touch>
         <collision><geometry><sphere radius="1"/></geometry><surface/></collision>
       </link>
       <transmission name="t"><type> simple </type></transmission>
@@ -443,7 +443,7 @@ def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
         Extension("", "q", '<q p:a="1" p:b="2" xmlns:p="u"></q>'),
         Extension("", "a", "<a>b<c></c>d</a>"),
         Extension("link a", "surface", "<surface></surface>"),
-        Extension("link a", "contact", '<contact a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></contact>'),
+        Extension("link a", "touch", '<touch a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></touch>'),
     )
 
 

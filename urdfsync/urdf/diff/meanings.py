@@ -41,6 +41,10 @@ _UNITS = {
     "update_rate": "Hz",
     "mass": "kg",
     **dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz", "rotor_inertia"), "kg·m²"),
+    "kp": "N/m",
+    "kd": "N·s/m",
+    "minDepth": "m",
+    "maxVel": "m/s",
 }
 _POSITION: Mapping[Motion, str] = {"rotational": "rad", "translational": "m"}
 _LOADS: Mapping[Motion, str] = {"rotational": "N·m", "translational": "N"}
@@ -76,6 +80,11 @@ def describe(
                 found.append(Meaning((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL))
             case ("links", str(name), "visuals" | "collisions" as group, int(index), *inside):
                 found.append(_of_shape(name, group, index, inside, versions, options))
+            case ("links", str(name), "contact", *fields):
+                # the model of a link that touches the ground says which numbers there are
+                is_other = difference.kind is not ChangeKind.CHANGED and options.base == "floating"
+                reach = ChangeClass.STRUCTURAL if is_other else ChangeClass.PARAMETER
+                found.append(Meaning(_words(f"link {name}", ["contact", *fields]), reach, _unit(fields)))
             case ("links", str(name), *fields):
                 found.append(Meaning(_words(f"link {name}", fields), ChangeClass.PARAMETER, _unit(fields)))
             case ("joints", str(name), "drive"):

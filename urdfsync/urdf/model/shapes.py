@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
+from msgspec import to_builtins
+
 from urdfsync.domain import Import, further_key
 from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Capsule, Collision, Cylinder, Geometry, Link, Mesh, Origin, Sphere, Visual
+from urdfsync.urdf.robot import Box, Capsule, Collision, Contact, Cylinder, Geometry, Link, Mesh, Origin, Sphere, Visual
 
 _Body: TypeAlias = Box | Cylinder | Capsule | Sphere | Sequence[Sequence[float]]
 GREY = (180, 180, 180)
@@ -45,11 +47,15 @@ def link_shapes(
 
 
 def link_model(
-    visuals: Sequence[Mapping[str, Any]], collisions: Sequence[Mapping[str, Any]], options: Options
+    visuals: Sequence[Mapping[str, Any]],
+    collisions: Sequence[Mapping[str, Any]],
+    options: Options,
+    contact: Contact | None = None,
 ) -> dict[str, Any]:
     """Return the structure of a link, for its model: no number and no name of the URDF.
 
-    Each collision that touches the ground has a contact; see `link_shapes`.
+    Each collision that touches the ground has a contact; see `link_shapes`. Of the numbers of `contact` only counts
+    which ones there are.
     """
     contacts = [
         {
@@ -65,6 +71,7 @@ def link_model(
         "visuals": [{key: shape[key] for key in _IN_MODEL} for shape in visuals],
         "collisions": [{key: shape[key] for key in _IN_MODEL} for shape in collisions],
         "contacts": contacts,
+        "surface": list(to_builtins(contact)) if contact and contacts else [],
         "visualizer": options.visualizer,
         "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
         "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
@@ -87,15 +94,17 @@ def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin
 
 
 def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float | None:
-    """Return the height of the root frame when the lowest collision shape just touches the ground.
+    """Return the height of the root frame when the ground just begins to carry the lowest collision shape.
 
     A mesh touches with its outermost points. None if there is no shape, or its place is beyond all numbers.
     """
     poses = link_poses(tree, start_positions(tree))
     heights = []
     for link in tree.links:
+        free = (link.contact and link.contact.min_depth) or 0.0
         for origin, shape in touching(link, imports):
             (_, _, up), (_, _, height) = compose(poses[link.name], pose(origin))
+            height += free
             match shape:
                 case Box(size=size):
                     heights.append(height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True)))

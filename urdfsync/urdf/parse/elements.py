@@ -9,14 +9,28 @@ from xml.etree.ElementTree import Element
 import msgspec
 
 from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
-from urdfsync.urdf.robot import JOINT_KINDS, Collision, Geometry, Inertia, Inertial, Joint, Link, Material, Visual
+from urdfsync.urdf.robot import (
+    JOINT_KINDS,
+    Collision,
+    Contact,
+    Geometry,
+    Inertia,
+    Inertial,
+    Joint,
+    Link,
+    Material,
+    Visual,
+)
 from urdfsync.urdf.validate import Finding, perhaps
 
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
 
-def read_link(reader: Reader, element: Element, path: str) -> Link:
-    """Read a link, without looking up its materials. Mass and inertia that are absent are 0, with a warning."""
+def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
+    """Read a link, of which `contact` is known, without looking up its materials.
+
+    Mass and inertia that are absent are 0, with a warning.
+    """
     owner, place = f"link {element.get('name', '')}", f"{path} / inertial"
     part, inertial = element.find("inertial"), None
     if part is not None:
@@ -30,7 +44,8 @@ def read_link(reader: Reader, element: Element, path: str) -> Link:
         inertial = reader.read(part, place, Inertial, owner)
     visuals = tuple(_read_shapes(reader, element, path, "visual", owner))
     collisions = tuple(_read_shapes(reader, element, path, "collision", owner))
-    return reader.read(element, path, Link, owner, inertial=inertial, visuals=visuals, collisions=collisions)
+    parts = {"inertial": inertial, "visuals": visuals, "collisions": collisions, "contact": contact}
+    return reader.read(element, path, Link, owner, **parts)
 
 
 def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str) -> Iterator[Visual | Collision]:

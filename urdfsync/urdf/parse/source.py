@@ -16,6 +16,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.parse.contacts import take_contacts
 from urdfsync.urdf.parse.drives import read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
@@ -114,6 +115,7 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
+    contacts = take_contacts(reader, root)
     for child in root:
         if is_loop(child):
             message = f"<{child.tag}> {child.get('name', '')}".rstrip()
@@ -131,7 +133,9 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     driving = [*elements("transmission"), *elements("ros2_control")]
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    found_links = [read_link(reader, *place) for place in elements("link")]
+    found_links = [
+        read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
+    ]
     found_joints = [read_joint(reader, *place) for place in elements("joint")]
     links = [link for link in found_links if link.name]
     joints = with_drives(reader, (joint for joint in found_joints if joint and joint.name), drives)

@@ -21,6 +21,9 @@ partial function PartialForce "What the ground does to a shape: inputs and outpu
   input Real damping(unit = "s/m")
     "Damping of a point, as part of its spring force";
 
+  input Real viscosity(unit = "N.s/m")
+    "Damping of a point beside that, in parallel to its spring";
+
   input Real friction(unit = "1")
     "Coefficient of friction";
 

@@ -26,7 +26,7 @@ algorithm
         r := {0.5*x*size[1], 0.5*y*size[2], 0.5*z*size[3]};
         if h + m*r < 0 then
           wrench := wrench
-            + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + R*r);
+            + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz + R*r);
         end if;
       end for;
     end for;

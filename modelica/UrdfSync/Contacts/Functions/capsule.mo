@@ -17,8 +17,8 @@ protected
     "From there to the lowest point of the half sphere";
 
   Real wrench[6] =
-    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + axial + down)
-    + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz - axial + down)
+    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz + axial + down)
+    + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz - axial + down)
     "Force and torque";
 
 algorithm

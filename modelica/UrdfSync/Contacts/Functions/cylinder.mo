@@ -32,8 +32,8 @@ protected
     "Weight of the supports around the lower rim";
 
   Real wrench[6] =
-    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + axial + down)
-    + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz - axial + down)
+    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz + axial + down)
+    + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz - axial + down)
     "Force and torque";
 
   Modelica.Units.SI.Position r[3] = zeros(3)
@@ -45,7 +45,7 @@ algorithm
       for side in -1:2:1 loop
         r := xyz + axial + side*radius*R[:, i];
         wrench := wrench
-          + share*UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, r);
+          + share*UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, r);
       end for;
     end for;
   end if;

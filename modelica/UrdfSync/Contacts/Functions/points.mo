@@ -20,7 +20,7 @@ algorithm
   for i in 1:size(corners, 1) loop
     if h + m*corners[i, :] < 0 then
       wrench := wrench
-        + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz + R*corners[i, :]);
+        + UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz + R*corners[i, :]);
     end if;
   end for;
   f := wrench[1:3];

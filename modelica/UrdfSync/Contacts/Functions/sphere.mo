@@ -8,7 +8,7 @@ function sphere "Force and torque of the ground on a sphere"
 
 protected
   Real wrench[6] =
-    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, friction, slipSpeed, xyz - radius*n)
+    UrdfSync.Contacts.Functions.point(height, n, v, w, stiffness, damping, viscosity, friction, slipSpeed, xyz - radius*n)
     "Force and torque";
 
 algorithm

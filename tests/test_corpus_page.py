@@ -1,0 +1,95 @@
+"""The page on the corpus: what real robots say beside links and joints, and what becomes of it; nothing is silent.
+
+`python tests/test_corpus_page.py` writes its table.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import get_args
+
+import pytest
+from lxml import etree
+from support import corpus as corpora
+from support.corpus import ABSENT, FOLDER, REPOSITORY
+from support.packages import read
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.urdf.options import LeftOut
+from urdfsync.urdf.snapshot import from_snapshot
+
+PAGE = REPOSITORY / "docs" / "corpus.md"
+HEADER = """| robot | has beside links and joints | drives | sensors | contacts | not modelled | left out by `allow` |
+| --- | --- | --- | --- | --- | --- | --- |
+"""
+KNOWN = ("link", "joint", "material")
+
+
+def table() -> str:
+    """The rows of all robots that have anything beside links and joints, with numbers only."""
+    return HEADER + "".join(row for file in corpora.robots() for row in rows(file))
+
+
+def rows(file: str) -> Iterator[str]:
+    reading = read((FOLDER / file).read_bytes(), file)
+    if reading.snapshot is None:
+        yield f"| {corpora.label(file)} | refused: it is half a robot, to be mounted on another | | | | | |\n"
+        return
+    robot = from_snapshot(reading.snapshot)
+    root = etree.parse(FOLDER / file).getroot()
+    tags = Counter(element.tag for element in root.iterchildren("*") if element.tag not in KNOWN)
+    has = ", ".join(f"{count} {re.sub('{.*}', '', str(tag))}" for tag, count in tags.items())
+    note = next((one.message for one in reading.diagnostics if one.code == "not-modelled"), "")
+    counts = re.sub(r" \([^)]*\)", "", note.removeprefix("not modelled: "))
+    allowed = ", ".join(f"{count_of(one)} {one.code}" for one in reading.diagnostics if one.code in get_args(LeftOut))
+    drives = sum(joint.actuated for joint in robot.joints)
+    contacts = sum(link.contact is not None for link in robot.links)
+    if has or counts:
+        numbers = " | ".join(str(number or "") for number in (drives, len(robot.sensors), contacts))
+        counts = counts.replace("<", "`<").replace(">", ">`")
+        yield f"| {corpora.label(file)} | {has} | {numbers} | {counts} | {allowed} |\n"
+
+
+def count_of(found: Diagnostic) -> int:
+    """For how many findings of its code a warning stands."""
+    more = re.search(r"\(and (\d+) more like it", found.message)
+    return 1 + int(more[1]) if more else 1
+
+
+@pytest.mark.usefixtures("corpus")
+def test_the_table_is_what_becomes_of_the_corpus() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    assert HEADER + page.partition(HEADER)[2] == table(), "run `python tests/test_corpus_page.py` and review it"
+
+
+@pytest.mark.usefixtures("corpus")
+@pytest.mark.parametrize("file", corpora.robots())
+def test_nothing_is_silent(file: str) -> None:
+    """Each element beside links and joints is modelled, or its line is said."""
+    if file == ABSENT:
+        return
+    reading = read((FOLDER / file).read_bytes(), file)
+    if reading.snapshot is None:
+        return
+    robot = from_snapshot(reading.snapshot)
+    said = {int(line) for one in reading.diagnostics for line in re.findall(r"line (\d+):", " ".join(one.details))}
+    for one in reading.diagnostics:
+        said |= {one.line, *map(int, re.findall(r"\d+", one.message.partition("more like it")[2]))}
+    modelled = {"transmission", "ros2_control", *KNOWN}
+    contacts = {link.name for link in robot.links if link.contact}
+    names = {sensor.name for sensor in robot.sensors}
+    for element in etree.parse(FOLDER / file).getroot().iterchildren("*"):
+        lines = {inner.sourceline for inner in element.iter("*")}
+        is_sensor = any(inner.get("name") in names for inner in element.iter("sensor"))
+        is_contact = element.get("reference") in contacts
+        assert element.tag in modelled or lines & said or is_sensor or is_contact or not len(element), (
+            element.sourceline
+        )
+
+
+if __name__ == "__main__":
+    text = PAGE.read_text(encoding="utf-8").partition(HEADER)[0]
+    Path(PAGE).write_text(text + table(), encoding="utf-8", newline="\n")

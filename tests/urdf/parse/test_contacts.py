@@ -1,0 +1,72 @@
+"""What a URDF says of contacts, in each of its forms: read once, and taken out of what is kept as text."""
+
+from __future__ import annotations
+
+import pytest
+from support.urdfs import robot
+
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.robot import Contact, Robot
+
+SURFACE = (
+    "<surface><friction><ode><mu>0.5</mu><mu2>0.6</mu2></ode></friction>"
+    "<contact><ode><kp>1e5</kp><kd>3</kd><min_depth>0.001</min_depth><max_vel>0.2</max_vel></ode></contact></surface>"
+)
+ALL = Contact(mu=0.5, mu2=0.6, kp=1e5, kd=3.0, min_depth=0.001, max_vel=0.2)
+
+
+def gazebo(inner: str, reference: str = "foot") -> str:
+    return f'<gazebo reference="{reference}">{inner}</gazebo>'
+
+
+def read(*elements: str, inside: str = "") -> Robot:
+    reading = read_robot(robot(f'<link name="foot">{inside}</link>', *elements).encode(), "a.urdf")
+    assert reading.robot is not None
+    assert reading.diagnostics == ()
+    return reading.robot
+
+
+@pytest.mark.parametrize("inner", [
+    "<mu1>0.5</mu1><mu2>0.6</mu2><kp>1e5</kp><kd>3</kd><minDepth>0.001</minDepth><maxVel>0.2</maxVel>",
+    '<mu1 value="0.5"/><mu2 value="0.6"/><kp value="1e5"/><kd value="3"/><minDepth value="1e-3"/><maxVel value="0.2"/>',
+    f"<collision>{SURFACE}</collision>",
+    SURFACE,
+])  # fmt: skip
+def test_the_forms_of_gazebo(inner: str) -> None:
+    found = read(gazebo(inner))
+    assert found.links[0].contact == ALL
+    assert found.extensions == ()
+
+
+def test_the_forms_of_bullet_and_of_old_ros() -> None:
+    bullet = '<contact><lateral_friction value="0.9"/><stiffness value="2e4"/><damping value="7"/>{}</contact>'
+    found = read(inside=bullet.format(""))
+    assert (found.links[0].contact, found.extensions) == (Contact(mu=0.9, kp=2e4, kd=7.0), ())
+    found = read(inside=bullet.format('<rolling_friction value="0"/>'))
+    assert found.links[0].contact == Contact(mu=0.9, kp=2e4, kd=7.0)
+    assert [one.text for one in found.extensions] == [
+        '<contact><rolling_friction value="0"></rolling_friction></contact>'
+    ]
+    shape = '<collision><geometry><sphere radius="1"/></geometry><contact_coefficients mu="0.4" kp="1000"/></collision>'
+    found = read(inside=shape)
+    assert (found.links[0].contact, found.extensions) == (Contact(mu=0.4, kp=1000.0), ())
+    assert len(found.links[0].collisions) == 1
+
+
+def test_the_first_number_counts_and_all_else_is_kept() -> None:
+    found = read(
+        gazebo("<kp>1</kp><material>a</material>"), gazebo("<kp>2</kp><mu1>3</mu1>"), gazebo("<mu1>4</mu1>", "x")
+    )
+    assert found.links[0].contact == Contact(mu=3.0, kp=1.0)
+    assert [one.text for one in found.extensions] == [
+        '<gazebo reference="foot"><material>a</material></gazebo>',
+        '<gazebo reference="x"><mu1>4</mu1></gazebo>',
+    ]
+
+
+@pytest.mark.parametrize("inner", ["<kp>0</kp>", "<mu1>-1</mu1>", "<kd>soft</kd>", "<minDepth/>"])
+def test_a_number_that_no_contact_has_is_left_out(inner: str) -> None:
+    reading = read_robot(robot('<link name="foot"/>', gazebo(inner)).encode(), "a.urdf")
+    assert reading.robot is not None
+    assert reading.robot.links[0].contact is None
+    assert [(str(one.severity), one.code, one.line) for one in reading.diagnostics] == [("warning", "bad-contact", 4)]

@@ -1,0 +1,91 @@
+"""What a URDF says of the contact of links, in the words of gazebo, SDFormat, Bullet, and ROS before these."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from xml.etree.ElementTree import Element
+
+from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
+from urdfsync.urdf.robot import Contact
+
+_ODE = {
+    "friction/ode/mu": "mu",
+    "friction/ode/mu2": "mu2",
+    "contact/ode/kp": "kp",
+    "contact/ode/kd": "kd",
+    "contact/ode/min_depth": "min_depth",
+    "contact/ode/max_vel": "max_vel",
+}
+_IN_GAZEBO: Mapping[str, str] = {
+    "mu1": "mu",
+    "mu2": "mu2",
+    "kp": "kp",
+    "kd": "kd",
+    "minDepth": "min_depth",
+    "maxVel": "max_vel",
+    **{f"{place}surface/{path}": field for place in ("", "collision/") for path, field in _ODE.items()},
+}
+_IN_LINK: Mapping[str, str] = {
+    "contact/lateral_friction": "mu",
+    "contact/stiffness": "kp",
+    "contact/damping": "kd",
+    "collision/contact_coefficients": "",
+}
+"""Paths of elements with one number, and the fields of `Contact`; one without a field has attributes of their names."""
+_COEFFICIENTS = ("mu", "kp", "kd")
+
+
+def take_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
+    """Take what the robot says of contacts out of its elements; return it by link. The first number of each counts.
+
+    One that is faulty or negative is left out, with a warning, as is a stiffness of zero.
+    """
+    links = {link.get("name", ""): link for link in root.iterfind("link")}
+    found: dict[str, dict[str, float]] = {}
+    for gazebo in root.findall("gazebo"):
+        name = gazebo.get("reference", "")
+        if name in links and _take(reader, gazebo, _IN_GAZEBO, "", found.setdefault(name, {})) and not len(gazebo):
+            root.remove(gazebo)
+    for name, link in links.items():
+        _take(reader, link, _IN_LINK, "", found.setdefault(name, {}))
+        for rest in link.findall("contact"):
+            reader.extension(rest, f"link {name}", (), f"link {name}")
+            link.remove(rest)
+    return {name: Contact(**numbers) for name, numbers in found.items() if numbers}
+
+
+def _take(reader: Reader, element: Element, fields: Mapping[str, str], path: str, numbers: dict[str, float]) -> bool:
+    """Move numbers from the elements below one to `numbers`; return whether there were any. What is empty then goes."""
+    taken = False
+    for child in list(element):
+        place = f"{path}{child.tag}"
+        if place in fields:
+            said = child.get("value") or child.text or ""
+            given = {fields[place]: said} if fields[place] else {key: child.get(key, "") for key in _COEFFICIENTS}
+            for field, text in given.items():
+                _add(reader, child, field, text.strip(), numbers)
+            element.remove(child)
+            taken = True
+        elif any(known.startswith(f"{place}/") for known in fields) and _take(
+            reader, child, fields, f"{place}/", numbers
+        ):
+            taken = True
+            if not len(child) and (fields is _IN_GAZEBO or place != "collision"):
+                element.remove(child)
+    return taken
+
+
+def _add(reader: Reader, element: Element, field: str, text: str, numbers: dict[str, float]) -> None:
+    if not text and element.tag == "contact_coefficients":
+        return
+    problem = ""
+    try:
+        (number,) = parse_numbers(text, 1)
+    except ValueError as error:
+        problem, number = str(error), 0.0
+    if not problem and (number < 0 or (number == 0 and field == "kp")):
+        problem = "is no magnitude that a contact can have"
+    if problem:
+        reader.add(element, "bad-contact", f"<{element.tag}>: {field}={quoted(text)} {problem}, and is left out")
+    else:
+        numbers.setdefault(field, number)
