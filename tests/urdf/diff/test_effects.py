@@ -205,3 +205,29 @@ def test_masses_that_jump_are_one_warning() -> None:
     assert (path, found.code) == ("link arm / inertial / mass", "mass-jump")
     assert found.message == "link arm: its mass jumps, 2 kg → 2000 kg (and 1 more like it)"
     assert list(find_doubtful(old, old, {})) == []
+
+
+def test_what_is_commanded_decides_which_variables_run_has() -> None:
+    control = '<ros2_control name="c"><joint name="ja"><command_interface name="{}"/></joint></ros2_control>'
+    parts = *STAR[:2], joint("ja", "continuous", "base", "a")
+    old, new = version(*parts, control.format("position")), version(*parts, control.format("effort"))
+    assert changed(old, new) == {"joint ja / velocity in Run": (None, "ja_w")}
+    speed = version(*parts, control.format("velocity"))
+    assert changed(old, speed) == {
+        "joint ja / position in Run": ("ja_phi", None),
+        "joint ja / velocity in Run": (None, "ja_w"),
+    }
+    assert changed(old, speed, inputs="vector") == {"robot / input of Run": ("positions", "commands")}
+
+
+def test_sensors_and_their_frames_come_and_go() -> None:
+    parts = *STAR[:2], joint("ja", "continuous", "base", "a")
+    imu, eye = (
+        f'<gazebo reference="a"><sensor name="{name}" type="{kind}"/></gazebo>'
+        for name, kind in (("a", "imu"), ("eye", "camera"))
+    )
+    assert changed(version(*parts, imu), version(*parts, eye)) == {
+        "sensor a / component": ("a_sensor", None),
+        "sensor eye / component": (None, "eye"),
+        "sensor eye / frame": (None, "eyeFrame"),
+    }

@@ -251,6 +251,15 @@ PAIR = ('<link name="a"/><link name="b"/>', '<joint name="a" type="fixed"><paren
 EYE = '<link name="b"><sensor name="camera"/></link>'
 
 
+IMU = '<gazebo reference="{}"><sensor name="imu" type="imu"><pose>{} 0 0 0 0 0</pose></sensor></gazebo>'
+COMMAND = '<ros2_control name="c"><joint name="wheel"><command_interface name="{}"/></joint></ros2_control>'
+
+
+def geared(inside: str) -> str:
+    """The drive of the wheel, with more to say of its motor."""
+    return WHEEL.replace("</trans", f"<actuator name='m'>{inside}</actuator></trans")
+
+
 def with_caster(old: str, new: str) -> tuple[str, ...]:
     """The robot with the drive of its wheel, and another text about its caster."""
     return (*CASTERS[:5], CASTERS[5].replace(old, new), *CASTERS[6:], WHEEL)
@@ -281,6 +290,36 @@ DRIVES = {
         (*CASTERS, WHEEL),
         (*CASTERS, WHEEL.replace("</trans", "<actuator name='m'/></trans")),
         {"robot / transmission wheel drive: changed, unmodelled"},
+    ),
+    "a gear stands in the record": (
+        (*CASTERS, WHEEL),
+        (*CASTERS, geared("<mechanicalReduction>50</mechanicalReduction>")),
+        {"joint wheel / transmission: added, parameter", "robot / transmission wheel drive: changed, unmodelled"},
+    ),
+    "a rotor is a part of the joint": (
+        (*CASTERS, WHEEL),
+        (*CASTERS, geared('<drake:rotor_inertia value="1e-4"/>')),
+        {"joint wheel / transmission: added, structural", "robot / transmission wheel drive: changed, unmodelled"},
+    ),
+    "ros2_control commands a speed": (
+        (*CASTERS, COMMAND.format("position")),
+        (*CASTERS, COMMAND.format("velocity")),
+        {"joint wheel / command: added, structural", "robot / ros2_control c: changed, unmodelled"},
+    ),
+    "a sensor comes": (
+        PAIR,
+        (*PAIR, IMU.format("b", 1)),
+        {"sensor imu: added, structural", "robot / extensions: added, unmodelled"},
+    ),
+    "a sensor has another place on its link": (
+        (*PAIR, IMU.format("b", 1)),
+        (*PAIR, IMU.format("b", 2)),
+        {"sensor imu / origin / xyz[0]: changed, parameter", "robot / gazebo b: changed, unmodelled"},
+    ),
+    "a sensor moves with the new name of its link": (
+        (*PAIR, IMU.format("b", 1)),
+        (*(element.replace('"b"', '"c"') for element in PAIR), IMU.format("c", 1)),
+        {"link b: renamed, structural", "robot / gazebo b: removed, unmodelled", "robot / gazebo c: added, unmodelled"},
     ),
     "a caster that is fixed has no drive to speak of": ((*CASTERS, WHEEL),
         with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"}),
