@@ -72,6 +72,11 @@ record Finger_leftParameters "Numbers of link \"finger_left\""
     opacity = 0.5)
     "Collision 2: \"blade\"";
 
+  UrdfSync.Records.Contact contact(
+    mu = 1.1,
+    mu2 = 1.1)
+    "How the link feels at the ground";
+
   annotation (Documentation(info="<html>
 <p>
 Numbers of link &quot;finger_left&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
