@@ -83,6 +83,12 @@ def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+def test_line_ends_are_no_change(built: Path, execute: Execute) -> None:
+    for path in (built / "urdf").rglob("*.*"):
+        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
 def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     text = xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')
     xacros.write(project, {"arm.urdf.xacro": text}, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))

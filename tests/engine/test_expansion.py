@@ -85,6 +85,12 @@ def test_yaml_makes_no_objects(folder: Path, text: str, line: int) -> None:
     assert not Path("hacked").exists()
 
 
+def test_the_folder_is_that_of_the_configuration(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    inputs = write(folder, '<link name="$(cwd)"/>')
+    monkeypatch.chdir("/")
+    assert f'name="{folder}"' in expand(inputs, {}).text
+
+
 def test_units_of_yaml_are_read(folder: Path) -> None:
     found = expand(write(folder, value("xacro.load_yaml('numbers.yaml')['a']"), numbers="a: !degrees 180\n"), {})
     assert 'mass="3.14159' in found.text

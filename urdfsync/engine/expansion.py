@@ -22,7 +22,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine import ros_packages
 from urdfsync.engine.xacro_worker import Answer, Problem, Request
 from urdfsync.extras import install_command
-from urdfsync.files import digest, shown
+from urdfsync.files import digest, shown, text_digest
 from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.state.expansion import Expansion
 
@@ -117,9 +117,9 @@ class Inputs:
 
 
 def file_hash(path: Path) -> str | None:
-    """Return the hash of a file; None if there is none that can be read."""
+    """Return the hash of a file, whatever its line ends are; None if there is none that can be read."""
     try:
-        return digest(read_file(path))
+        return text_digest(read_file(path))
     except (OSError, ValueError):  # a name may be a stranger's, and none of a file
         return None
 
@@ -142,7 +142,7 @@ def variable_hash(name: str) -> str | None:
 def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     """Expand a source by xacro, in a process of its own. Raises SourceError."""
     folders = tuple(map(str, inputs.package_paths))
-    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY), inputs.root)
+    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root)))
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
@@ -162,15 +162,14 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     )
 
 
-def _ask(request: Request, folder: Path) -> Answer:
-    """Have a file expanded by another process, which works in a folder."""
+def _ask(request: Request) -> Answer:
+    """Have a file expanded by another process."""
     limits = Answer(problem=Problem("xacro-limits", ""))
     try:
         done = subprocess.run(  # noqa: S603 - a command of ours
             python_module("urdfsync.engine.xacro_worker"),
             input=msgspec.json.encode(request),
             capture_output=True,
-            cwd=folder,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the same text each time
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process

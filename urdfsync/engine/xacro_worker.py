@@ -24,7 +24,7 @@ import msgspec
 
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.engine import ros_packages
-from urdfsync.files import digest
+from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
 
 _FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
@@ -45,6 +45,8 @@ class Request(msgspec.Struct, frozen=True):
     """CPU time that it may take."""
     memory: int
     """Bytes that may be allocated."""
+    folder: str = "."
+    """What `$(cwd)` stands for. The process works elsewhere: PYTHONPATH may have relative entries."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -111,7 +113,7 @@ class _Files:
         path = os.path.abspath(path)  # noqa: PTH100 - links are not followed
         self.hashes[path] = None
         content = read_unrecorded(path)
-        self.hashes[path] = digest(content)
+        self.hashes[path] = text_digest(content)
         file = _File(io.BytesIO(content), encoding="utf-8")
         file.name = path
         return file
@@ -169,7 +171,7 @@ def expand(request: Request) -> Answer:
     ament = types.ModuleType("ament_index_python.packages")
     ament.get_package_share_directory = find  # type: ignore[attr-defined]
     sys.modules.update({"ament_index_python": types.ModuleType("ament_index_python"), ament.__name__: ament})
-    xacro.open = files.open
+    xacro.open, xacro.root_dir = files.open, request.folder
     xml.dom.minidom.parse = _parse  # type: ignore[assignment]
     arguments, environment = _Asked(request.arguments), _Asked(os.environ)
     os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only notes who asks
