@@ -66,6 +66,8 @@ def test_more_than_three_names_are_cut_off() -> None:
 
 def test_a_robot_of_links_and_joints_has_no_note() -> None:
     assert notes('<transmission name="t"><joint name="j"/></transmission>', "<gazebo/>") == []
+    namespace = robot(*TREE).replace("<robot", '<robot xmlns="http://www.ros.org" xmlns:x="urn:x"')
+    assert read_robot(namespace.encode(), "a.urdf").unmodelled == ()
 
 
 @pytest.mark.parametrize(("element", "code"), [

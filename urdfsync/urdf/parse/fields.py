@@ -128,7 +128,7 @@ class Reader:
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`."""
         for name in element.attrib:
-            if name in attributes or ":" in name:
+            if name in attributes or ":" in name or name == "xmlns":
                 continue
             if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
