@@ -98,7 +98,8 @@ def test_models_contain_no_number_of_the_urdf(files: Sequence[str], corpus: Path
             if made.roles[path] is not Role.RECORD:
                 assert other.texts[path] == text, path
         for suffix in ("Run", "Test"):
-            assert NUMBER.findall(code(made.texts[f"Bot{suffix}.mo"])) == []
+            text = code(made.texts[f"Bot{suffix}.mo"]).replace("[3](each unit", "")  # vectors of sensors
+            assert NUMBER.findall(text) == []
 
 
 # Names that break careless generators

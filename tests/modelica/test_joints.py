@@ -243,3 +243,26 @@ def test_run_takes_what_ros2_control_commands(modelica_library: Path, tmp_path: 
     task = Task(source, "CartsBench", [Run(1.0, 0.5, tolerance=1e-8)], values)
     (series,) = simulate(modelica_library, [package.write(tmp_path)], [task])
     assert series.end(*values) == pytest.approx([1.5, 2.0, 0.4, 3.0, 1.5, 0.75], abs=1e-6)
+
+
+CART = robot(
+    *links(base=4.0, wheel=1.0),
+    '<link name="roller"><inertial><origin xyz="0.1 0 0"/><mass value="0.5"/>'
+    '<inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial></link>',
+    joint("drive", "continuous", "base", "wheel", axis="0 1 0", rpy="0 0 0"),
+    joint("caster", "continuous", "base", "roller", axis="0 1 0", rpy="0 0 0"),
+    '<transmission name="t"><joint name="drive"/></transmission>',
+)
+
+
+def test_a_caster_turns_by_itself_in_test(modelica_library: Path, tmp_path: Path) -> None:
+    """Its mass lies beside its axis: it falls with m*g*l/(I + m*l^2), while the sweep of Test moves the wheel."""
+    package = generate(CART.encode(), Target("Cart", "Cart"))
+    source = "model Fall\n  import Modelica;\n  import UrdfSync;\n  import Cart;\n  extends Cart.CartTest;\nend Fall;\n"
+    values = ["robot.caster.revolute.a", "robot.caster.revolute.phi", "robot.casterAxis.tau", "robot.driveAxis.phi"]
+    (series,) = simulate(modelica_library, [package.write(tmp_path)], [Task(source, "Fall", [Run(0.5, 0.1)], values)])
+    assert series.values[values[0]][0] == pytest.approx(0.5 * 9.80665 * 0.1 / (0.001 + 0.5 * 0.1**2), rel=1e-9)
+    fallen, torque, driven = (np.abs(series.values[name]) for name in values[1:])
+    assert fallen.max() > 1
+    assert torque.max() == 0
+    assert driven[-1] > 1e-3

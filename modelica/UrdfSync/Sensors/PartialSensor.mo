@@ -23,7 +23,13 @@ equation
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-70, 0}}, color={95, 95, 95}, thickness=0.5));
 
-  annotation (Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
+  annotation (
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
       Text(extent={{-150, 80}, {150, 120}}, textColor={0, 0, 255}, textString="%name"),
-      Line(points={{-70, 0}, {-100, 0}}, color={95, 95, 95})}));
+      Line(points={{-70, 0}, {-100, 0}}, color={95, 95, 95})}),
+    Documentation(info="<html>
+<p>
+A sensor is fixed to a link: <code>origin.frame_b</code> is its own frame.
+</p>
+</html>"));
 end PartialSensor;

@@ -8,11 +8,12 @@ import re
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
+from msgspec.structs import replace
 
 from urdfsync.domain import Target
 from urdfsync.urdf.diagram.drawing import draw
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot
+from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Robot, Sensor
 
 SVG = "{http://www.w3.org/2000/svg}"
 TARGET = Target("Plant.Arm", "Arm")
@@ -45,6 +46,12 @@ def test_elements_connectors_masses_and_ratios_can_be_read() -> None:
     assert "× 7" not in found
     assert {"link, mass", "fixed joint", "mimic coupling, ratio", "rotational joint"} <= found
     assert "planar or floating joint" not in found, "the legend has the kinds that are there"
+
+
+def test_sensors_are_shown_by_their_names() -> None:
+    sensors = Sensor("eye", "camera", "palm"), Sensor("gyro", "imu", "left")
+    found = set(texts(etree.fromstring(draw(replace(GRIPPER, sensors=sensors), TARGET, Options()))))
+    assert {"eye", "gyro", "sensor"} <= found
 
 
 def test_all_text_is_ten_pixels_high_or_more_at_its_natural_size() -> None:

@@ -82,6 +82,7 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
         axes={drive.axis: drive.motion for drive in names.drives.values()}
         | {drive.motor: "rotational" for drive in names.drives.values() if drive.motor},
         supports={drive.support: drive.motion for drive in names.drives.values()},
+        sensor_frames=set(names.sensor_frames.values()),
         legend=legend,
     )
 

@@ -55,6 +55,7 @@ _JOINT_UNITS: Mapping[str, Mapping[Motion, str]] = {
     **dict.fromkeys(_POSITIONS, _POSITION),
     **dict.fromkeys(("effort", "friction"), _LOADS),
     **dict.fromkeys(("damping", "k_velocity"), _LOSSES),
+    "reduction": {"rotational": "", "translational": "rad/m"},
     "armature": {"rotational": "kg·m²", "translational": "kg"},
     "velocity": {"rotational": "rad/s", "translational": "m/s"},
     **dict.fromkeys(("acceleration", "deceleration"), _ACCELERATIONS),
