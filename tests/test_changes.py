@@ -132,7 +132,7 @@ def test_imports_are_compared_by_content_and_facts() -> None:
     new = Version({"books": {}}, {"v": import_("2"), "y": import_("1"), "z": import_("2"), "w": import_("1", size=2)})
     assert lines(changes(old, new)) == [
         ("v", "added", None, "2"),
-        ("w", "changed", "1", "1"),
+        ("w", "changed", "source of 1", "source of 1"),
         ("x", "removed", "1", None),
         ("z", "changed", "1", "2"),
     ]
