@@ -104,6 +104,13 @@ def test_an_obj_file_becomes_a_file_for_each_colour() -> None:
     assert wood.facts[BOUNDS] == [[0, 0, 0], [1, 1, 1]]
 
 
+def test_a_texture_that_is_too_large_to_be_read_in_time_has_no_colour() -> None:
+    file = io.BytesIO()
+    Image.new("1", (6000, 6000)).save(file, "png")
+    found = converted("a.obj", OBJ, {"paint.mtl": PAINT, "textures/wood.png": file.getvalue()})
+    assert found.facts[PARTS] == [[255, 0, 0], [51, 51, 51]]
+
+
 def test_the_whole_stays_where_something_else_needs_it() -> None:
     found = converted("a.obj", OBJ, {"paint.mtl": PAINT, "textures/wood.png": b""}, COLORS)
     assert found.content == OBJ

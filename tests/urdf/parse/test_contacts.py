@@ -54,9 +54,16 @@ def test_the_forms_of_bullet_and_of_old_ros() -> None:
 
 
 def test_the_first_number_counts_and_all_else_is_kept() -> None:
-    found = read(
-        gazebo("<kp>1</kp><material>a</material>"), gazebo("<kp>2</kp><mu1>3</mu1>"), gazebo("<mu1>4</mu1>", "x")
+    elements = (
+        gazebo("<kp>1</kp><material>a</material>"),
+        gazebo("<kp>2</kp><mu1>3</mu1>"),
+        gazebo("<mu1>4</mu1>", "x"),
     )
+    found, diagnostics, *_ = read_robot(robot('<link name="foot"/>', *elements).encode(), "a.urdf")
+    assert [(one.code, one.message) for one in diagnostics if one.code != "not-modelled"] == [
+        ("duplicate-element", "<kp>: 2 contradicts 1, which counts")
+    ]
+    assert found is not None
     assert found.links[0].contact == Contact(mu=3.0, kp=1.0)
     assert [one.text for one in found.extensions] == [
         '<gazebo reference="foot"><material>a</material></gazebo>',

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from support import urdfs
 
@@ -117,6 +119,28 @@ def test_of_two_sensors_of_one_name_and_place_the_first_counts() -> None:
     reading = read(gazebo("arm", "top", "imu") + gazebo("arm", "top", "camera"))
     assert [one.code for one in reading.diagnostics] == ["duplicate-element"]
     assert sensors(reading) == [Sensor("top", "imu", "arm")]
+
+
+def test_a_pose_may_be_in_degrees() -> None:
+    pose = '<pose degrees="true">1 2 3 0 0 90</pose>'
+    (sensor,) = sensors(read(gazebo("arm", "imu", "imu", pose)))
+    assert sensor.origin == Origin((1.0, 2.0, 3.0), (0.0, 0.0, math.pi / 2))
+
+
+@pytest.mark.parametrize("element", [
+    gazebo("arm", "imu", "imu", '<pose relative_to="hand">0 0 0 0 0 0</pose>'),
+    gazebo("arm", "eye", "camera", "<camera><image><width>640.5</width></image></camera>"),
+    gazebo("arm", "scan", "ray", "<ray><scan><horizontal><samples>3e9</samples></horizontal></scan></ray>"),
+    gazebo("arm", "eye", "camera", "<camera><image><height>-3</height></image></camera>"),
+    gazebo("elbow", "load", "force_torque", wrench("sideways")),
+    gazebo("elbow", "load", "force_torque", wrench("child", "up")),
+])  # fmt: skip
+def test_what_means_nothing_is_a_warning_and_the_default_counts(element: str) -> None:
+    reading = read(element)
+    assert [one.code for one in reading.diagnostics] == ["bad-sensor"]
+    (sensor,) = sensors(reading)
+    assert (sensor.origin, sensor.camera or Camera(), sensor.lidar or Lidar()) == (Origin(), Camera(), Lidar())
+    assert (sensor.in_parent, sensor.on_child) == (False, False)
 
 
 def test_a_faulty_number_is_a_warning() -> None:

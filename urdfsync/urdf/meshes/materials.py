@@ -18,6 +18,8 @@ from urdfsync.urdf.meshes.lookup import mentioned_files, path_of_mention
 Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue from 0 to 255."""
 
+_MOST_PIXELS = 5_000_000
+"""Of a texture; a larger one takes more time than there is for a mesh."""
 _STATEMENT = re.compile(rb"^[ \t]*(newmtl|Kd|map_Kd)[ \t]([^\r\n]+)", re.MULTILINE)
 
 
@@ -78,6 +80,9 @@ def _mean(image: bytes) -> Color | None:
 
     with contextlib.suppress(OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         with Image.open(io.BytesIO(image)) as picture:
+            picture.draft("RGB", (64, 64))  # JPEG need not be read in full
+            if picture.width * picture.height > _MOST_PIXELS:
+                return None
             mean = picture.convert("RGB").resize((1, 1), Image.Resampling.BOX).tobytes()
         return mean[0], mean[1], mean[2]
     return None

@@ -87,5 +87,6 @@ def _add(reader: Reader, element: Element, field: str, text: str, numbers: dict[
         problem = "is no magnitude that a contact can have"
     if problem:
         reader.add(element, "bad-contact", f"<{element.tag}>: {field}={quoted(text)} {problem}, and is left out")
-    else:
-        numbers.setdefault(field, number)
+    elif numbers.setdefault(field, number) != number:
+        message = f"<{element.tag}>: {number:g} contradicts {numbers[field]:g}, which counts"
+        reader.add(element, "duplicate-element", message)

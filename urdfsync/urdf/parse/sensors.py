@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
@@ -44,6 +45,10 @@ _LIDAR = {
     "max_range": ("range/max",),
 }
 """Fields of `Camera` and `Lidar`, and where gazebo and URDF have them below the sensor's own element."""
+_FRAMES = ("child", "parent", "sensor")
+_DIRECTIONS = ("child_to_parent", "parent_to_child")
+_COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
+_LARGEST_INTEGER = 2**31 - 1
 
 
 class _Found(NamedTuple):
@@ -125,11 +130,21 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
 
     def fields(places: Mapping[str, Sequence[str]], tags: Sequence[str]) -> dict[str, float]:
         part = next((child for child in element if child.tag in tags), element)
-        values = {field: numbers(part, ways) for field, ways in places.items()}
-        return {field: value[0] for field, value in values.items() if value}
+        values = {field: value[0] for field, ways in places.items() if (value := numbers(part, ways))}
+        for field in values.keys() & _COUNTS:
+            if not (values[field].is_integer() and 0 <= values[field] <= _LARGEST_INTEGER):
+                message = f"{path}: {field.replace('_', ' ')} {values.pop(field):g} is no number of things"
+                reader.add(part, "bad-sensor", message)
+        return values
 
-    pose, place, force = numbers(element, ("pose",), 6), element.find("origin"), element.find("force_torque")
-    origin = Origin() if pose is None else Origin((pose[0], pose[1], pose[2]), (pose[3], pose[4], pose[5]))
+    pose, place, force = element.find("pose"), element.find("origin"), element.find("force_torque")
+    origin = Origin()
+    if pose is not None and (values := numbers(element, ("pose",), 6)):
+        turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
+        origin = Origin((values[0], values[1], values[2]), (values[3] * turn, values[4] * turn, values[5] * turn))
+        if (other := pose.get("relative_to")) and other != found.at:
+            message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
+            reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
     if place is not None:
         origin = reader.read(place, f"{path} / origin", Origin)
     rate = numbers(element, ("update_rate", "@update_rate"))
@@ -141,10 +156,12 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
             return msgspec.structs.replace(sensor, lidar=Lidar(**fields(_LIDAR, ("ray", "lidar"))))
         case "force_torque":
             frame = ((force is not None and force.findtext("frame")) or "child").strip()
-            way = (force is not None and force.findtext("measure_direction")) or "child_to_parent"
+            way = ((force is not None and force.findtext("measure_direction")) or "child_to_parent").strip()
+            for text, known in ((frame, _FRAMES), (way, _DIRECTIONS)):
+                if text not in known:
+                    message = f"{path}: {quoted(text)} is none of {', '.join(known)}: the {known[0]} counts"
+                    reader.add(element, "bad-sensor", message)
             if frame != "sensor":
                 sensor = msgspec.structs.replace(sensor, origin=Origin())
-            return msgspec.structs.replace(
-                sensor, in_parent=frame == "parent", on_child=way.strip() == "parent_to_child"
-            )
+            return msgspec.structs.replace(sensor, in_parent=frame == "parent", on_child=way == "parent_to_child")
     return sensor

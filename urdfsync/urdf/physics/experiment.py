@@ -18,7 +18,7 @@ from urdfsync.urdf.physics.reference import Instant, Reference, pinocchio, read
 from urdfsync.urdf.robot import Robot
 
 _UNCHECKED = (
-    "limits, shapes and contacts (they change no motion) and models around the robot (they are only compiled) "
+    "limits, shapes, contacts and sensors (they change no motion) and models around the robot (they are only compiled) "
     "are not compared"
 )
 
