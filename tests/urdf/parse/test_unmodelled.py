@@ -85,6 +85,12 @@ def test_what_moves_and_is_in_no_tree_is_an_error_unless_it_is_allowed(element: 
     assert read_robot(content, "a.urdf", [other]).robot is None
 
 
+@pytest.mark.parametrize(("element", "name"), [(LOOP, "<loop_joint> bar"), (GAZEBO_LOOP, "<gazebo> bar")])
+def test_a_loop_is_told_by_the_name_of_its_joint(element: str, name: str) -> None:
+    (error,) = read_robot(robot(*TREE, element).encode(), "a.urdf").diagnostics
+    assert error.message.startswith(f"{name} closes a loop of links")
+
+
 ROBOTIQ = "robots/drake/atlas/urdf/robotiq.urdf"
 
 

@@ -118,7 +118,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     contacts = take_contacts(reader, root)
     for child in root:
         if is_loop(child):
-            message = f"<{child.tag}> {child.get('name', '')}".rstrip()
+            joint = child.find("joint") if child.tag == "gazebo" else child
+            message = f"<{child.tag}> {'' if joint is None else joint.get('name', '')}".rstrip()
             reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
