@@ -6,10 +6,11 @@
 from __future__ import annotations
 
 import collections
+import functools
 import itertools
 import re
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
@@ -49,9 +50,16 @@ def steps(random: Random) -> Iterator[tuple[bytes, bytes]]:
         yield random.choice(pairs)
 
 
-def elements(text: str) -> set[str]:
+@functools.cache
+def readable(version: bytes) -> bool:
+    """Whether a build of this export is not refused when it is read."""
+    return read(version).snapshot is not None
+
+
+@functools.lru_cache(10_000)
+def elements(text: str) -> Set[str]:
     """What a class declares, connects and extends, as another parser reads it."""
-    tree = pymoca.parse(text)
+    tree = pymoca.parse(text, bypass_cache=True)
     assert tree is not None
     found: set[str] = set()
     classes = list(tree.classes.values())
@@ -85,15 +93,35 @@ class Trial(NamedTuple):
     path: Path
 
 
-def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> Trial | None:
+class Exports:
+    """Projects with one build of an export, and the packages of fresh builds; each is built once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._projects: dict[bytes, Project | None] = {}
+        self._fresh: dict[str, Fresh] = {}
+
+    def package(self, content: bytes, base: str) -> replay.Files:
+        """The files of a fresh build; none where the export is refused."""
+        return self._fresh.setdefault(base, Fresh(self._folder / "fresh" / base, base))(content)[0]
+
+    def project(self, content: bytes, folder: Path) -> Project | None:
+        """A project in a folder, in step with an export; None where that is refused."""
+        if content not in self._projects:
+            built = Project(self._folder / str(len(self._projects)), replay.base_of([content]))
+            built.configure('on_conflict = "merge"\n')
+            built.save(content)
+            self._projects[content] = None if built.build().failed else built
+        built_before = self._projects[content]
+        return built_before and built_before.clone(folder)
+
+
+def trial(exports: Exports, folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> Trial | None:
     """Build an export, edit a file of the package, and build the next one; None if nothing can be edited so."""
-    if any(read(version).snapshot is None for version in (old, new)):
+    if not (readable(old) and readable(new)):
         return None
-    base = replay.base_of([old])
-    project, changed = Project(folder, base), Fresh(folder.with_name("fresh"), base)(new)[0]
-    project.configure('on_conflict = "merge"\n')
-    project.save(old)
-    if project.build().failed:
+    project, changed = exports.project(old, folder), exports.package(new, replay.base_of([old]))
+    if project is None:
         return None
     # an edit that the export does not touch never conflicts; half of them are made in the models of the robot
     names = [name for name, text in project.files().items() if name.endswith(".mo") and changed.get(name, b"") != text]
@@ -117,13 +145,13 @@ def trial(folder: Path, old: bytes, new: bytes, kind: str, random: Random) -> Tr
 def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     random, tally = Random(replay.SEED), collections.Counter[tuple[str, str]]()
     reasons = collections.Counter[str]()
-    source, number = steps(random), 0
+    source, number, exports = steps(random), 0, Exports(tmp_path / "exports")
     with replay.in_haste():
         while number < STEPS:
             kind = list(EDITS)[number % len(EDITS)]
             old, new = next(source)
             shutil.rmtree(tmp_path / "project", ignore_errors=True)
-            done = trial(tmp_path / "project", old, new, kind, random)
+            done = trial(exports, tmp_path / "project", old, new, kind, random)
             if done is None:
                 continue
             number += 1
@@ -147,14 +175,14 @@ def test_edits_and_exports_meet(corpus: Path, tmp_path: Path, capsys: pytest.Cap
 def test_merged_packages_compile(corpus: Path, modelica_library: Path, tmp_path: Path) -> None:
     """What does not compile before the merge is left out: other types, and names that other models use."""
     random, source, number = Random(replay.SEED), steps(Random(replay.SEED)), 0
-    merged = 0
+    merged, exports = 0, Exports(tmp_path / "exports")
     while merged < max(2, replay.STEPS // 10):
         number += 1
         old, new = next(source)
         kind = COMPILED[number % len(COMPILED)]
         project = tmp_path / str(number) / "project"
         with replay.in_haste():
-            done = trial(project, old, new, kind, random)
+            done = trial(exports, project, old, new, kind, random)
         if done and not done.result.conflicts and any(one.kind is Kind.MERGE for one in done.result.actions):
             merged += 1
             tasks = [compile_task(f"Bot.{model}") for model in ("BotRun", "BotTest")]
