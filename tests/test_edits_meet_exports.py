@@ -130,6 +130,7 @@ def test_a_connection_follows_its_part_although_another_one_takes_its_name(folde
     assert "hand_joint" not in robot.read_text()
 
 
+@pytest.mark.slow
 def test_what_is_kept_and_lacks_what_the_others_use_is_told(arm: Path, execute: Execute) -> None:
     configuration = Path("urdfsync.toml")
     configuration.write_text(configuration.read_text().replace('on_conflict = "merge"', 'on_conflict = "keep"'))

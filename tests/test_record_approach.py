@@ -80,6 +80,7 @@ def test_both_approaches(project: Project) -> None:
     assert order == ["Twig", "TwigRun", "TwigTest", "TwigGeneric", "TwigParameters", "Links", "Joints"]
 
 
+@pytest.mark.slow
 def test_no_edit_is_lost_on_the_way_to_the_other_approach_and_to_both(project: Project) -> None:
     edited: list[Path] = []
 

@@ -53,6 +53,7 @@ def test_text_from_outside_is_never_a_template(text: str, tmp_path: Path) -> Non
 _DOUBLE = "<% set n.a = [n.a, n.a] %><% set n.b = [n.b, n.b] %>"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no such timer")
 @pytest.mark.parametrize(
     "text",

@@ -421,6 +421,7 @@ def imported(*arguments: str) -> tuple[set[str], str]:
     return {line.rpartition("|")[2].strip() for line in lines}, done.stdout
 
 
+@pytest.mark.slow
 def test_nothing_heavy_is_imported(folder: Path) -> None:
     answers.until(Path(STAMP).exists, lambda: imported("-c", FULL, *BUILD))  # by the whole program
     anyway, _ = imported("-c", "import runpy")
@@ -442,6 +443,7 @@ def test_a_build_that_has_no_answer_and_nothing_to_do_imports_no_library(folder:
 FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
 @pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
 def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:

@@ -97,6 +97,7 @@ def test_a_check_that_fails_is_an_error_of_its_robot(project: Path, error: Excep
     assert str(found) in (str(BROKEN), "x.mo: error: Permission denied [system]")
 
 
+@pytest.mark.slow
 def test_a_package_is_checked_after_each_build_until_it_is_right(
     project: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch, compiling: Compiling
 ) -> None:

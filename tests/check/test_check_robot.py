@@ -160,6 +160,7 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, model
     assert "not ready yet" in gap
 
 
+@pytest.mark.slow
 def test_what_was_right_is_not_compiled_again_until_something_changes(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:

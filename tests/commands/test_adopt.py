@@ -96,6 +96,7 @@ def foreign(folder: Path, execute: Execute) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
     before = snapshot(foreign)
     (found,) = execute("adopt", "arm", "--json").json["robots"]

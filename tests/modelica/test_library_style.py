@@ -14,6 +14,7 @@ from typing import Any
 
 import pymoca.ast
 import pymoca.parser
+import pytest
 import rumoca
 from lxml import etree
 from support.annotations import annotations_in
@@ -21,6 +22,8 @@ from support.modelica import URDFSYNC as LIBRARY
 
 FILES = sorted(LIBRARY.rglob("*.mo"))
 FOLDERS = [file.parent for file in FILES if file.name == "package.mo"]
+
+pytestmark = pytest.mark.slow  # another parser, of Python alone, reads the whole library
 
 
 def where(file: Path) -> str:

@@ -80,6 +80,7 @@ def test_the_text_is_the_golden_one(variant: str) -> None:
         assert text == expected[path], f"{variant}/{path}: run `python {Path(__file__).name}` and review what it wrote"
 
 
+@pytest.mark.slow
 @every_golden_folder
 def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
     """To the compiler, to another parser, and to our own."""
