@@ -28,8 +28,8 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Result
 from urdfsync.modelica.parser import parse
 
-STEPS = replay.STEPS or 27
-LARGEST = 60
+STEPS = replay.STEPS or 18
+LARGEST = 60 if replay.STEPS else 20
 """Links that a robot has at most; larger ones take seconds a step."""
 
 COMPILED = ("add a component", "add a connection", "add an equation", "move a part", "save again in another style")
