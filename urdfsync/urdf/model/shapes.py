@@ -34,11 +34,12 @@ def link_shapes(
     visuals: list[dict[str, Any]] = []
     for number, visual in enumerate(link.visuals, 1):
         for part in _visual(number, visual, imports, package):
-            visuals.append(part | {"y": _ROW * (len(visuals) + 1)})
+            part["y"] = _ROW * (len(visuals) + 1)
+            visuals.append(part)
     collisions: list[dict[str, Any]] = []
     for number, collision in enumerate(link.collisions if options.collisions else (), 1):
         if shape := _shape("collision", number, collision, imports, package):
-            shape |= {"y": -_ROW * (len(collisions) + 1), "is_collision": True, "color": PINK, "opacity": 0.5}
+            shape.update(y=-_ROW * (len(collisions) + 1), is_collision=True, color=PINK, opacity=0.5)
             if options.base == "floating":
                 shape["hull"] = hull(collision.geometry, imports)
                 shape["touches"] = not isinstance(collision.geometry, Mesh) or bool(shape["hull"])
@@ -127,17 +128,22 @@ def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package:
         return
     if visual.material is not None and visual.material.rgba is not None:
         red, green, blue, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
-        yield shape | {"color": (round(255 * red), round(255 * green), round(255 * blue)), "opacity": opacity}
+        shape.update(color=(round(255 * red), round(255 * green), round(255 * blue)), opacity=opacity)
+        yield shape
         return
-    key = lookup.key(visual.geometry) if isinstance(visual.geometry, Mesh) else ""
-    facts = imports[key].facts if key else {}
+    if not isinstance(visual.geometry, Mesh):
+        shape.update(color=GREY, opacity=1.0)
+        yield shape
+        return
+    key = lookup.key(visual.geometry)
+    facts = imports[key].facts
     colors = facts.get(lookup.PARTS) or facts.get(lookup.COLORS) or [None]
     files = [key, *(further_key(key, part) for part in range(1, len(colors) + 1))]
     if lookup.COLORS in facts and len(colors) > 1:
         del files[0]  # the whole
     for part, (color, file) in enumerate(zip(colors, files, strict=False), 1):
         found = shape | {"color": tuple(color) if color else GREY, "opacity": 1.0}
-        if key and len(colors) > 1:
+        if len(colors) > 1:
             label = f"{shape['label']}, colour {part}"
             found |= {
                 "component": f"{shape['component']}_{part}",
