@@ -22,7 +22,7 @@ from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, r
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -30,6 +30,7 @@ _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 _TEXTS = ("name", "link", "joint", "filename", "group")
 _VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
 _NEWEST = 1, 2
+_TEXTURES = ("material/texture", "link/visual/material/texture")
 
 
 class RobotReading(NamedTuple):
@@ -59,8 +60,12 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    unmodelled = summary(note_unmodelled(reader.kept, reader.modelled, reader.unknown, document.lines), file)
-    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
+    if robot is None or reader.failed:
+        return RobotReading(None, diagnostics, reader.lines)
+    axes = {joint.name for joint in robot.joints if joint.type in MOTION_KINDS}
+    textures = (one for path in _TEXTURES for one in document.root.iterfind(path))
+    unmodelled = summary(note_unmodelled(reader, axes, textures), file)
+    return RobotReading(robot, diagnostics, reader.lines, unmodelled)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -144,7 +149,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     links_with_materials = resolve_materials(reader, by_path, materials)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
-    robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions), sensors)
+    reader.take_modelled()
+    robot = Robot(name, links_with_materials, tuple(joints), reader.extensions(), sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         known = {joint.name for joint in joints}
