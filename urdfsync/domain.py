@@ -390,8 +390,11 @@ class Domain(Protocol):
         """
         return Conversion(content, {})
 
-    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
-        """Return what there is to say of all imported files, without a place."""
+    def import_findings(self, imports: Mapping[str, Import]) -> Iterable[tuple[str, Diagnostic]]:
+        """Return what there is to say of imported files: the key of one, empty for all, and a diagnostic without place.
+
+        The core adds the line of the dependency.
+        """
         return ()
 
     # Options

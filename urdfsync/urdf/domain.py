@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -30,7 +30,7 @@ from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.meshes.lookup import TEXTURED, dependencies, mentioned_files
+from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.fields import located
@@ -66,7 +66,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "not-in-record", "planar-not-generic", "texture"),
+        *("mass-jump", "mesh-colors", "not-in-record", "planar-not-generic", "texture"),
     }
 )
 
@@ -126,13 +126,17 @@ class UrdfDomain(Domain):
 
         return convert(dependency, file, content, others)
 
-    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
-        """Return a note if textures become colours."""
+    def import_findings(self, imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
+        """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
+        for key, one in imports.items():
+            if missing := one.facts.get(COLORLESS):
+                message = f"mesh `{mesh(key).filename}` lacks colours: "
+                hint = "put what is missing beside the mesh, or give the visual a <material>"
+                yield key, Diagnostic(Severity.WARNING, "mesh-colors", message + "; ".join(missing), hint=hint)
         count = sum(bool(one.facts.get(TEXTURED)) for one in imports.values())
-        if not count:
-            return ()
-        message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
-        return (Diagnostic(Severity.NOTE, "texture", message),)
+        if count:
+            message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
+            yield "", Diagnostic(Severity.NOTE, "texture", message)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """Hold the names in `driven` and `frames` against the robot."""
