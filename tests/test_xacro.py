@@ -373,6 +373,48 @@ def test_the_daemon_sees_a_file_that_was_wrong_from_the_beginning(project: Path)
         assert "mass = 2.5" in Path(RECORD).read_text()
 
 
+@pytest.mark.slow
+def test_the_daemon_waits_for_files_that_are_not_there(project: Path) -> None:
+    from support.daemon import Watch
+
+    def include(name: str) -> str:
+        return xacros.ARM.replace("parts/beam.xacro", name)
+
+    beam = xacros.BEAM.replace('mass value="${mass}"', 'mass value="{0}"')
+    source = project / "urdf/arm.urdf.xacro"
+    source.write_text(include("later/deep/beam.xacro"))
+    with Watch(project, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+        watch.wait("waiting")
+        for place, name in [
+            ("urdf/later/deep/beam.xacro", "later/deep/beam.xacro"),
+            ("urdf/more/beam.xacro", "more/*.xacro"),
+            ("urdf/more/other.xacro", "more/*.xacro"),
+            ("beams/beam.xacro", "$(find beams)/beam.xacro"),
+        ]:
+            mass = str(len(place))
+            if source.read_text() != include(name):
+                since = watch.mark
+                source.write_text(include(name))
+                watch.wait("waiting", since=since)
+            since = watch.mark
+            (project / place).parent.mkdir(parents=True, exist_ok=True)
+            if name.startswith("$"):
+                (project / "beams/package.xml").write_text("<package><name>beams</name></package>")
+            (project / place).write_text(beam.replace("{0}", mass))
+            watch.wait("built", since=since)
+            assert f"mass = {mass}" in Path(RECORD).read_text()
+
+
+def test_a_file_that_comes_ends_a_failure(project: Path, execute: Execute) -> None:
+    (project / "urdf/masses.yaml").rename(project / "urdf/later.yaml")
+    for _ in range(2):
+        assert "masses.yaml can't be read" in execute("build", code=2).words
+        execute("status")
+    (project / "urdf/later.yaml").rename(project / "urdf/masses.yaml")
+    execute("build")
+    assert execute("status").lines == ["arm: in step, 15 files"]
+
+
 COMMAND = """
 import pathlib, sys
 numbers = pathlib.Path("mass.txt").read_text()

@@ -162,7 +162,10 @@ def expand(request: Request) -> Answer:
     folders = [Path(folder) for folder in request.package_paths]
 
     def find(name: str) -> str:
-        if (folder := ros_packages.find_package(name, folders, Path(request.source))) is None:
+        source = Path(request.source)
+        if (folder := ros_packages.find_package(name, folders, source)) is None:
+            places = (str(place / name / "package.xml") for place in (*folders, *source.parents))
+            files.hashes.update(dict.fromkeys(places))
             raise PackageNotFoundError(name)
         packages[name] = str(folder)
         return packages[name]
