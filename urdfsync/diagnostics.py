@@ -17,6 +17,18 @@ IGNORABLE = frozenset(
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
 
 
+_LONGEST = 400
+"""Characters of a message, a hint or a detail: names in them may be a stranger's, and of any length."""
+
+
+def cut(text: str, longest: int) -> str:
+    """Return a text with its middle left out, if it is longer."""
+    if len(text) <= longest:
+        return text
+    end = longest // 4
+    return f"{text[: longest - end - 1]}…{text[-end:]}"
+
+
 class Severity(enum.StrEnum):
     """How much a diagnostic matters: an error stops the build of its robot, a warning does not."""
 
@@ -42,6 +54,14 @@ class Diagnostic(msgspec.Struct, frozen=True):
     hint: str = ""
     details: tuple[str, ...] = ()
     """Lines that people see with `--verbose` only."""
+
+    def __post_init__(self) -> None:
+        """Cut what is too long for a line."""
+        for field, text in (("message", self.message), ("hint", self.hint)):
+            if len(text) > _LONGEST:
+                msgspec.structs.force_setattr(self, field, cut(text, _LONGEST))
+        if any(len(detail) > _LONGEST for detail in self.details):
+            msgspec.structs.force_setattr(self, "details", tuple(cut(detail, _LONGEST) for detail in self.details))
 
     def __str__(self) -> str:
         """The finding as one line: `file:line:column: severity: message; hint [code]`."""

@@ -146,7 +146,7 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
-        place, hint = (file, problem.line), _HINTS.get(problem.code, _HINTS["xacro"])
+        place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
         error = SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
         error.reads, error.patterns = tuple(answer.files), answer.patterns
         raise error

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import os
 import re
+import signal
 import sys
+import time
 import types
 import xml.dom
 import xml.dom.minidom
@@ -24,12 +27,18 @@ import msgspec
 
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.engine import ros_packages
+from urdfsync.file_kinds import find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
+
+if sys.platform != "win32":
+    import resource
 
 _FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
 """Events of Python that no expansion needs, by how their names begin; but for these."""
 _ALLOWED = ("os.listdir", "os.scandir", "os.walk")
+_GRACE = 2
+"""Seconds of CPU time after which native code that does not return is ended."""
 _PLACE = "place"
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """How lines begin by which xacro says where it is."""
@@ -56,6 +65,12 @@ class Problem(msgspec.Struct, frozen=True):
     message: str
     file: str = ""
     line: int = 0
+    hint: str = ""
+    """Better advice than that of the code."""
+
+
+class TimeLimitError(Exception):
+    """The CPU time is over."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -182,6 +197,7 @@ def expand(request: Request) -> Answer:
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
+        _raise_at_limit(request.seconds)
         with limits(request.seconds, request.memory), contextlib.redirect_stderr(said):
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
@@ -202,6 +218,23 @@ def expand(request: Request) -> Answer:
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,
     )
+
+
+def _raise_at_limit(seconds: float) -> None:
+    """Have TimeLimitError raised when `limits` would end the process, so that it is known where it was.
+
+    Native code, which nothing is raised in, is ended a little later.
+    """
+    if sys.platform == "win32":
+        return
+
+    def stop(*_: object) -> None:
+        raise TimeLimitError
+
+    signal.signal(signal.SIGPROF, stop)
+    end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
+    if hardest == resource.RLIM_INFINITY or end < hardest:
+        resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
 
 
 def _refuse_events(patterns: dict[str, None]) -> None:
@@ -254,8 +287,10 @@ def _problem(error: BaseException, current: str) -> Problem:
             return Problem("no-package", f"there is no package `{cause}`", file, line)
         case RecursionError():
             return Problem("xacro", "it includes or calls itself without end", file, line)
-        case MemoryError():
+        case MemoryError() | TimeLimitError():
             return Problem("xacro-limits", "", file, line)
+        case expat.ExpatError() if (kind := find_kind(read_unrecorded(current))) is not None:
+            return Problem(kind.code, kind.message, current, kind.line, kind.hint)
         case expat.ExpatError():
             return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
         case OSError() if cause.filename:

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import spelling
+from urdfsync import file_kinds, spelling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -45,10 +45,7 @@ _ERRORS = {
     # the file
     "file-empty": f"export the robot again, or {_WAIT}",
     "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
-    "lfs-pointer": "run `git lfs pull`",
-    "compressed": "unpack it (`gunzip -k FILE`), and name what is in it",
-    "robot-description": "save the text of `robot_description` as a file, and name that",
-    "launch-file": "name the URDF or xacro file that it loads, with what it passes as `arguments`",
+    **file_kinds.HINTS,
     "merge-conflict": "resolve the merge, then build again",
     "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",

@@ -222,6 +222,7 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b'{"robot_description": "<robot/>"}', "robot-description", 1),
         (b"<!-- a -->\n<launch>\n<param name='robot_description'/></launch>", "launch-file", 2),
         (b"from launch import LaunchDescription\n\ndef generate(): ...\n", "launch-file", 1),
+        (b"%YAML 1.2\n---\nlaunch:\n\n- node:\n    pkg: a\n", "launch-file", 3),
         (b"<?xml version='1.0' encoding='klingon'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='rot13'?><robot/>", "file-encoding", 1),
         (b"<?xml version='1.0' encoding='idna'?><robot>\xff</robot>", "file-encoding", 1),

@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from lxml import etree
 
+from urdfsync.diagnostics import cut
 from urdfsync.urdf.meshes.lookup import mentioned_files, path_of_mention
 
 Color: TypeAlias = tuple[int, int, int]
@@ -37,7 +38,7 @@ def library_colors(obj: bytes, files: Mapping[str, bytes]) -> tuple[dict[bytes, 
     for library in mentioned_files("mesh.obj", obj):
         name = b""
         if not files.get(library):
-            missing.append(f"library `{library[:_LONGEST]}` not found")
+            missing.append(f"library `{cut(library, _LONGEST)}` not found")
         for statement, value in _STATEMENT.findall(files.get(library, b"")):
             if statement == b"newmtl":
                 name = value.strip()
@@ -98,7 +99,7 @@ def unbound_materials(root: etree._Element, known: Collection[str]) -> Iterator[
 
 def _without_color(names: Iterable[str]) -> Iterator[str]:
     """Yield in words that materials have no colour."""
-    first, *others = [f"`{name[:_LONGEST]}`" for name in names] or [""]
+    first, *others = [f"`{cut(name, _LONGEST)}`" for name in names] or [""]
     if first:
         shown = ", ".join([first, *others[: _NAMES - 1], *(["…"] if len(others) >= _NAMES else [])])
         yield f"no colour of material{'s' if others else ''} {shown}"
@@ -124,7 +125,7 @@ def _texture(name: str, files: Mapping[str, bytes], missing: list[str]) -> Color
     color = _mean(image)
     if color is None:
         why = f"is no picture of up to {_MOST_PIXELS:,} pixels" if image else "not found"
-        missing.append(f"texture `{name[:_LONGEST]}` {why}")
+        missing.append(f"texture `{cut(name, _LONGEST)}` {why}")
     return color
 
 

@@ -106,7 +106,7 @@ class MeshProcess:
             finally:
                 timer.cancel()
         if answer.problem:
-            raise MeshError("".join(char if char.isprintable() else " " for char in answer.problem[:300]))
+            raise MeshError("".join(char if char.isprintable() else " " for char in answer.problem))
         return list(zip(files, answer.facts, strict=True))
 
     def end(self) -> None:

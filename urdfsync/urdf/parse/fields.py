@@ -18,7 +18,7 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
@@ -284,8 +284,8 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
 
 
 def quoted(text: str) -> str:
-    """Return the text in quotes, cut off if it is long."""
-    return repr(text if len(text) <= _TEXT_SHOWN else text[:_TEXT_SHOWN] + "…")
+    """Return the text in quotes, cut if it is long."""
+    return repr(cut(text, _TEXT_SHOWN))
 
 
 def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
