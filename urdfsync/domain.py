@@ -406,8 +406,15 @@ class Domain(Protocol):
         """
         return ()
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
-        """Return option values that suit this model better than the defaults, for `init`."""
+    def permissive_options(self) -> Any:
+        """Return the options that sources outside of a project are read by: what they permit becomes a warning."""
+        return self.options()
+
+    def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+        """Return option values that suit a model better than the defaults, for `init`.
+
+        `diagnostics` are those of reading it by `permissive_options`.
+        """
         return ()
 
     def option_for(self, path: str, target: Target, options: Any) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import get_args
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import (
@@ -32,7 +33,7 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
 from urdfsync.urdf.names import identify
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
@@ -142,11 +143,18 @@ class UrdfDomain(Domain):
         """Hold the names in `driven` and `frames` against the robot."""
         return option_names.check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
-        """Guess whether the robot is mobile."""
+    def permissive_options(self) -> Options:
+        """Allow all that can be left out of a model."""
+        return Options(allow=get_args(LeftOut))
+
+    def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+        """Guess whether the robot is mobile; allow what has to be left out."""
         from urdfsync.urdf.kinematics.base_guess import guess_base
 
-        return (guess_base(from_snapshot(snapshot)),)
+        base, codes = guess_base(from_snapshot(snapshot)), {found.code for found in diagnostics}
+        if not (needed := [code for code in get_args(LeftOut) if code in codes]):
+            return (base,)
+        return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))
 
     def option_for(self, path: str, target: Target, options: Options) -> str:
         """Return the option that brings the record of the whole robot."""

@@ -71,7 +71,7 @@ class Reader:
         """Add a finding about an element."""
         found = diagnostic(code, message, self._lines_of_elements[element], hint)
         if code in self.allowed:
-            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="`allow` permits it")
+            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="a build needs `allow` for it")
         self.diagnostics.append(found)
 
     def extend(self, findings: Iterable[Finding]) -> None:
