@@ -17,7 +17,7 @@ IGNORABLE = frozenset(
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
 
 
-_LONGEST = 400
+_LONGEST = 1000
 """Characters of a message, a hint or a detail: names in them may be a stranger's, and of any length."""
 
 

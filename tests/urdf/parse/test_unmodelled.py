@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from support import corpus as corpora
-from support.urdfs import joint, link, robot
+from support.urdfs import joint, limit, link, robot
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.source import read_robot
@@ -100,6 +100,16 @@ LEFT_OUT = {
         <child link="l"><more/></child><origin drake:x="1" rpy="0 0 0"><deep/></origin></joint>""",
         "1 <convex> (link l), 1 <map> (link l), 1 <more> (joint jl), 1 <deep> (joint jl), 1 attribute (origin drake:x)",
     ),
+    "of gazebo": ('<gazebo reference="arm" filter="x"><n/></gazebo>', "2 gazebo settings (gazebo filter, n)"),
+    "an attribute of a geometry": ('<link name="l"><visual><geometry name="g"><box size="1 1 1"/></geometry></visual>'
+        "</link>" + joint("jl", "fixed", "arm", "l"), "1 attribute (geometry name)"),
+    "limits of joints without": (
+        link("l") + link("m", 1.0) + joint("jl", "fixed", "arm", "l", inside=[limit()])
+        + joint("jm", "continuous", "arm", "m", inside=[limit()]),
+        "2 ineffective limits (joint jl, joint jm)",
+    ),
+    "many kinds of things": ("".join(f"<e{number}/>" for number in range(14)),
+        ", ".join(f"1 <e{number}>" for number in range(12)) + ", 2 other kinds of things"),
     "a texture": (
         '<material name="m"><color rgba="1 1 1 1"/><texture filename="a.png"/></material>', "1 <texture> (a.png)"
     ),

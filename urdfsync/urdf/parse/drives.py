@@ -118,7 +118,8 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
             reader.extend([Finding("duplicate-element", drive.path, message)])
         elif joint and not drive.is_coupled:
             reader.modelled.add(drive.element)
-            reader.show(*drive.read)
+            for number in drive.read:
+                reader.show(number, "value")
     return [
         msgspec.structs.replace(
             joint,

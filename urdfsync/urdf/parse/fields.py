@@ -132,11 +132,11 @@ class Reader:
         for child in element if owner is not None else ():
             self.extension(child, path, (), owner or "")
 
-    def show(self, *elements: Element) -> None:
-        """Note that the package shows what the text and all attributes of elements say."""
-        for element in elements:
-            element.attrib.clear()
-            self.modelled.add(element)
+    def show(self, element: Element, *attributes: str) -> None:
+        """Note that the package shows what the text and some attributes of an element say."""
+        self.modelled.add(element)
+        for name in attributes:
+            element.attrib.pop(name, None)
 
     def take_modelled(self) -> None:
         """Take what is modelled out of the elements that are kept: a change there is none of their text."""

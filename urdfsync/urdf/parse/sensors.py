@@ -126,7 +126,7 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
         is_frame = child.tag == "param" and words == "frame_id"
         is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == found.kind
         if child.tag == "parent" or is_frame or is_state:
-            reader.show(child)
+            reader.show(child, "link" if child.tag == "parent" else "name")
 
     def numbers(part: Element, places: Sequence[str], count: int = 1) -> tuple[float, ...] | None:
         for place in places:
@@ -165,10 +165,10 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
         if (other := pose.get("relative_to")) and other != found.at:
             message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
             reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
-        reader.show(pose)
+        reader.show(pose, "degrees", "relative_to")
     if place is not None:
         origin = reader.read(place, f"{path} / origin", Origin)
-        reader.show(place)
+        reader.show(place, *place.keys())  # the others are told already
     rate = numbers(element, ("update_rate", "@update_rate"))
     sensor = Sensor(name, found.kind, found.at, origin, rate[0] if rate else 0.0)
     match found.kind:
@@ -178,7 +178,7 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
             return msgspec.structs.replace(sensor, lidar=Lidar(**fields(_LIDAR, ("ray", "lidar"))))
         case "force_torque":
             parts = [] if force is None else [force, *force.findall("frame"), *force.findall("measure_direction")]
-            reader.show(*parts)
+            reader.modelled.update(parts)
             said = {part.tag: (part.text or "").strip() for part in reversed(parts)}
             frame, way = said.get("frame") or _FRAMES[0], said.get("measure_direction") or _DIRECTIONS[0]
             for text, known in ((frame, _FRAMES), (way, _DIRECTIONS)):

@@ -22,7 +22,7 @@ from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, r
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
-from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -30,7 +30,6 @@ _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 _TEXTS = ("name", "link", "joint", "filename", "group")
 _VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
 _NEWEST = 1, 2
-_TEXTURES = ("material/texture", "link/visual/material/texture")
 
 
 class RobotReading(NamedTuple):
@@ -62,9 +61,7 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
-    axes = {joint.name for joint in robot.joints if joint.type in MOTION_KINDS}
-    textures = (one for path in _TEXTURES for one in document.root.iterfind(path))
-    unmodelled = summary(note_unmodelled(reader, axes, textures), file)
+    unmodelled = summary(note_unmodelled(reader, document.root, robot), file)
     return RobotReading(robot, diagnostics, reader.lines, unmodelled)
 
 

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterator
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
-from urdfsync.diagnostics import Diagnostic
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf.parse.fields import Reader
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Calibration, Joint, Limit, Robot
 from urdfsync.urdf.validate import diagnostic
 
-_NAMES = 3
+_LONGEST = 60
+"""Characters of a name in the note; its details have the whole."""
+_KINDS, _NAMES = 12, 3
+"""So many kinds of things, and names of each, are in the note."""
+_TEXTURES = ("material/texture", "link/visual/material/texture")
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces of a joint that a model has."""
-_IDENTITY = frozenset({"name", "type", "role"})
+_IDENTITY = frozenset({"name", "type", "role", "reference"})
 """Attributes of elements that say no more than which one, or of which kind, they are."""
 
 
@@ -32,36 +39,53 @@ def is_loop(element: Element) -> bool:
     )
 
 
-def note_unmodelled(reader: Reader, joints: Container[str], textures: Iterable[Element]) -> Iterator[Diagnostic]:
+def note_unmodelled(reader: Reader, root: Element, robot: Robot) -> Iterator[Diagnostic]:
     """Yield one note on all that is in no model, each with its line as detail; none if there is nothing.
 
-    What is modelled was taken out of what the reader keeps. `joints` are the names of those that have an axis.
+    What is modelled was taken out of what the reader keeps.
     """
+    joints = {joint.name for joint in robot.joints if joint.type in MOTION_KINDS}
     found = defaultdict[str, list[_Part]](list)
     for owner, element in reader.kept:
         for part in _parts(owner, element, reader.modelled, joints):
             found[part.kind].append(part)
-    for texture in textures:
+    for texture in (one for path in _TEXTURES for one in root.iterfind(path)):
         found["<texture>"].append(_Part("<texture>", texture.get("filename", ""), texture))
+    without_effect = {joint.name for joint in robot.joints if _has_other_limits(joint)}
+    for joint in root.iterfind("joint") if without_effect else ():
+        if joint.get("name") in without_effect:
+            found["ineffective limit"].append(_Part("ineffective limit", f"joint {joint.get('name')}", joint))
     for name, element in reader.unknown:
         found["attribute"].append(_Part("attribute", f"{element.tag} {name}", element))
     if not found:
         return
     said, places = [], []
     for kind, parts in found.items():
-        names = list(dict.fromkeys(part.name for part in parts if part.name))
+        names = list(dict.fromkeys(cut(part.name, _LONGEST) for part in parts if part.name))
         shown = ", ".join([*names[:_NAMES], *(["…"] if len(names) > _NAMES else [])])
-        plural = "" if len(parts) == 1 or kind.startswith("<") else "s"
-        said.append(f"{len(parts)} {kind}{plural}{f' ({shown})' if shown else ''}")
+        plural = "" if len(parts) == 1 or kind.endswith(">") else "s"
+        said.append(f"{len(parts)} {cut(kind, _LONGEST)}{plural}{f' ({shown})' if shown else ''}")
         places += [(reader.line(part.element), f"{kind} {part.name}".rstrip()) for part in parts]
+    if len(said) > _KINDS:
+        said[_KINDS:] = [f"{len(said) - _KINDS} other kinds of things"]
     places.sort()
     details = tuple(f"line {line}: {what}" for line, what in places)
     yield diagnostic("not-modelled", f"not modelled: {', '.join(said)}", places[0][0], details=details)
 
 
+def _has_other_limits(joint: Joint) -> bool:
+    """Return whether a joint says limits, a calibration or gains that one of its type does not have."""
+    kind = JOINT_KINDS[joint.type]
+    said = msgspec.structs.astuple(joint.limit or Limit())
+    if kind.motion:
+        return not kind.has_limits and any(said[:2])
+    return any(said) or joint.calibration not in (None, Calibration()) or joint.safety_controller is not None
+
+
 def _parts(owner: str, element: Element, modelled: Container[Element], joints: Container[str]) -> Iterator[_Part]:
     match element.tag:
         case "gazebo":
+            yield from _attributes("gazebo setting", element)
             for one in element:
                 if one.tag == "sensor":
                     yield from _parts_of_sensor(one.get("name", ""), one, modelled)
@@ -70,6 +94,7 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
                 if one.tag not in ("sensor", "plugin", "joint"):
                     yield _Part("gazebo setting", one.tag, one)
         case "ros2_control":
+            yield from _attributes("ros2_control setting", element)
             for one in element:
                 if one.tag == "sensor":
                     yield from _parts_of_sensor(one.get("name", ""), one, modelled)
@@ -88,13 +113,19 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
             yield _Part(f"<{tag}>", element.get("name") or owner, element)
 
 
+def _attributes(kind: str, element: Element) -> Iterator[_Part]:
+    """Yield the attributes of an element that are left of it."""
+    for name in element.keys():  # noqa: SIM118 - else its children
+        if name not in _IDENTITY:
+            yield _Part(kind, f"{element.tag} {name}", element)
+
+
 def _parts_of_sensor(name: str, sensor: Element, modelled: Container[Element]) -> Iterator[_Part]:
     """Yield a sensor, or what its model leaves out."""
     if sensor not in modelled:
         yield _Part("sensor", name, sensor)
         return
-    for attribute in sensor.attrib.keys() - _IDENTITY:
-        yield _Part("sensor setting", f"{sensor.tag} {attribute}", sensor)
+    yield from _attributes("sensor setting", sensor)
     for one in sensor:
         if one in modelled:
             yield from _parts_of_sensor(name, one, modelled)
