@@ -27,10 +27,12 @@ _OTHERS = (
     ),
 )
 """Codes, how the files begin, messages."""
+_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
 HINTS = {
     "compressed": "unpack it, and name what is in it",
     "lfs-pointer": "run `git lfs pull`",
     "robot-description": "save the text of `robot_description` as a file, and name that",
+    "merge-conflict": "resolve the merge, then build again",
     "launch-file": "name the URDF or xacro file that it loads, with what it passes as `arguments`",
 }
 
@@ -55,3 +57,11 @@ def find_kind(content: bytes) -> FileKind | None:
         if match := re.match(pattern, content[:_BEGINNING]):
             return FileKind(code, message, HINTS[code], content.count(b"\n", 0, match.end()) + 1)
     return None
+
+
+def find_conflict(text: str) -> FileKind | None:
+    """Return where the first marker of a merge conflict is, if there is one; line ends are unified."""
+    if (marker := re.search(_CONFLICT_MARKER, text)) is None:
+        return None
+    code, line = "merge-conflict", text.count("\n", 0, marker.start()) + 1
+    return FileKind(code, "the file has merge conflict markers", HINTS[code], line)

@@ -86,6 +86,28 @@ def test_yaml_makes_no_objects(folder: Path, text: str, line: int) -> None:
     assert not Path("hacked").exists()
 
 
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (gzip.compress(b"a: 1"), "numbers.yaml:1: error: the file is packed by gzip"),
+        ("a: é".encode("latin-1"), "numbers.yaml:1: error: this is not UTF-8; save it as UTF-8 [xacro]"),
+    ],
+)
+def test_yaml_that_is_no_text_is_named(folder: Path, content: bytes, message: str) -> None:
+    inputs = write(folder, value("xacro.load_yaml('numbers.yaml')['a']"))
+    (folder / "numbers.yaml").write_bytes(content)
+    assert problem(inputs).startswith(message)
+
+
+def test_a_merge_conflict_is_told(folder: Path) -> None:
+    found = problem(write(folder, "<<<<<<< HEAD\n<link/>\n=======\n>>>>>>> other"))
+    assert (
+        found
+        == "arm.urdf.xacro:2: error: the file has merge conflict markers; resolve the merge, then build again "
+        + ("[merge-conflict]")
+    )
+
+
 def test_the_folder_is_that_of_the_configuration(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     inputs = write(folder, '<link name="$(cwd)"/>')
     monkeypatch.chdir("/")

@@ -19,7 +19,7 @@ import xml.dom
 import xml.dom.minidom
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, cast
 from xml.dom import expatbuilder
 from xml.parsers import expat
 
@@ -27,7 +27,7 @@ import msgspec
 
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.engine import ros_packages
-from urdfsync.file_kinds import find_kind
+from urdfsync.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
 
@@ -96,6 +96,14 @@ class PackageNotFoundError(Exception):
     """There is no ROS package of this name."""
 
 
+class NotTextError(Exception):
+    """A file that is read as text is none."""
+
+    def __init__(self, file: str, content: bytes) -> None:
+        super().__init__(file)
+        self.file, self.content = file, content
+
+
 class _Asked(dict[str, str]):
     """A mapping that notes which keys were asked for."""
 
@@ -138,6 +146,13 @@ class _File(io.TextIOWrapper):
     """A text with the name of its file, which messages about YAML have."""
 
     name = ""
+
+    def read(self, size: int | None = -1) -> str:
+        """Read some or all of the text. Raises NotTextError."""
+        try:
+            return super().read(size)
+        except UnicodeDecodeError:
+            raise NotTextError(self.name, cast(io.BytesIO, self.buffer).getvalue()) from None
 
 
 class _Builder(expatbuilder.ExpatBuilderNS):
@@ -289,8 +304,11 @@ def _problem(error: BaseException, current: str) -> Problem:
             return Problem("xacro", "it includes or calls itself without end", file, line)
         case MemoryError() | TimeLimitError():
             return Problem("xacro-limits", "", file, line)
-        case expat.ExpatError() if (kind := find_kind(read_unrecorded(current))) is not None:
+        case expat.ExpatError() if (kind := _kind(read_unrecorded(current))) is not None:
             return Problem(kind.code, kind.message, current, kind.line, kind.hint)
+        case NotTextError():
+            kind = _kind(cause.content) or FileKind("xacro", "this is not UTF-8", "save it as UTF-8")
+            return Problem(kind.code, kind.message, cause.file, kind.line, kind.hint)
         case expat.ExpatError():
             return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
         case OSError() if cause.filename:
@@ -301,6 +319,11 @@ def _problem(error: BaseException, current: str) -> Problem:
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)
     return Problem("xacro", message or type(cause).__name__, file, line)
+
+
+def _kind(content: bytes) -> FileKind | None:
+    """Return what a file is that can't be read as xacro or YAML."""
+    return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
 
 def main() -> None:

@@ -46,7 +46,6 @@ _ERRORS = {
     "file-empty": f"export the robot again, or {_WAIT}",
     "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
     **file_kinds.HINTS,
-    "merge-conflict": "resolve the merge, then build again",
     "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
     "not-urdf": "export URDF, and name that file",

@@ -238,6 +238,7 @@ LAUGHS = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;">]>'
         (b"<robot name='r'>\r\n<link name='a'/>\r\n>>>>>>> b\r\n</robot>", "merge-conflict", 3),
         (b"<<<<<<< HEAD\n<robot name='r'>\n<link name='a'/></robot>", "merge-conflict", 1),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "lfs-pointer", 1),
+        (b"<robot name='r' xmlns:drake='d'>\n<link name='a'/>\n<drake:joint/></robot>", "unknown-joint-type", 3),
         (b"<sdf version='1.9'/>", "not-urdf", 1),
         (b"<!-- a -->\n<mujoco model='m'/>", "not-urdf", 2),
         (b"<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/>\n<link name='a'/></robot>", "xacro-source", 2),

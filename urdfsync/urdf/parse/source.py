@@ -123,6 +123,9 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
             joint = child.find("joint") if child.tag == "gazebo" else child
             message = f"<{child.tag}> {'' if joint is None else joint.get('name', '')}".rstrip()
             reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
+        elif child.tag == "drake:joint":
+            message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
+            reader.add(child, "unknown-joint-type", message)
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:

@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.file_kinds import find_kind
+from urdfsync.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
 _DEEPEST = 256
@@ -41,7 +41,6 @@ _DECLARATION = re.compile(
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
-_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 
 
@@ -101,9 +100,8 @@ def parse(content: bytes) -> Document:
         error = found
     # else they hold the parser, which holds them, and all elements stay until Python looks for cycles
     parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
-    if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
-        line = text.count("\n", 0, marker.start()) + 1
-        raise ParseError("merge-conflict", "the file has merge conflict markers", line)
+    if (error or ">>>>>>>" in text) and (conflict := find_conflict(text)) is not None:
+        raise ParseError(conflict.code, conflict.message, conflict.line)
     if error:
         what = expat.ErrorString(error.code)
         if what in _UNCLOSED and above:
