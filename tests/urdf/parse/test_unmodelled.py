@@ -74,10 +74,10 @@ LEFT_OUT = {
         "1 transmission (t)"),
     "of ros2_control": (
         """<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware><gpio name="io"/>
-        <joint name="j"><command_interface name="effort"><param name="min">-1</param></command_interface>
+        <joint name="j" mimic="false"><command_interface name="effort"><param name="min">-1</param></command_interface>
         <command_interface name="stiffness"/><state_interface name="position"><param name="initial_value">1</param>
         </state_interface><state_interface name="heat"/></joint><joint name="k"/></ros2_control>""",
-        "7 ros2_control settings (hardware, gpio io, param min, …)",
+        "8 ros2_control settings (hardware, gpio io, joint mimic, …)",
     ),
     "a gear of ros2_control": (
         f"""<ros2_control name="c" type="system"><transmission name="t"><joint name="k"/>
@@ -91,8 +91,8 @@ LEFT_OUT = {
     ),
     "of a sensor of URDF": (
         """<sensor name="eye" update_rate="3" id="4"><parent link="arm"/><origin xyz="0 0 1"/><camera><image
-        width="9" height="8" hfov="1" near="0" far="1" format="RGB8"/></camera></sensor>""",
-        "2 sensor settings (sensor id, image format)",
+        width="9" height="8" hfov="1" near="0" far="1" format="RGB8"/></camera><plugin name="p"/></sensor>""",
+        "2 sensor settings (sensor id, image format), 1 gazebo plugin (p)",
     ),
     "in a shape": (
         """<link name="l"><visual><geometry><box size="1 1 1"><convex/></box></geometry><material name="m">
@@ -110,6 +110,9 @@ LEFT_OUT = {
     ),
     "many kinds of things": ("".join(f"<e{number}/>" for number in range(14)),
         ", ".join(f"1 <e{number}>" for number in range(12)) + ", 2 other kinds of things"),
+    "of a contact": ('<link name="l"><collision><geometry><sphere radius="1"/></geometry><contact_coefficients mu="1"'
+        ' restitution="1"/></collision></link>' + joint("jl", "fixed", "arm", "l"),
+        "1 attribute (contact_coefficients restitution)"),
     "a texture": (
         '<material name="m"><color rgba="1 1 1 1"/><texture filename="a.png"/></material>', "1 <texture> (a.png)"
     ),

@@ -89,8 +89,7 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
             for one in element:
                 if one.tag == "sensor":
                     yield from _parts_of_sensor(one.get("name", ""), one, modelled)
-                for plugin in one.iter("plugin"):
-                    yield _Part("gazebo plugin", plugin.get("name", plugin.get("filename", "")), plugin)
+                yield from _plugins(one)
                 if one.tag not in ("sensor", "plugin", "joint"):
                     yield _Part("gazebo setting", one.tag, one)
         case "ros2_control":
@@ -101,16 +100,24 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
                 elif one.tag == "transmission":
                     yield from _parts_of_transmission(one, modelled)
                 elif one.tag == "joint" and one.get("name", "") in joints:
+                    yield from _attributes("ros2_control setting", one)
                     for rest in _parts_of_joint(one):
                         yield _Part("ros2_control setting", f"{rest.tag} {rest.get('name', '')}".rstrip(), rest)
                 else:
                     yield _Part("ros2_control setting", f"{one.tag} {one.get('name', '')}".rstrip(), one)
         case "sensor":
             yield from _parts_of_sensor(element.get("name") or owner, element, modelled)
+            yield from _plugins(element)
         case "transmission":
             yield from _parts_of_transmission(element, modelled)
         case tag if not is_loop(element) and (owner or tag != "inertial"):
             yield _Part(f"<{tag}>", element.get("name") or owner, element)
+
+
+def _plugins(element: Element) -> Iterator[_Part]:
+    """Yield an element that is a plugin, or the plugins in it."""
+    for plugin in element.iter("plugin"):
+        yield _Part("gazebo plugin", plugin.get("name", plugin.get("filename", "")), plugin)
 
 
 def _attributes(kind: str, element: Element) -> Iterator[_Part]:
@@ -140,6 +147,7 @@ def _parts_of_transmission(transmission: Element, modelled: Container[Element]) 
         return
     for one in transmission:
         if one.tag in ("joint", "actuator"):
+            yield from _attributes("transmission setting", one)
             yield from (_Part("transmission setting", setting.tag, setting) for setting in one)
         elif one.tag not in ("type", "plugin") or "SimpleTransmission" not in (one.text or ""):
             yield _Part("transmission setting", one.tag, one)
