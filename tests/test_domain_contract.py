@@ -110,7 +110,7 @@ def test_options(case: Case) -> None:
     with pytest.raises(AttributeError, match="immutable"):
         setattr(case.options, fields[0].name, None)
     assert list(case.domain.check_options(case.snapshot, case.options)) == [], "defaults suit every model"
-    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot)}
+    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot, ())}
     assert values.keys() <= known
     msgspec.convert(values, case.domain.options)
 
@@ -136,7 +136,7 @@ def test_nobody_changes_a_snapshot(case: Case) -> None:
     before = json.dumps(case.snapshot)
     case.generated()
     case.domain.names(case.snapshot, TARGET)
-    case.domain.propose(case.snapshot)
+    case.domain.propose(case.snapshot, ())
     case.domain.models(case.snapshot, TARGET, case.options)
     case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
     old, new = (Version(snapshot, case.imports) for snapshot in (case.snapshot, {**case.snapshot, "name": "other"}))

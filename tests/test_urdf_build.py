@@ -17,6 +17,7 @@ CONFIGURATION = """
 [robots.arm]
 source = "ws/src/six_axis_arm/six_axis_arm.urdf"
 package = "Arm"
+ignore = ["not-modelled"]
 """
 
 

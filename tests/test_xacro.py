@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from support.answers import save, saved
 from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
+from support.meshes import stl
 from support.xacros import EXPANDED, RECORD
 
 from urdfsync import dependencies
@@ -42,16 +44,86 @@ def without_xacro(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     monkeypatch.setenv("PYTHONPATH", str(folder / "broken"))
 
 
-def test_the_package_is_that_of_the_expanded_file(built: Path, execute: Execute) -> None:
-    before = {path.name: path.read_bytes() for path in (built / "modelica").rglob("*.mo")}
-    command = [str(Path(sys.executable).with_name("xacro")), "urdf/arm.urdf.xacro", "length:=0.5"]
-    expanded = subprocess.run(command, capture_output=True, text=True, check=True)
-    (built / "urdf/arm.urdf").write_text(expanded.stdout)
-    (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
-    shutil.rmtree(built / "modelica")
-    shutil.rmtree(built / ".urdfsync")
+LEGS = """\
+  <xacro:property name="numbers" value="${xacro.load_yaml('$(find legs)/config/$(arg length).yaml')}"/>
+  <xacro:include filename="$(find legs)/urdf/*.xacro"/>
+  <xacro:macro name="pair" params="name:=leg *place **more turn:=${pi/2}">
+    <xacro:if value="${numbers.get('mirrored', False)}">
+      <xacro:leg name="${name}_mirrored" mass="${numbers['mass'] * turn}"><xacro:insert_block name="place"/></xacro:leg>
+    </xacro:if>
+    <xacro:leg name="${name}" mass="${numbers['mass']}"><xacro:insert_block name="place"/></xacro:leg>
+    <xacro:insert_block name="more"/>
+  </xacro:macro>
+  <xacro:pair name="hind">
+    <origin xyz="${-radians(30)} 0 ${sin(0.1)}" rpy="0 0 ${1/3}"/>
+    <extra><gazebo reference="hind"><mu1>${0.1 + 0.2}</mu1></gazebo></extra>
+  </xacro:pair>
+  <xacro:unless value="$(arg bare)">
+    <xacro:include filename="extra.xacro" optional="true"/>
+    <transmission name="t"><joint name="to_hind"/><actuator name="m">
+      <mechanicalReduction>${list(range(numbers['gear']))[-1]}</mechanicalReduction></actuator></transmission>
+  </xacro:unless>
+</robot>"""
+LEG = """\
+  <xacro:macro name="leg" params="name mass *at">
+    <link name="${name}">
+      <inertial><mass value="${mass}"/><inertia ixx="${mass/3}" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+      <visual><geometry><mesh filename="package://legs/mesh/leg.stl" scale="1e-3 ${1e-3} .001"/></geometry></visual>
+    </link>
+    <joint name="to_${name}" type="continuous">
+      <xacro:insert_block name="at"/><parent link="base"/><child link="${name}"/>
+    </joint>
+  </xacro:macro>
+</robot>"""
+INDEX = """\
+import os
+def get_package_share_directory(name):
+    return os.path.join(os.environ["AMENT_PREFIX_PATH"], "share", name)
+"""
+"""Where ROS 2 has its packages, in few words: xacro asks it for them."""
+
+
+def outputs(folder: Path) -> dict[str, bytes]:
+    """All files of the package."""
+    files = (path for path in (folder / "modelica").rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def test_the_package_is_that_of_ros_own_xacro(
+    project: Path, tmp_path_factory: pytest.TempPathFactory, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Macros with blocks and defaults, includes by package and pattern, YAML, arguments, conditions and numbers."""
+    prefix = tmp_path_factory.mktemp("install")
+    for name, text in {
+        "share/legs/package.xml": "<package><name>legs</name></package>",
+        "share/legs/config/0.5.yaml": "mass: 1.1\ngear: 51\nmirrored: true\nangle: !degrees 30\n",
+        "share/legs/urdf/leg.xacro": xacros.HEAD.format("leg") + LEG,
+        "share/legs/mesh/leg.stl": stl(),
+        "python/ament_index_python/packages.py": INDEX,
+    }.items():
+        (prefix / name).parent.mkdir(parents=True, exist_ok=True)
+        (prefix / name).write_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    source = xacros.ARM.replace(
+        '<xacro:arg name="length"', '<xacro:arg name="bare" default="0"/>\n<xacro:arg name="length"'
+    )
+    source = source.replace("</robot>", LEGS)
+    settings = f'package = "Arm"\npackage_paths = ["{prefix}/share"]\n'
+    xacros.write(project, {"arm.urdf.xacro": source}, xacros.CONFIG.replace('package = "Arm"\n', settings))
     execute("build")
-    assert {path.name: path.read_bytes() for path in (built / "modelica").rglob("*.mo")} == before
+    built = outputs(project)
+    numbers = b"".join(text for name, text in built.items() if name.endswith("Parameters.mo"))
+    assert all(text in numbers for text in (b"mass = 1.7278759594743864", b"mu = 0.30000000000000004", b"on = 50"))
+    assert any(name.endswith(".stl") for name in built)
+    command = [str(Path(sys.executable).with_name("xacro")), "urdf/arm.urdf.xacro", "length:=0.5"]
+    environment = {**os.environ, "PYTHONPATH": str(prefix / "python")}
+    expanded = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    (project / "urdf/arm.urdf").write_text(expanded.stdout)
+    (project / "urdfsync.toml").write_text(f'[robots.arm]\nsource = "urdf/arm.urdf"\n{settings}')
+    shutil.rmtree(project / "modelica")
+    shutil.rmtree(project / ".urdfsync")
+    execute("build")
+    assert outputs(project) == built
 
 
 @pytest.mark.parametrize(
@@ -371,6 +443,48 @@ def test_the_daemon_sees_a_file_that_was_wrong_from_the_beginning(project: Path)
         (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
         watch.wait("built")
         assert "mass = 2.5" in Path(RECORD).read_text()
+
+
+@pytest.mark.slow
+def test_the_daemon_waits_for_files_that_are_not_there(project: Path) -> None:
+    from support.daemon import Watch
+
+    def include(name: str) -> str:
+        return xacros.ARM.replace("parts/beam.xacro", name)
+
+    beam = xacros.BEAM.replace('mass value="${mass}"', 'mass value="{0}"')
+    source = project / "urdf/arm.urdf.xacro"
+    source.write_text(include("later/deep/beam.xacro"))
+    with Watch(project, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+        watch.wait("waiting")
+        for place, name in [
+            ("urdf/later/deep/beam.xacro", "later/deep/beam.xacro"),
+            ("urdf/more/beam.xacro", "more/*.xacro"),
+            ("urdf/more/other.xacro", "more/*.xacro"),
+            ("beams/beam.xacro", "$(find beams)/beam.xacro"),
+        ]:
+            mass = str(len(place))
+            if source.read_text() != include(name):
+                since = watch.mark
+                source.write_text(include(name))
+                watch.wait("waiting", since=since)
+            since = watch.mark
+            (project / place).parent.mkdir(parents=True, exist_ok=True)
+            if name.startswith("$"):
+                (project / "beams/package.xml").write_text("<package><name>beams</name></package>")
+            (project / place).write_text(beam.replace("{0}", mass))
+            watch.wait("built", since=since)
+            assert f"mass = {mass}" in Path(RECORD).read_text()
+
+
+def test_a_file_that_comes_ends_a_failure(project: Path, execute: Execute) -> None:
+    (project / "urdf/masses.yaml").rename(project / "urdf/later.yaml")
+    for _ in range(2):
+        assert "masses.yaml can't be read" in execute("build", code=2).words
+        execute("status")
+    (project / "urdf/later.yaml").rename(project / "urdf/masses.yaml")
+    execute("build")
+    assert execute("status").lines == ["arm: in step, 15 files"]
 
 
 COMMAND = """

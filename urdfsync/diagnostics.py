@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import os
+from collections.abc import Collection
 
 import msgspec
 
@@ -14,6 +15,18 @@ IGNORABLE = frozenset(
     "stray-state stray-template taken-back unknown-build unused-argument vanished-name xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
+
+
+_LONGEST = 1000
+"""Characters of a message, a hint or a detail: names in them may be a stranger's, and of any length."""
+
+
+def cut(text: str, longest: int) -> str:
+    """Return a text with its middle left out, if it is longer."""
+    if len(text) <= longest:
+        return text
+    end = longest // 4
+    return f"{text[: longest - end - 1]}…{text[-end:]}"
 
 
 class Severity(enum.StrEnum):
@@ -41,6 +54,14 @@ class Diagnostic(msgspec.Struct, frozen=True):
     hint: str = ""
     details: tuple[str, ...] = ()
     """Lines that people see with `--verbose` only."""
+
+    def __post_init__(self) -> None:
+        """Cut what is too long for a line."""
+        for field, text in (("message", self.message), ("hint", self.hint)):
+            if len(text) > _LONGEST:
+                msgspec.structs.force_setattr(self, field, cut(text, _LONGEST))
+        if any(len(detail) > _LONGEST for detail in self.details):
+            msgspec.structs.force_setattr(self, "details", tuple(cut(detail, _LONGEST) for detail in self.details))
 
     def __str__(self) -> str:
         """The finding as one line: `file:line:column: severity: message; hint [code]`."""
@@ -84,6 +105,11 @@ class ConfigError(UrdfsyncError):
 
 class SourceError(UrdfsyncError):
     """A source can't be read as a model."""
+
+    reads: Collection[str] = ()
+    """Absolute paths of the other files that were read for it, or are not there; as far as is known."""
+    patterns: Collection[str] = ()
+    """Likewise, those by which files were looked for."""
 
 
 class StateError(UrdfsyncError):

@@ -390,8 +390,11 @@ class Domain(Protocol):
         """
         return Conversion(content, {})
 
-    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
-        """Return what there is to say of all imported files, without a place."""
+    def import_findings(self, imports: Mapping[str, Import]) -> Iterable[tuple[str, Diagnostic]]:
+        """Return what there is to say of imported files: the key of one, empty for all, and a diagnostic without place.
+
+        The core adds the line of the dependency.
+        """
         return ()
 
     # Options
@@ -403,8 +406,15 @@ class Domain(Protocol):
         """
         return ()
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
-        """Return option values that suit this model better than the defaults, for `init`."""
+    def permissive_options(self) -> Any:
+        """Return the options that sources outside of a project are read by: what they permit becomes a warning."""
+        return self.options()
+
+    def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+        """Return option values that suit a model better than the defaults, for `init`.
+
+        `diagnostics` are those of reading it by `permissive_options`.
+        """
         return ()
 
     def option_for(self, path: str, target: Target, options: Any) -> str:

@@ -56,6 +56,14 @@ def said(execute: Execute, *arguments: str) -> tuple[int, list[str]]:
     return printed.code, printed.lines
 
 
+def test_a_file_with_a_loop_is_compared(arm: Path, execute: Execute) -> None:
+    new = arm / "new.urdf"
+    new.write_text(new.read_text().replace("</robot>", '<loop_joint name="bar"/></robot>'))
+    printed = execute("diff", "new.urdf", "--against", "arm.urdf", code=1)
+    assert "54 → 60" in printed.out
+    assert "warning: <loop_joint> bar closes a loop of links, and is left out of the model" in printed.words
+
+
 def refused(execute: Execute, *arguments: str) -> str:
     """The only complaint of a command, which exits with 2."""
     printed = execute("diff", *arguments, code=2)
@@ -259,7 +267,7 @@ def test_one_file_is_no_older_version_of_several_sources(project: Path, execute:
 
 
 def test_what_is_not_modelled_gives_the_same_package(arm: Path, execute: Execute) -> None:
-    edit("arm.urdf", "</robot>", '<transmission name="t"/></robot>')
+    edit("arm.urdf", "</robot>", '<transmission name="t"><joint name="elbow"/></transmission></robot>')
     (arm / "new.urdf").write_text(ARM)
     code, lines = said(execute, "arm.urdf", "--against", "new.urdf")
     assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")

@@ -54,6 +54,17 @@ def test_choices_are_named(execute: Execute, folder: Path) -> None:
     config.load(folder / "urdfsync.toml")
 
 
+def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> None:
+    (folder / "arm.urdf").write_text('<robot name="arm"><link name="world"/>\n<loop_joint name="bar"/></robot>')
+    said = execute("init", "arm.urdf")
+    assert "arm.urdf:2: warning: <loop_joint> bar closes a loop of links" in said.words
+    assert '    allow = ["loop-joint"]  guessed: the model leaves this out, see the warnings' in said.lines
+    assert "[loop-joint]" in execute("build").err
+    (folder / "leg.urdf").write_text('<robot name="leg"><link name="world"/><inertial/></robot>')
+    execute("add", "leg.urdf")
+    execute("build")
+
+
 def test_an_existing_file_is_never_overwritten(project: Path, execute: Execute) -> None:
     before = (project / "urdfsync.toml").read_bytes()
     assert execute(*INIT, "ladder.json", code=2).err.startswith(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import sys
 import time
 from pathlib import Path
@@ -85,6 +86,28 @@ def test_yaml_makes_no_objects(folder: Path, text: str, line: int) -> None:
     assert not Path("hacked").exists()
 
 
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (gzip.compress(b"a: 1"), "numbers.yaml:1: error: the file is packed by gzip"),
+        ("a: é".encode("latin-1"), "numbers.yaml:1: error: this is not UTF-8; save it as UTF-8 [xacro]"),
+    ],
+)
+def test_yaml_that_is_no_text_is_named(folder: Path, content: bytes, message: str) -> None:
+    inputs = write(folder, value("xacro.load_yaml('numbers.yaml')['a']"))
+    (folder / "numbers.yaml").write_bytes(content)
+    assert problem(inputs).startswith(message)
+
+
+def test_a_merge_conflict_is_told(folder: Path) -> None:
+    found = problem(write(folder, "<<<<<<< HEAD\n<link/>\n=======\n>>>>>>> other"))
+    assert (
+        found
+        == "arm.urdf.xacro:2: error: the file has merge conflict markers; resolve the merge, then build again "
+        + ("[merge-conflict]")
+    )
+
+
 def test_the_folder_is_that_of_the_configuration(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     inputs = write(folder, '<link name="$(cwd)"/>')
     monkeypatch.chdir("/")
@@ -105,8 +128,36 @@ def test_an_endless_expression_is_ended(folder: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(expansion, "CPU_SECONDS", 1.0)
     begin = time.monotonic()
     found = problem(write(folder, value(expression)))
+    assert "arm.urdf.xacro:" in found
     assert "expanding it takes more than 1 s or 1 GB" in found
     assert time.monotonic() - begin < expansion.WALL_SECONDS
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such limits")
+def test_the_line_that_takes_too_long_is_told(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(expansion, "CPU_SECONDS", 0.5)
+    inputs = write(folder, '<xacro:include filename="more.xacro"/>')
+    endless = value("[0 for i in range(10**15) if i == -1]")
+    (folder / "more.xacro").write_text(f"{xacros.HEAD.format('more')}\n\n{endless}</robot>")
+    assert problem(inputs).startswith("more.xacro:4: error: expanding it takes more than 0.5 s")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (gzip.compress(xacros.ARM.encode()), "packed by gzip; unpack it (`gunzip < FILE > ROBOT.urdf`)"),
+        (b"PK\x03\x04zip", "a zip archive; unpack it (`unzip FILE`)"),
+        (b"launch:\n- node:\n", "a launch file of ROS, not URDF; name the URDF or xacro file that it loads"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "a Git LFS pointer, not the robot; run `git lfs pull`"),
+    ],
+)
+def test_what_is_no_xacro_is_called_what_it_is(folder: Path, content: bytes, message: str) -> None:
+    inputs = write(folder, '<xacro:include filename="more.xacro"/>')
+    for name in ("more.xacro", "arm.urdf.xacro"):
+        (folder / name).write_bytes(content)
+        found = problem(inputs)
+        assert found.startswith(f"{name}:1: error: ")
+        assert message in found
 
 
 @pytest.mark.parametrize(

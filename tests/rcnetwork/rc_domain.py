@@ -167,7 +167,11 @@ class RcNetwork(Domain):
             meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
         return meanings
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
+    def propose(
+        self,
+        snapshot: Snapshot,
+        diagnostics: Sequence[Diagnostic],
+    ) -> Sequence[Proposal]:
         nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
         has = GROUND in nodes
         return (Proposal("ground", has, f"{'a' if has else 'no'} node is named {GROUND}"),)

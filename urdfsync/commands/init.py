@@ -154,14 +154,15 @@ def _guess(
     values = given if source.suffix == ".xacro" else {}
     text = source_files.read_file_source(source, values, config.ros_package_path(os.environ))
     with text.locating():
-        snapshot, reading = source_files.read(domain, domain.options(), text.content, text.name)
+        snapshot, reading = source_files.read(domain, domain.permissive_options(), text.content, text.name)
     stem = source.name.partition(".")[0][:_LONGEST]
     name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
     name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
     names = set(map(str.casefold, taken))
     counts = ("", *map(str, range(2, len(taken) + 2)))
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
-    guess = Guess(name + count, path.as_posix(), values, package + count, tuple(domain.propose(snapshot)))
+    proposals = tuple(domain.propose(snapshot, reading.diagnostics))
+    guess = Guess(name + count, path.as_posix(), values, package + count, proposals)
     return guess, tuple(map(text.locate, reading.diagnostics))
 
 

@@ -66,7 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     source, target = named[0], _target(args, named[0], file)
     text = sources.read_file_source(source, given, config.ros_package_path(os.environ))
     with text.locating():
-        snapshot, reading = sources.read(domain, domain.options(), text.content, text.name)
+        snapshot, reading = sources.read(domain, domain.permissive_options(), text.content, text.name)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
     found = domain.record(reading, shown(source), target, domain.options())
     if found is None:

@@ -120,9 +120,9 @@ def find_sources(
 
 
 def _robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source that is in no configuration, with default settings."""
+    """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
     name = class_name(path.name.partition(".")[0])
-    options = registry.domain(_DOMAIN).options()
+    options = registry.domain(_DOMAIN).permissive_options()
     return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)
 
 

@@ -11,7 +11,7 @@ import os
 import re
 import shlex
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -111,9 +111,9 @@ class Inputs:
         except (IndexError, ValueError):  # not from here
             return []
 
-    def paths(self, known: Expansion) -> list[Path]:
-        """Return the paths of all files that a source was made of."""
-        return [path for path in map(self.path, known.files) if path is not None]
+    def paths(self, names: Iterable[str]) -> list[Path]:
+        """Return the paths of those files, or patterns, that are on this machine."""
+        return [path for path in map(self.path, names) if path is not None]
 
 
 def file_hash(path: Path) -> str | None:
@@ -146,8 +146,10 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
-        place, hint = (file, problem.line), _HINTS.get(problem.code, _HINTS["xacro"])
-        raise SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
+        place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
+        error = SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
+        error.reads, error.patterns = tuple(answer.files), answer.patterns
+        raise error
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(

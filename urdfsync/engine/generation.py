@@ -205,16 +205,23 @@ def generate_robot(inputs: Inputs) -> Generation:
         *source.check_options(inputs.config, robot, domain, snapshot),
         *check_declared(inputs, snapshot),
     )
+    dependencies = inputs.dependencies(snapshot, reading.lines)
     imported = imports.bring_in(
         domain,
-        inputs.dependencies(snapshot, reading.lines),
+        dependencies,
         inputs.recorded_imports,
         shown(robot.source),
         options.full or inputs.has_moved,  # no copy of a former folder serves: it may be the user's
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
-    said = domain.import_findings(imported.imports)
-    found += (*imported.diagnostics, *(msgspec.structs.replace(one, file=shown(robot.source)) for one in said))
+    lines = {one.key: one.line for one in dependencies}
+    found += (
+        *imported.diagnostics,
+        *(
+            msgspec.structs.replace(one, file=shown(robot.source), line=lines.get(key, 0))
+            for key, one in domain.import_findings(imported.imports)
+        ),
+    )
     now = Version(snapshot, imported.imports)
     package = _package(inputs, now, robot.target, robot.options)
     changed = frozenset(package.artifacts)

@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import os
 import re
+import signal
 import sys
+import time
 import types
 import xml.dom
 import xml.dom.minidom
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, cast
 from xml.dom import expatbuilder
 from xml.parsers import expat
 
@@ -24,12 +27,18 @@ import msgspec
 
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.engine import ros_packages
+from urdfsync.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
+
+if sys.platform != "win32":
+    import resource
 
 _FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
 """Events of Python that no expansion needs, by how their names begin; but for these."""
 _ALLOWED = ("os.listdir", "os.scandir", "os.walk")
+_GRACE = 2
+"""Seconds of CPU time after which native code that does not return is ended."""
 _PLACE = "place"
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """How lines begin by which xacro says where it is."""
@@ -56,6 +65,12 @@ class Problem(msgspec.Struct, frozen=True):
     message: str
     file: str = ""
     line: int = 0
+    hint: str = ""
+    """Better advice than that of the code."""
+
+
+class TimeLimitError(Exception):
+    """The CPU time is over."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -79,6 +94,14 @@ class Answer(msgspec.Struct, frozen=True):
 
 class PackageNotFoundError(Exception):
     """There is no ROS package of this name."""
+
+
+class NotTextError(Exception):
+    """A file that is read as text is none."""
+
+    def __init__(self, file: str, content: bytes) -> None:
+        super().__init__(file)
+        self.file, self.content = file, content
 
 
 class _Asked(dict[str, str]):
@@ -124,6 +147,13 @@ class _File(io.TextIOWrapper):
 
     name = ""
 
+    def read(self, size: int | None = -1) -> str:
+        """Read some or all of the text. Raises NotTextError."""
+        try:
+            return super().read(size)
+        except UnicodeDecodeError:
+            raise NotTextError(self.name, cast(io.BytesIO, self.buffer).getvalue()) from None
+
 
 class _Builder(expatbuilder.ExpatBuilderNS):
     """Builds a document whose elements have the file and line that they are from."""
@@ -162,7 +192,10 @@ def expand(request: Request) -> Answer:
     folders = [Path(folder) for folder in request.package_paths]
 
     def find(name: str) -> str:
-        if (folder := ros_packages.find_package(name, folders, Path(request.source))) is None:
+        source = Path(request.source)
+        if (folder := ros_packages.find_package(name, folders, source)) is None:
+            places = (str(place / name / "package.xml") for place in (*folders, *source.parents))
+            files.hashes.update(dict.fromkeys(places))
             raise PackageNotFoundError(name)
         packages[name] = str(folder)
         return packages[name]
@@ -179,6 +212,7 @@ def expand(request: Request) -> Answer:
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
+        _raise_at_limit(request.seconds)
         with limits(request.seconds, request.memory), contextlib.redirect_stderr(said):
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
@@ -199,6 +233,23 @@ def expand(request: Request) -> Answer:
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,
     )
+
+
+def _raise_at_limit(seconds: float) -> None:
+    """Have TimeLimitError raised when `limits` would end the process, so that it is known where it was.
+
+    Native code, which nothing is raised in, is ended a little later.
+    """
+    if sys.platform == "win32":
+        return
+
+    def stop(*_: object) -> None:
+        raise TimeLimitError
+
+    signal.signal(signal.SIGPROF, stop)
+    end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
+    if hardest == resource.RLIM_INFINITY or end < hardest:
+        resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
 
 
 def _refuse_events(patterns: dict[str, None]) -> None:
@@ -251,8 +302,13 @@ def _problem(error: BaseException, current: str) -> Problem:
             return Problem("no-package", f"there is no package `{cause}`", file, line)
         case RecursionError():
             return Problem("xacro", "it includes or calls itself without end", file, line)
-        case MemoryError():
+        case MemoryError() | TimeLimitError():
             return Problem("xacro-limits", "", file, line)
+        case expat.ExpatError() if (kind := _kind(read_unrecorded(current))) is not None:
+            return Problem(kind.code, kind.message, current, kind.line, kind.hint)
+        case NotTextError():
+            kind = _kind(cause.content) or FileKind("xacro", "this is not UTF-8", "save it as UTF-8")
+            return Problem(kind.code, kind.message, cause.file, kind.line, kind.hint)
         case expat.ExpatError():
             return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
         case OSError() if cause.filename:
@@ -263,6 +319,11 @@ def _problem(error: BaseException, current: str) -> Problem:
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)
     return Problem("xacro", message or type(cause).__name__, file, line)
+
+
+def _kind(content: bytes) -> FileKind | None:
+    """Return what a file is that can't be read as xacro or YAML."""
+    return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
 
 def main() -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import get_args
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import (
@@ -30,9 +31,9 @@ from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.meshes.lookup import TEXTURED, dependencies, mentioned_files
+from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
 from urdfsync.urdf.names import identify
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
@@ -66,7 +67,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "not-in-record", "planar-not-generic", "texture"),
+        *("mass-jump", "mesh-colors", "not-in-record", "planar-not-generic", "texture"),
     }
 )
 
@@ -126,23 +127,34 @@ class UrdfDomain(Domain):
 
         return convert(dependency, file, content, others)
 
-    def import_findings(self, imports: Mapping[str, Import]) -> Sequence[Diagnostic]:
-        """Return a note if textures become colours."""
+    def import_findings(self, imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
+        """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
+        for key, one in imports.items():
+            if missing := one.facts.get(COLORLESS):
+                message = f"mesh `{mesh(key).filename}` lacks colours: "
+                hint = "put what is missing beside the mesh, or give the visual a <material>"
+                yield key, Diagnostic(Severity.WARNING, "mesh-colors", message + "; ".join(missing), hint=hint)
         count = sum(bool(one.facts.get(TEXTURED)) for one in imports.values())
-        if not count:
-            return ()
-        message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
-        return (Diagnostic(Severity.NOTE, "texture", message),)
+        if count:
+            message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
+            yield "", Diagnostic(Severity.NOTE, "texture", message)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """Hold the names in `driven` and `frames` against the robot."""
         return option_names.check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
 
-    def propose(self, snapshot: Snapshot) -> Sequence[Proposal]:
-        """Guess whether the robot is mobile."""
+    def permissive_options(self) -> Options:
+        """Allow all that can be left out of a model."""
+        return Options(allow=get_args(LeftOut))
+
+    def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+        """Guess whether the robot is mobile; allow what has to be left out."""
         from urdfsync.urdf.kinematics.base_guess import guess_base
 
-        return (guess_base(from_snapshot(snapshot)),)
+        base, codes = guess_base(from_snapshot(snapshot)), {found.code for found in diagnostics}
+        if not (needed := [code for code in get_args(LeftOut) if code in codes]):
+            return (base,)
+        return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))
 
     def option_for(self, path: str, target: Target, options: Options) -> str:
         """Return the option that brings the record of the whole robot."""

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import spelling
+from urdfsync import file_kinds, spelling
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -45,11 +45,7 @@ _ERRORS = {
     # the file
     "file-empty": f"export the robot again, or {_WAIT}",
     "file-encoding": "save the file as UTF-8, or name its encoding in the XML declaration",
-    "lfs-pointer": "run `git lfs pull`",
-    "compressed": "unpack it (`gunzip -k FILE`), and name what is in it",
-    "robot-description": "save the text of `robot_description` as a file, and name that",
-    "launch-file": "name the URDF or xacro file that it loads, with what it passes as `arguments`",
-    "merge-conflict": "resolve the merge, then build again",
+    **file_kinds.HINTS,
     "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
     "not-urdf": "export URDF, and name that file",
@@ -75,6 +71,7 @@ _ERRORS = {
     "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
     # numbers and relations
     "negative-mass": "correct the mass; a massless link has none, or 0",
+    "negative-inertia": "correct its sign",
     "zero-axis": 'write for example xyz="0 0 1"',
     "limit-order": "exchange or correct the limits",
     "unknown-mimic": "add the joint, or correct its name",
@@ -338,6 +335,9 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
             if value is not None and value < 0:
                 message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
                 yield Finding("negative-limit", f"{path} / limit", message)
+    rotor = joint.transmission.rotor_inertia if joint.transmission and kind.motion else None
+    if rotor is not None and rotor < 0:
+        yield Finding("negative-inertia", path, f"{path}: the inertia {rotor:g} of its rotor is negative")
     if dynamics := joint.dynamics:
         losses = ("damping", dynamics.damping), ("friction", dynamics.friction)
         if not kind.has_axis and any(value for _, value in losses):
@@ -348,7 +348,7 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
             yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
         elif dynamics.armature is not None and dynamics.armature < 0:
             message = f"{path}: the armature {dynamics.armature:g} is negative"
-            yield Finding("negative-dynamics", f"{path} / dynamics", message)
+            yield Finding("negative-inertia", f"{path} / dynamics", message)
         for name, value in losses if kind.has_axis else ():
             if value < 0:
                 message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"

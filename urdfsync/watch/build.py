@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, UrdfsyncError, internal_error
+from urdfsync.diagnostics import Diagnostic, SourceError, UrdfsyncError, internal_error
 from urdfsync.engine import source
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -21,7 +21,7 @@ _MANY = 3
 
 def judge_source(
     config: Config, robot: RobotConfig, paths: RobotPaths, options: BuildOptions
-) -> tuple[tuple[Diagnostic, ...], int]:
+) -> tuple[SourceError | None, int]:
     """Return why the source of a robot is invalid, and how many elements of the last build it lacks, 0 for a few."""
     try:
         text = source.read_source(config, robot, Store(config.root), options)
@@ -29,12 +29,14 @@ def judge_source(
         with text.locating():
             snapshot, _ = source.read(domain, robot.options, text.content, text.name)
         by_kind = domain.names(snapshot, robot.target)
+    except SourceError as error:
+        return error, 0
     except UrdfsyncError as error:
-        return error.diagnostics, 0
+        return SourceError(*error.diagnostics), 0
     except Exception as error:  # noqa: BLE001 - a bug in a domain must not end the daemon; nothing is written yet
-        return (internal_error(error, f"{shown(robot.source)} can't be read: "),), 0
+        return SourceError(internal_error(error, f"{shown(robot.source)} can't be read: ")), 0
     lost = len(paths.built_names - {(kind, name) for kind, names in by_kind.items() for name in names})
-    return (), lost if lost >= _MANY and 2 * lost > len(paths.built_names) else 0
+    return None, lost if lost >= _MANY and 2 * lost > len(paths.built_names) else 0
 
 
 def build_robots(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:

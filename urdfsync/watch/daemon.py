@@ -20,7 +20,7 @@ import msgspec
 
 from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
@@ -316,10 +316,10 @@ class Daemon:
                 self._listener(events.Unchanged(watched.name))
             self._rest(watched)
             return False
-        errors, lost = build.judge_source(self._config, watched.robot, watched.paths, self._build_options)
-        if errors:
-            self._watch_culprits(watched, errors)
-            self._wait_for_valid(watched, errors, now)
+        error, lost = build.judge_source(self._config, watched.robot, watched.paths, self._build_options)
+        if error is not None:
+            self._watch_culprits(watched, error)
+            self._wait_for_valid(watched, error.diagnostics, now)
             return False
         source = watched.files[str(watched.robot.source)].sha256
         if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
@@ -329,11 +329,12 @@ class Daemon:
             return False
         return True
 
-    def _watch_culprits(self, watched: WatchedRobot, errors: Sequence[Diagnostic]) -> None:
-        """Watch the files that errors name: xacro may have read one that no build has recorded yet."""
-        named = {os.path.abspath(error.file) for error in errors if error.file}  # noqa: PTH100
-        if not named <= watched.files.keys():
-            watched.paths = msgspec.structs.replace(watched.paths, inputs=watched.paths.inputs | named)
+    def _watch_culprits(self, watched: WatchedRobot, error: SourceError) -> None:
+        """Watch what xacro has read, or looked for, that no build has recorded yet."""
+        paths = watched.paths
+        found = paths.inputs.union(error.reads), paths.patterns.union(error.patterns)
+        if found != (paths.inputs, paths.patterns):
+            watched.paths = msgspec.structs.replace(paths, inputs=found[0], patterns=found[1])
             watched.read_files()
             self._watch_folders()
 

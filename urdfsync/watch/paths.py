@@ -6,6 +6,7 @@ Paths are strings here, since there are thousands of them and they are looked at
 from __future__ import annotations
 
 import contextlib
+import glob
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -37,21 +38,25 @@ class RobotPaths(msgspec.Struct, frozen=True):
     """Files of the package, of the packages around it, and of the recorded state."""
     built_names: frozenset[tuple[str, str]] = frozenset()
     """Kind and name of each element in the last build."""
+    patterns: frozenset[str] = frozenset()
+    """By which xacro looks for files."""
 
 
 def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them."""
-    store, state = Store(config.root), None
+    store, state, patterns = Store(config.root), None, frozenset[str]()
     inputs = {str(config.file), str(robot.source)}
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         state = store.load(robot.name)
         if (expanded := store.load_expansion(robot.name)) is not None:
             folders = (*robot.package_paths, *package_paths)
-            inputs.update(map(str, Inputs(config.root, robot.source, folders).paths(expanded)))
+            known = Inputs(config.root, robot.source, folders)
+            inputs.update(map(str, known.paths(expanded.files)))
+            patterns = frozenset(map(str, known.paths(expanded.patterns)))
             outputs.add(str(store.expansion(robot.name)))
     if state is None:
-        return RobotPaths(frozenset(inputs), frozenset(outputs))
+        return RobotPaths(frozenset(inputs), frozenset(outputs), patterns=patterns)
     prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
     outputs.update(placed(prefix, key) for key in state.files)
     inputs.update(_dependencies(robot, state, package_paths))
@@ -59,7 +64,7 @@ def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence
     with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
         found = registry.domain(robot.domain).names(state.snapshot or {}, robot.target)
         names = frozenset((kind, name) for kind, identifiers in found.items() for name in identifiers)
-    return RobotPaths(frozenset(inputs), frozenset(outputs), names)
+    return RobotPaths(frozenset(inputs), frozenset(outputs), names, patterns)
 
 
 def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Path]) -> Iterator[str]:
@@ -123,8 +128,9 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
             folder, _, file = path.rpartition(os.sep)
             by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
         trees.setdefault(add(str(robot.folder), name), set())
-        if robot.templates:
-            trees.setdefault(add(str(robot.templates), name), set()).add(name)
+        looked_through = [_folder_of(pattern) for pattern in own.patterns]
+        for tree in [*looked_through, *([str(robot.templates)] if robot.templates else [])]:
+            trees.setdefault(add(tree, name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
     in_trees = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)  # a file that is missing there may come, as any below it
@@ -137,6 +143,13 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
         if os.path.exists(path) if folder in above else os.path.isdir(folder):  # noqa: PTH110, PTH112
             watched.add(folder)
     return WatchedPaths(by_path, frozenset(watched), trees)
+
+
+def _folder_of(pattern: str) -> str:
+    """Return the folder below which all files are that a pattern matches."""
+    while glob.has_magic(pattern):
+        pattern = os.path.dirname(pattern)  # noqa: PTH120
+    return pattern
 
 
 def _way_to(path: str) -> list[str]:

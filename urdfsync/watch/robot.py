@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import glob
 import math
 import os
 import stat
@@ -111,10 +112,12 @@ class WatchedRobot(msgspec.Struct):
         return {path: state.sha256 for path, state in self.files.items()}
 
     def read_files(self) -> Hashes:
-        """Read all inputs, those in the template folder included, and all outputs."""
+        """Read all inputs, those in the template folder and those that patterns match included, and all outputs."""
         inputs, outputs, templates = set(self.paths.inputs), self.paths.outputs, self.robot.templates
         for folder, _, names in os.walk(templates) if templates else ():
             inputs.update(os.path.join(folder, name) for name in names)  # noqa: PTH118
+        for pattern in self.paths.patterns:
+            inputs.update(glob.glob(pattern))  # noqa: PTH207 - as xacro does
         known = self.files
         self.files = {path: read_state(path, known.get(path)) for path in inputs}
         self.files |= {path: read_state(path, known.get(path), follow=False) for path in outputs}

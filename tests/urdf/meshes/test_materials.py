@@ -13,7 +13,7 @@ from support.commands import Execute
 from urdfsync import config
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes.convert import convert
-from urdfsync.urdf.meshes.lookup import BOUNDS, COLORS, PARTS, TEXTURED, key, mentioned_files, target
+from urdfsync.urdf.meshes.lookup import BOUNDS, COLORLESS, COLORS, PARTS, TEXTURED, key, mentioned_files, target
 from urdfsync.urdf.robot import Mesh
 from urdfsync.watch.paths import find_robot_paths
 
@@ -98,6 +98,7 @@ def test_an_obj_file_becomes_a_file_for_each_colour() -> None:
     found = converted("a.obj", OBJ, {"paint.mtl": PAINT, "textures/wood.png": picture()})
     assert found.facts[PARTS] == [[255, 0, 0], [0, 100, 0]]
     assert found.facts[TEXTURED]
+    assert found.facts[COLORLESS] == []
     (wood,) = found.more
     assert found.content.count(b"\nf ") == 2
     assert (wood.content.count(b"v "), wood.content.count(b"\nf ")) == (4, 2)
@@ -109,6 +110,28 @@ def test_a_texture_that_is_too_large_to_be_read_in_time_has_no_colour() -> None:
     Image.new("1", (6000, 6000)).save(file, "png")
     found = converted("a.obj", OBJ, {"paint.mtl": PAINT, "textures/wood.png": file.getvalue()})
     assert found.facts[PARTS] == [[255, 0, 0], [51, 51, 51]]
+    assert found.facts[COLORLESS] == ["texture `textures/wood.png` is no picture of up to 5,000,000 pixels"]
+
+
+MISSING = {
+    "no library": (OBJ, {}, ["library `paint.mtl` not found", "no colour of materials `red paint`, `wood`"]),
+    "no material": (OBJ, {"paint.mtl": b"newmtl wood\nKd 1 1 1"}, ["no colour of material `red paint`"]),
+    "no texture": (OBJ, {"paint.mtl": PAINT}, ["texture `textures/wood.png` not found"]),
+    "no use of a library": (OBJ.replace(b"mtllib", b"#"), {}, []),
+    "a library elsewhere": (OBJ.replace(b"mtllib ", b"mtllib /etc/"), {},
+        ["no colour of materials `red paint`, `wood`"]),
+    "two libraries on a line": (OBJ.replace(b"mtllib", b"mtllib red paint.mtl"),
+        {"red paint.mtl": b"newmtl red paint\nKd 1 0 0\n", "paint.mtl": b"newmtl wood\nKd 0 0 1\n"}, []),
+    "COLLADA": (dae(texture=True), {}, ["texture `wood grain.png` not found"]),
+    "COLLADA, damaged": (dae(texture=True), {"wood grain.png": b"?"},
+        ["texture `wood grain.png` is no picture of up to 5,000,000 pixels"]),
+    "COLLADA, not bound": (dae(bound="stone"), {}, ["no colour of material `first`"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("content", "others", "missing"), MISSING.values(), ids=MISSING)
+def test_colours_that_are_missing_are_told(content: bytes, others: Mapping[str, bytes], missing: list[str]) -> None:
+    assert converted("a.dae" if b"COLLADA" in content else "a.obj", content, others).facts[COLORLESS] == missing
 
 
 def test_the_whole_stays_where_something_else_needs_it() -> None:
@@ -153,11 +176,13 @@ def test_of_many_colours_those_of_the_smallest_parts_are_left_out() -> None:
     found = converted("a.obj", b"mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces.encode(), {"p.mtl": paint.encode()})
     assert len(found.facts[PARTS]) == 21
     assert found.facts[PARTS][-1] is None
+    assert found.facts[COLORLESS] == ["it has more than 20 colours"]
     assert sum(one.content.count(b"\nf ") for one in (found, *found.more)) == sum(range(1, 41))
 
 
 @pytest.mark.parametrize(("name", "content", "mentioned"), [
     ("a.obj", b"mtllib my paint.mtl\r\n", ["my paint.mtl"]),
+    ("a.obj", b"mtllib a.mtl my b.MTL\tc.mtl\nmtllib d\n", ["a.mtl", "my b.MTL", "c.mtl", "d"]),
     ("lib/a.mtl", b"  map_Kd -bm 1.0 -clamp on wood grain.png\n", ["lib/wood grain.png"]),
     ("a.dae", b"<init_from>../textures/a%20b.png</init_from><init_from>b</init_from>", ["../textures/a b.png", "b"]),
     ("a.dae", b"<init_from>file:///etc/a.png</init_from><init_from>/etc/b.png</init_from>", []),
@@ -200,7 +225,10 @@ def test_a_change_of_another_file_is_a_change_of_the_mesh(painted: Path, execute
     execute("build")
     assert "color = {0, 0, 255}" in record()
     (painted / "meshes/textures/wood.png").unlink()
-    execute("build")
+    for _ in range(2):
+        said = execute("build").words
+        assert "arm.urdf:1: warning: mesh `meshes/a.obj` lacks colours: " in said
+        assert "texture `textures/wood.png` not found; put what is missing beside the mesh" in said
     assert "color = {51, 51, 51}" in record()
 
 

@@ -120,10 +120,21 @@ def test_a_faulty_number_of_a_gear_is_a_warning_and_left_out(element: str, code:
     assert elbow(reading).transmission is None
 
 
-def test_a_rotor_of_negative_inertia_is_told_and_kept() -> None:
+def test_a_rotor_of_negative_inertia_is_an_error() -> None:
     reading = read(transmission("", '<drake:rotor_inertia value="-1"/>'))
-    assert "negative-dynamics" in {found.code for found in reading.diagnostics}
-    assert elbow(reading).transmission == Transmission(rotor_inertia=-1.0)
+    assert {found.code: str(found.severity) for found in reading.diagnostics}["negative-inertia"] == "error"
+    assert reading.robot is None
+
+
+def test_a_drive_counts_on_a_joint_with_an_axis_only() -> None:
+    content = urdfs.robot(
+        *map(urdfs.link, "ab"),
+        urdfs.joint("elbow", "fixed", "a", "b"),
+        transmission("", '<mechanicalReduction>5</mechanicalReduction><drake:rotor_inertia value="-1"/>'),
+    )
+    reading = read_robot(content.encode(), "own.urdf")
+    assert [found.code for found in reading.diagnostics] == ["xml-prefix"]
+    assert [note.message for note in reading.unmodelled] == ["not modelled: 1 transmission (t)"]
 
 
 def test_of_two_gears_the_first_counts() -> None:

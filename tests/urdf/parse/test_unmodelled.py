@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from support import corpus as corpora
-from support.urdfs import joint, link, robot
+from support.urdfs import joint, limit, link, robot
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.urdf.parse.source import read_robot
@@ -56,6 +56,110 @@ def test_sensors_without_a_model_or_a_place_are_named() -> None:
         '<ros2_control name="c" type="sensor"><sensor name="pose"><state_interface name="x"/></sensor></ros2_control>',
     )
     assert note.message == "not modelled: 2 sensors (free, pose)"
+
+
+GEAR = "<mechanicalReduction>50</mechanicalReduction>"
+SIMPLE = "<type>transmission_interface/SimpleTransmission</type>"
+LEFT_OUT = {
+    "of a transmission": (
+        f"""<transmission name="t">{SIMPLE}<joint name="j"><hardwareInterface>E</hardwareInterface></joint>
+        <actuator name="m">{GEAR}<hardwareInterface>E</hardwareInterface></actuator></transmission>""",
+        "2 transmission settings (hardwareInterface)",
+    ),
+    "a gear of a joint that does not move": (
+        f'<transmission name="t">{SIMPLE}<joint name="k"/><actuator name="m">{GEAR}</actuator></transmission>',
+        "1 transmission (t)",
+    ),
+    "a gear of no joint": (f'<transmission name="t"><actuator name="m">{GEAR}</actuator></transmission>',
+        "1 transmission (t)"),
+    "of ros2_control": (
+        """<ros2_control name="c" type="system"><hardware><plugin>p</plugin></hardware><gpio name="io"/>
+        <joint name="j" mimic="false"><command_interface name="effort"><param name="min">-1</param></command_interface>
+        <command_interface name="stiffness"/><state_interface name="position"><param name="initial_value">1</param>
+        </state_interface><state_interface name="heat"/></joint><joint name="k"/></ros2_control>""",
+        "8 ros2_control settings (hardware, gpio io, joint mimic, …)",
+    ),
+    "a gear of ros2_control": (
+        f"""<ros2_control name="c" type="system"><transmission name="t"><joint name="k"/>
+        <actuator name="m">{GEAR}</actuator></transmission></ros2_control>""",
+        "1 transmission (t)",
+    ),
+    "of a sensor": (
+        """<gazebo reference="arm"><sensor name="eye" type="camera"><always_on>1</always_on><camera><image>
+        <width>9</width><format>RGB8</format></image><noise><mean>0</mean></noise></camera></sensor></gazebo>""",
+        "3 sensor settings (always_on, format, noise)",
+    ),
+    "of a sensor of URDF": (
+        """<sensor name="eye" update_rate="3" id="4"><parent link="arm"/><origin xyz="0 0 1"/><camera><image
+        width="9" height="8" hfov="1" near="0" far="1" format="RGB8"/></camera><plugin name="p"/></sensor>""",
+        "2 sensor settings (sensor id, image format), 1 gazebo plugin (p)",
+    ),
+    "in a shape": (
+        """<link name="l"><visual><geometry><box size="1 1 1"><convex/></box></geometry><material name="m">
+        <color rgba="1 0 0 1"/><map/></material></visual></link><joint name="jl" type="fixed"><parent link="arm"/>
+        <child link="l"><more/></child><origin drake:x="1" rpy="0 0 0"><deep/></origin></joint>""",
+        "1 <convex> (link l), 1 <map> (link l), 1 <more> (joint jl), 1 <deep> (joint jl), 1 attribute (origin drake:x)",
+    ),
+    "of gazebo": ('<gazebo reference="arm" filter="x"><n/></gazebo>', "2 gazebo settings (gazebo filter, n)"),
+    "an attribute of a geometry": ('<link name="l"><visual><geometry name="g"><box size="1 1 1"/></geometry></visual>'
+        "</link>" + joint("jl", "fixed", "arm", "l"), "1 attribute (geometry name)"),
+    "limits of joints without": (
+        link("l") + link("m", 1.0) + joint("jl", "fixed", "arm", "l", inside=[limit()])
+        + joint("jm", "continuous", "arm", "m", inside=[limit()]),
+        "2 ineffective limits (joint jl, joint jm)",
+    ),
+    "many kinds of things": ("".join(f"<e{number}/>" for number in range(14)),
+        ", ".join(f"1 <e{number}>" for number in range(12)) + ", 2 other kinds of things"),
+    "of a contact": ('<link name="l"><collision><geometry><sphere radius="1"/></geometry><contact_coefficients mu="1"'
+        ' restitution="1"/></collision></link>' + joint("jl", "fixed", "arm", "l"),
+        "1 attribute (contact_coefficients restitution)"),
+    "a texture": (
+        '<material name="m"><color rgba="1 1 1 1"/><texture filename="a.png"/></material>', "1 <texture> (a.png)"
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("elements", "message"), LEFT_OUT.values(), ids=LEFT_OUT)
+def test_what_a_model_leaves_out_is_named(elements: str, message: str) -> None:
+    still = [link("tip"), joint("k", "fixed", "arm", "tip")]
+    reading = read_robot(robot(*TREE, *still, elements).encode(), "a.urdf")
+    assert [found.code for found in reading.diagnostics if found.code != "xml-prefix"] == []
+    assert [note.message for note in reading.unmodelled] == [f"not modelled: {message}"]
+
+
+def extensions(element: str) -> list[str]:
+    reading = read_robot(robot(*TREE, element).encode(), "a.urdf")
+    assert reading.robot is not None
+    return [extension.text for extension in reading.robot.extensions]
+
+
+IN_ARM = '<gazebo reference="arm">{}</gazebo>'
+MODELLED = {
+    "a gear": (f'<transmission name="t"><joint name="j"/>{GEAR}</transmission>', "50", "60"),
+    "a command": ('<ros2_control name="c"><joint name="j"><command_interface name="velocity"/></joint></ros2_control>',
+        "velocity", "effort"),
+    "a number": (IN_ARM.format('<sensor name="i" type="imu"><update_rate>100</update_rate><n/></sensor>'), "100", "99"),
+    "a pose": (IN_ARM.format('<sensor name="i" type="imu"><pose>0 0 1 0 0 0</pose><n/></sensor>'), "0 0 1", "0 0 2"),
+    "an image": (IN_ARM.format('<sensor name="i" type="camera"><camera><image><width>9</width></image></camera><n/>'
+        "</sensor>"), "9", "8"),
+    "an attribute": ('<sensor name="i" update_rate="1" n="0"><parent link="arm"/><ray><horizontal samples="9"/></ray>'
+        "</sensor>", 'samples="9"', 'samples="8"'),
+    "a place": ('<sensor name="i" type="imu" n="0"><parent link="arm"/></sensor>', "arm", "base"),
+    "a wrench": (IN_ARM.format('<sensor name="i" type="force_torque"><force_torque><frame>child</frame></force_torque>'
+        "<n/></sensor>"), "child", "parent"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("element", "old", "new"), MODELLED.values(), ids=MODELLED)
+def test_what_is_modelled_is_not_in_the_text_that_is_kept(element: str, old: str, new: str) -> None:
+    assert element.count(old) >= 1
+    found = extensions(element)
+    assert len(found) == 1
+    assert found == extensions(element.replace(old, new, 1))
+
+
+def test_an_element_that_is_modelled_as_a_whole_is_not_kept() -> None:
+    assert extensions(IN_ARM.format('<sensor name="i" type="imu"><pose>0 0 1 0 0 0</pose></sensor>')) == []
 
 
 def test_more_than_three_names_are_cut_off() -> None:

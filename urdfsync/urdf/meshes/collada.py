@@ -17,7 +17,7 @@ from lxml import etree
 from trimesh.exchange.dae import load_collada
 
 from urdfsync.urdf.meshes.geometry import Triangles, placed
-from urdfsync.urdf.meshes.materials import Color, collada_colors
+from urdfsync.urdf.meshes.materials import Color, collada_colors, unbound_materials
 from urdfsync.urdf.meshes.process import MeshError
 
 _NO_SHAPE = (
@@ -42,11 +42,11 @@ _MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 
 
 def collada_parts(
-    content: bytes, others: Mapping[str, bytes] | None = None
+    content: bytes, others: Mapping[str, bytes] | None = None, missing: list[str] | None = None
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError.
 
-    With their colours, if `others` has the textures; else without.
+    With their colours, if `others` has the textures; else without. `missing` gets in words which colours there are not.
     """
     root = _parse(content)
     unit = _unit(root)
@@ -56,7 +56,11 @@ def collada_parts(
     if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # which numpy counts from the end
         raise MeshError("one of its faces has an index that no vertex has")
     _place_skins(root)
-    colors = {} if others is None else _bound_colors(root, collada_colors(root, others))
+    colors: Mapping[etree._Element, Mapping[str, Color]] = {}
+    if others is not None and missing is not None:
+        by_name, without = collada_colors(root, others)
+        colors = _bound_colors(root, by_name)
+        missing += [*without, *unbound_materials(root, by_name)]
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
     _bind(root, colors)
     _move_once_per_node(root)
@@ -72,7 +76,7 @@ def collada_parts(
         yield color, Triangles(unit * points, faces)
 
 
-def _bound_colors(root: etree._Element, colors: Mapping[str, Color]) -> dict[etree._Element, dict[str, Color]]:
+def _bound_colors(root: etree._Element, colors: Mapping[str, Color | None]) -> dict[etree._Element, dict[str, Color]]:
     """Return the colours that each use of a geometry gives to the materials that its primitives name."""
     found = dict[etree._Element, dict[str, Color]]()
     for instance in root.iter("{*}instance_geometry"):

@@ -26,11 +26,12 @@ from urdfsync.urdf.robot import Mesh, Vector
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
 """Names of facts: all models need the first one, ground contacts the other as well."""
-PARTS, COLORS, TEXTURED = "parts", "colors", "textured"
+PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes whose own colours are drawn.
 
 `parts` has the colours of the files that a mesh becomes, `colors` those of the files that it becomes beside the whole,
-which something else needs. One colour is that of the whole. `textured` tells whether textures were found.
+which something else needs. One colour is that of the whole. `textured` tells whether textures were found,
+`colorless` in words which colours were not.
 """
 COLORED = (".dae", ".obj")
 """Formats whose colours are drawn."""
@@ -46,6 +47,8 @@ _MENTIONS = {
     ".dae": re.compile(rb"<init_from>([^<>]+)</init_from>"),
 }
 """Names of libraries of materials and of textures, in files of each suffix."""
+_LIBRARY = re.compile(rb"(?i)\S.*?\.mtl(?=\s|$)|\S.*")
+"""One of the libraries that a line names; names may have blanks in them."""
 _TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
 """What may stand before the name of a texture in a library of materials."""
 _UNFIT = "[\x00-\x1f\x7f\ud800-\udfff]"
@@ -88,7 +91,10 @@ def mentioned_files(name: str, content: bytes) -> list[str]:
     `name` is the path of the mesh, or of its library of materials, whose own names count from there.
     """
     path = PurePosixPath(name)
-    mentions = _MENTIONS[path.suffix.lower()].findall(content) if path.suffix.lower() in _MENTIONS else ()
+    suffix = path.suffix.lower()
+    mentions = _MENTIONS[suffix].findall(content) if suffix in _MENTIONS else ()
+    if suffix == ".obj":
+        mentions = [one for line in mentions for one in _LIBRARY.findall(line)]
     found = (path_of_mention(one) for one in mentions)
     return [str(path.parent / one) for one in dict.fromkeys(found) if one]
 
@@ -150,7 +156,7 @@ def _facts(places: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str,
     """Return the facts that are needed of a mesh: of its kinds of shape, with whether they have the mesh's colours."""
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in places) else ()
     colored = [is_colored for _, _, is_colored in places]
-    colors = (PARTS if all(colored) else COLORS, TEXTURED) if any(colored) else ()
+    colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
     return (BOUNDS, *hull, *colors)
 
 

@@ -12,6 +12,7 @@ from typing import IO, Any, TypeAlias, cast
 
 import msgspec
 
+from urdfsync.diagnostics import cut
 from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
@@ -22,6 +23,8 @@ MEMORY = 450_000_000
 WALL_SECONDS = 60.0
 """For one mesh, everywhere. A busy machine may need so long for the CPU time."""
 _LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
+_LONGEST = 300
+"""Characters of what a library says is wrong."""
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
@@ -106,7 +109,7 @@ class MeshProcess:
             finally:
                 timer.cancel()
         if answer.problem:
-            raise MeshError("".join(char if char.isprintable() else " " for char in answer.problem[:300]))
+            raise MeshError("".join(char if char.isprintable() else " " for char in cut(answer.problem, _LONGEST)))
         return list(zip(files, answer.facts, strict=True))
 
     def end(self) -> None:

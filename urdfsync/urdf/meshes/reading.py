@@ -15,7 +15,7 @@ import trimesh
 
 from urdfsync.urdf.meshes.collada import collada_parts
 from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
-from urdfsync.urdf.meshes.materials import Color, library_colors
+from urdfsync.urdf.meshes.materials import Color, library_colors, number_materials
 from urdfsync.urdf.meshes.process import MeshError
 
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
@@ -26,7 +26,6 @@ _FACES = {
 """How many faces a file announces."""
 _STL_COUNT = slice(80, 84)
 _STL_FACET = 50
-_USED_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]([^\r\n]+)", re.MULTILINE)
 _MOST_COLORS = 20
 """Of one mesh: each becomes a shape. What has one of the others is drawn in grey."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
@@ -50,26 +49,33 @@ def read_mesh(suffix: str, content: bytes) -> Triangles:
     return mesh
 
 
-def read_parts(suffix: str, content: bytes, others: Mapping[str, bytes]) -> tuple[dict[Color | None, Triangles], bool]:
+def read_parts(
+    suffix: str, content: bytes, others: Mapping[str, bytes]
+) -> tuple[dict[Color | None, Triangles], bool, list[str]]:
     """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for those without one.
 
-    `others` has the other files that it names. Also whether some of these are textures. Raises MeshError.
+    `others` has the other files that it names. Also whether some of these are textures, and in words which colours are
+    missing. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
+    missing: list[str] = []
     with _damage_is_an_error():
         if suffix == ".dae":
-            found = collada_parts(content, others)
+            found = collada_parts(content, others, missing)
         else:
-            found = _parts(suffix, content, library_colors(content, others))
+            colors, missing = library_colors(content, others)
+            found = _parts(suffix, content, colors)
         for color, triangles in found:
             by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
         joined([one for some in by_color.values() for one in some])  # which refuses none, and too many
         by_size = sorted(by_color, key=lambda color: sum(len(one.faces) for one in by_color[color]), reverse=True)
+        if len(by_size) - (None in by_size) > _MOST_COLORS:
+            missing.append(f"it has more than {_MOST_COLORS} colours")
         for color in by_size[_MOST_COLORS:]:
             by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
         parts = {color: joined(some) for color, some in by_color.items() if some}
     gc.collect()
-    return parts, any(content and not name.lower().endswith(".mtl") for name, content in others.items())
+    return parts, any(content and not name.lower().endswith(".mtl") for name, content in others.items()), missing
 
 
 @contextlib.contextmanager
@@ -99,10 +105,8 @@ def _parts(
         content = _one_solid(content)
     if suffix == ".obj":
         if colors:
-            used = list(dict.fromkeys(name.strip() for name in _USED_MATERIAL.findall(content)))
+            content, used = number_materials(content)
             by_name = {f"m{number}": colors.get(name) for number, name in enumerate(used)}
-            numbers = {name: b"usemtl m%d" % number for number, name in enumerate(used)}
-            content = _USED_MATERIAL.sub(lambda match: numbers[match[1].strip()], content)
             files["m"] = b"".join(b"newmtl m%d\n" % number for number in range(len(used)))
         content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.processes import limits, reserve_stdout
-from urdfsync.urdf.meshes.lookup import COLORS, TEXTURED
+from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
 from urdfsync.urdf.meshes.process import MEMORY, Answer, MeshError, Request
 
 if sys.platform != "win32":
@@ -48,14 +48,14 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
                 mesh, facts = geometry.import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
                 files, all_facts = [geometry.binary_stl(mesh)], [facts]
             else:
-                parts, is_textured = read_parts(request.suffix, content, others)
+                parts, is_textured, missing = read_parts(request.suffix, content, others)
                 meshes = [*parts.values()]
                 if len(parts) == 1 or request.colors == COLORS:
                     meshes = [geometry.joined(meshes), *(meshes if len(parts) > 1 else ())]
                 forms = [geometry.import_form(one, request.scale, request.with_hull) for one in meshes]
                 write = geometry.obj if request.as_obj else geometry.binary_stl
                 files, all_facts = [write(mesh) for mesh, _ in forms], [facts for _, facts in forms]
-                all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured}
+                all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
         return Answer(problem=str(error)), []
     return Answer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files

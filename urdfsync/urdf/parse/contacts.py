@@ -64,6 +64,8 @@ def _take(reader: Reader, element: Element, fields: Mapping[str, str], path: str
         if place in fields:
             said = child.get("value") or child.text or ""
             given = {fields[place]: said} if fields[place] else {key: child.get(key, "") for key in _COEFFICIENTS}
+            if not fields[place]:
+                reader.expect(child, place, _COEFFICIENTS)
             for field, text in given.items():
                 _add(reader, child, field, text.strip(), numbers)
             element.remove(child)

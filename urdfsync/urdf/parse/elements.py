@@ -56,7 +56,9 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
     number = 0
     for element in link.findall(tag):
         around = element.find("geometry")
-        shapes = [child for child in around if child.tag in _SHAPES] if around is not None else []
+        shapes, others = list[Element](), list[Element]()
+        for child in around if around is not None else ():
+            (shapes if child.tag in _SHAPES else others).append(child)
         if not shapes:
             message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
             reader.add(element, "unknown-geometry", message)
@@ -66,19 +68,27 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         if len(shapes) > 1:
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
-        geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind])
+        for child in others:
+            reader.extension(child, place, (), owner)
+        if around is not None:
+            reader.expect(around, f"{place} / geometry", ())
+        geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind], owner)
         if tag == "collision":
             yield reader.read(element, place, Collision, owner, geometry=geometry)
         else:
             found = element.find("material")
-            material = None if found is None else read_material(reader, found, f"{place} / material")
+            material = None if found is None else read_material(reader, found, f"{place} / material", owner)
             yield reader.read(element, place, Visual, owner, geometry=geometry, material=material)
 
 
-def read_material(reader: Reader, element: Element, path: str) -> Material:
+def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
     """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
     reader.expect(element, path, ("name",))
-    children = reader.children(element, path, ("color", "texture"))
+    children = reader.children(element, path, ("color", "texture"), owner)
+    for child, attribute in ((children.get("color"), "rgba"), (children.get("texture"), "filename")):
+        if child is not None:
+            reader.expect(child, f"{path} / {child.tag}", (attribute,))
+            reader.leave(child, path, owner)
     color, texture = children.get("color"), children.get("texture")
     rgba = None
     if color is not None:

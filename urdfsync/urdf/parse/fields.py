@@ -18,7 +18,7 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.parse.xml import canonical
 from urdfsync.urdf.robot import Extension, JointType, Vector
@@ -53,11 +53,10 @@ class Reader:
         """By path: see `RobotReading`."""
         self.diagnostics: list[Diagnostic] = []
         """Without the name of the file."""
-        self.extensions: list[Extension] = []
         self.modelled = set[Element]()
         """Of `kept` and the elements in them, those that something in the package shows."""
         self.kept: list[tuple[str, Element]] = []
-        """The elements that became extensions, each with its owner."""
+        """The elements that no struct asks for, each with its owner."""
         self.unknown: list[tuple[str, Element]] = []
         """Attributes that URDF does not know, each with its element."""
         self.allowed: Collection[str] = ()
@@ -72,7 +71,7 @@ class Reader:
         """Add a finding about an element."""
         found = diagnostic(code, message, self._lines_of_elements[element], hint)
         if code in self.allowed:
-            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="`allow` permits it")
+            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="a build needs `allow` for it")
         self.diagnostics.append(found)
 
     def extend(self, findings: Iterable[Finding]) -> None:
@@ -92,6 +91,10 @@ class Reader:
             self.add(element, "newer-attribute", message, f'write <robot version="{needed}" …>')
         for name in newer:
             del element.attrib[name]
+
+    def line(self, element: Element) -> int:
+        """Return the line of an element."""
+        return self._lines_of_elements[element]
 
     def place(self, element: Element, path: str) -> str:
         """Remember the line of an element; return its path."""
@@ -122,15 +125,46 @@ class Reader:
         if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
-        self.extensions.append(Extension(owner, child.tag, canonical(child)))
         self.kept.append((owner, child))
 
+    def leave(self, element: Element, path: str, owner: str | None) -> None:
+        """Keep all that is in an element which has only attributes."""
+        for child in element if owner is not None else ():
+            self.extension(child, path, (), owner or "")
+
+    def show(self, element: Element, *attributes: str) -> None:
+        """Note that the package shows what the text and some attributes of an element say."""
+        self.modelled.add(element)
+        for name in attributes:
+            element.attrib.pop(name, None)
+
+    def take_modelled(self) -> None:
+        """Take what is modelled out of the elements that are kept: a change there is none of their text."""
+        before = [(place, len(place[1])) for place in self.kept]
+        self.kept = [
+            (owner, element)
+            for (owner, element), parts in before
+            if self._has_rest(element) and (element.tag != "gazebo" or len(element) or not parts)
+        ]
+
+    def _has_rest(self, element: Element) -> bool:
+        """Take what is modelled out of an element; return whether anything is left of it."""
+        for child in list(element):
+            if not self._has_rest(child):
+                element.remove(child)
+        return element not in self.modelled or len(element) > 0 or bool(element.attrib.keys() - {"name"})
+
+    def extensions(self) -> tuple[Extension, ...]:
+        """Return what is kept as text."""
+        return tuple(Extension(owner, element.tag, canonical(element)) for owner, element in self.kept)
+
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
-        """Warn about attributes that look like misspelt ones of `attributes`."""
+        """Warn about attributes that look like misspelt ones of `attributes`; note all others that have no meaning."""
         for name in element.attrib:
-            if name in attributes or ":" in name or name == "xmlns":
+            if name in attributes or name == "xmlns" or name.startswith(("xmlns:", "xml:")):
                 continue
-            if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
+            others = [known for known in attributes if known not in element.attrib]
+            if ":" not in name and (hint := perhaps(name, others)):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
                 self.add(element, "unknown-attribute", message, hint)
             else:
@@ -142,6 +176,8 @@ class Reader:
         self.expect(element, path, attributes)
         own = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
         if not children:
+            if len(element):
+                self.leave(element, path, owner)
             return struct(*own)
         values = {**given, **dict(zip(attributes, own, strict=True))}
         found = self.children(element, path, children, owner)
@@ -152,11 +188,12 @@ class Reader:
             place = f"{path} / {name}"
             if name in _ONE_VALUE:
                 self.expect(child, place, (_ONE_VALUE[name],))
+                self.leave(child, place, owner)
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
                 if name == "origin" and "quat_xyzw" in child.attrib:
                     self._write_as_rpy(child, place)
-                values[name] = self.read(child, place, kind)
+                values[name] = self.read(child, place, kind, owner)
         for name in required:
             if name not in found:
                 self.add(element, "missing-element", f"{path} has no <{name}>")
@@ -247,8 +284,8 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
 
 
 def quoted(text: str) -> str:
-    """Return the text in quotes, cut off if it is long."""
-    return repr(text if len(text) <= _TEXT_SHOWN else text[:_TEXT_SHOWN] + "…")
+    """Return the text in quotes, cut if it is long."""
+    return repr(cut(text, _TEXT_SHOWN))
 
 
 def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:

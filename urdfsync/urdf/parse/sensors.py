@@ -67,23 +67,27 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
     told apart by where they are.
     """
     above, known = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
-    placed: dict[tuple[str, str], _Found] = {}
+    placed = list[_Found]()
     for one in _found(root):
         place = above.get(one.at, one.at) if one.kind == "force_torque" and one.at not in known else one.at
         path = reader.place(one.element, f"sensor {one.name}")
-        if place not in (known if one.kind == "force_torque" else links):
-            kind = "joint" if one.kind == "force_torque" else "link"
-            message = f"{path} is at {kind} {one.at!r}, which does not exist: it is left out"
-            reader.add(one.element, "unknown-sensor-place", message)
+        if place in (known if one.kind == "force_torque" else links):
+            placed.append(one._replace(at=place))
             continue
-        reader.modelled.add(one.element)
-        if placed.setdefault((one.name, place), one._replace(at=place)).kind != one.kind:
-            message = f"{place!r} has another {path}, and the first counts"
+        kind = "joint" if one.kind == "force_torque" else "link"
+        message = f"{path} is at {kind} {one.at!r}, which does not exist: it is left out"
+        reader.add(one.element, "unknown-sensor-place", message)
+    counts = Counter(name for name, _ in {(one.name, one.at) for one in placed})
+    sensors: dict[tuple[str, str], Sensor] = {}
+    for one in placed:
+        name = one.name if counts[one.name] == 1 else f"{one.at}/{one.name}"
+        sensor = _read(reader, one, name)
+        first = sensors.setdefault((one.name, one.at), sensor)
+        # ros2_control says of a sensor where and of which kind it is, and no number
+        if first.kind != sensor.kind or (first != sensor and one.element.find("state_interface") is None):
+            message = f"{one.at!r} has another sensor {one.name}, and the first counts"
             reader.add(one.element, "duplicate-element", message, "give each sensor a name of its own")
-    counts = Counter(name for name, _ in placed)
-    return tuple(
-        _read(reader, one, name if counts[name] == 1 else f"{at}/{name}") for (name, at), one in placed.items()
-    )
+    return tuple(sensors.values())
 
 
 def _found(root: Element) -> Iterator[_Found]:
@@ -114,6 +118,15 @@ def _elements(root: Element) -> Iterator[tuple[str, Element]]:
 
 def _read(reader: Reader, found: _Found, name: str) -> Sensor:
     element, path = found.element, f"sensor {found.name}"
+    reader.modelled.add(element)
+    if element.get("type") == found.kind:
+        del element.attrib["type"]
+    for child in element:
+        words = child.get("name", "")
+        is_frame = child.tag == "param" and words == "frame_id"
+        is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == found.kind
+        if child.tag == "parent" or is_frame or is_state:
+            reader.show(child, "link" if child.tag == "parent" else "name")
 
     def numbers(part: Element, places: Sequence[str], count: int = 1) -> tuple[float, ...] | None:
         for place in places:
@@ -123,13 +136,20 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
             if holder is None or text is None:
                 continue
             try:
-                return parse_numbers(text, count)
+                values = parse_numbers(text, count)
             except ValueError as error:
                 reader.add(holder, "bad-sensor", f"{path}: <{holder.tag}> {quoted(text.strip())} {error}")
+                continue
+            while where:
+                reader.modelled.update(part.findall(where))
+                where = where.rpartition("/")[0]
+            holder.attrib.pop(attribute, None)
+            return values
         return None
 
     def fields(places: Mapping[str, Sequence[str]], tags: Sequence[str]) -> dict[str, float]:
         part = next((child for child in element if child.tag in tags), element)
+        reader.modelled.add(part)
         values = {field: value[0] for field, ways in places.items() if (value := numbers(part, ways))}
         for field in values.keys() & _COUNTS:
             if not (values[field].is_integer() and 0 <= values[field] <= _LARGEST_INTEGER):
@@ -145,8 +165,10 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
         if (other := pose.get("relative_to")) and other != found.at:
             message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
             reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
+        reader.show(pose, "degrees", "relative_to")
     if place is not None:
         origin = reader.read(place, f"{path} / origin", Origin)
+        reader.show(place, *place.keys())  # the others are told already
     rate = numbers(element, ("update_rate", "@update_rate"))
     sensor = Sensor(name, found.kind, found.at, origin, rate[0] if rate else 0.0)
     match found.kind:
@@ -155,8 +177,10 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
         case "lidar":
             return msgspec.structs.replace(sensor, lidar=Lidar(**fields(_LIDAR, ("ray", "lidar"))))
         case "force_torque":
-            frame = ((force is not None and force.findtext("frame")) or "child").strip()
-            way = ((force is not None and force.findtext("measure_direction")) or "child_to_parent").strip()
+            parts = [] if force is None else [force, *force.findall("frame"), *force.findall("measure_direction")]
+            reader.modelled.update(parts)
+            said = {part.tag: (part.text or "").strip() for part in reversed(parts)}
+            frame, way = said.get("frame") or _FRAMES[0], said.get("measure_direction") or _DIRECTIONS[0]
             for text, known in ((frame, _FRAMES), (way, _DIRECTIONS)):
                 if text not in known:
                     message = f"{path}: {quoted(text)} is none of {', '.join(known)}: the {known[0]} counts"

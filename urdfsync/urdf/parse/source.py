@@ -59,8 +59,10 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     reader.allowed = allow
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
-    unmodelled = summary(note_unmodelled(reader.kept, reader.modelled, reader.unknown, document.lines), file)
-    return RobotReading(None if reader.failed else robot, diagnostics, reader.lines, unmodelled)
+    if robot is None or reader.failed:
+        return RobotReading(None, diagnostics, reader.lines)
+    unmodelled = summary(note_unmodelled(reader, document.root, robot), file)
+    return RobotReading(robot, diagnostics, reader.lines, unmodelled)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -121,6 +123,9 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
             joint = child.find("joint") if child.tag == "gazebo" else child
             message = f"<{child.tag}> {'' if joint is None else joint.get('name', '')}".rstrip()
             reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
+        elif child.tag == "drake:joint":
+            message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
+            reader.add(child, "unknown-joint-type", message)
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
@@ -144,7 +149,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     links_with_materials = resolve_materials(reader, by_path, materials)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
-    robot = Robot(name, links_with_materials, tuple(joints), tuple(reader.extensions), sensors)
+    reader.take_modelled()
+    robot = Robot(name, links_with_materials, tuple(joints), reader.extensions(), sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         known = {joint.name for joint in joints}

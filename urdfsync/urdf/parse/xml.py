@@ -17,6 +17,7 @@ from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
 
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
 _DEEPEST = 256
@@ -29,19 +30,6 @@ _BYTE_ORDER_MARKS = (
     (b"<\0", "utf-16-le"),
     (b"\0<", "utf-16-be"),
 )
-_BEGINNING = 20_000
-"""So many bytes tell what a file is that has a robot inside."""
-_OTHERS = (
-    ("lfs-pointer", rb"version https://git-lfs", "the file is a Git LFS pointer, not the robot"),
-    ("compressed", rb"\x1f\x8b|BZh|\xfd7zXZ|PK\x03\x04", "the file is compressed"),
-    ("robot-description", rb"[^<]*\brobot_description[\"']?[ \t]*:", "this is a parameter file of ROS: YAML, not URDF"),
-    (
-        "launch-file",
-        rb"[^<]*\bLaunchDescription\b|(?s:(?>\s+|<\?.*?\?>|<!--.*?-->)*+)<launch\b",
-        "this is a launch file of ROS, not URDF",
-    ),
-)
-"""Files that people take for the robot that they hold, or fetch: code, how they begin, message."""
 _WIDE = ("utf-16", "utf-32", "ucs")
 _NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
 """Codecs of Python for single words: they fail in ways of their own, and one takes minutes for a file of 100 KB."""
@@ -53,16 +41,15 @@ _DECLARATION = re.compile(
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
-_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 
 
 class ParseError(Exception):
     """The file can't be read as XML; the diagnostic does not have the file's name yet."""
 
-    def __init__(self, code: str, message: str, line: int = 1, column: int = 0) -> None:
+    def __init__(self, code: str, message: str, line: int = 1, column: int = 0, hint: str = "") -> None:
         super().__init__(message)
-        self.diagnostic = diagnostic(code, message, line, column=column)
+        self.diagnostic = diagnostic(code, message, line, hint, column)
 
 
 class Document(NamedTuple):
@@ -113,9 +100,8 @@ def parse(content: bytes) -> Document:
         error = found
     # else they hold the parser, which holds them, and all elements stay until Python looks for cycles
     parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
-    if (error or ">>>>>>>" in text) and (marker := re.search(_CONFLICT_MARKER, text)):
-        line = text.count("\n", 0, marker.start()) + 1
-        raise ParseError("merge-conflict", "the file has merge conflict markers", line)
+    if (error or ">>>>>>>" in text) and (conflict := find_conflict(text)) is not None:
+        raise ParseError(conflict.code, conflict.message, conflict.line)
     if error:
         what = expat.ErrorString(error.code)
         if what in _UNCLOSED and above:
@@ -164,9 +150,8 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
 
     Blanks take the place of the declaration, so that lines and columns stay.
     """
-    for code, pattern, message in _OTHERS:
-        if found := re.match(pattern, content[:_BEGINNING]):
-            raise ParseError(code, message, content.count(b"\n", 0, found.end()) + 1)
+    if (kind := find_kind(content)) is not None:
+        raise ParseError(kind.code, kind.message, kind.line, hint=kind.hint)
     encoding = next((name for mark, name in _BYTE_ORDER_MARKS if content.startswith(mark)), "")
     declaration = _DECLARATION.match(content[:200].decode(encoding or "latin-1", errors="ignore"))
     declared = ((declaration and declaration["encoding"]) or "utf-8").lower()

@@ -1,0 +1,67 @@
+"""What a file is that was taken for a robot, such as an archive of one, or a launch file that loads one."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+_BEGINNING = 20_000
+"""So many bytes tell what a file is that has a robot inside."""
+_TAR = slice(257, 262)
+_PACKED = (
+    (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
+    (b"BZh", "packed by bzip2", "bunzip2 < FILE > ROBOT.urdf"),
+    (b"\xfd7zXZ", "packed by xz", "unxz < FILE > ROBOT.urdf"),
+    (b"\x28\xb5\x2f\xfd", "packed by zstd", "unzstd < FILE > ROBOT.urdf"),
+    (b"PK\x03\x04", "a zip archive", "unzip FILE"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "7z x FILE"),
+)
+"""How a packed file begins, what it is, and the command that unpacks it."""
+_OTHERS = (
+    ("lfs-pointer", rb"version https://git-lfs", "the file is a Git LFS pointer, not the robot"),
+    ("robot-description", rb"[^<]*\brobot_description[\"']?[ \t]*:", "this is a parameter file of ROS: YAML, not URDF"),
+    (
+        "launch-file",
+        rb"[^<]*\bLaunchDescription\b|(?m:[^<]*?^launch[ \t]*:)|(?s:(?>\s+|<\?.*?\?>|<!--.*?-->)*+)<launch\b",
+        "this is a launch file of ROS, not URDF",
+    ),
+)
+"""Codes, how the files begin, messages."""
+_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
+HINTS = {
+    "compressed": "unpack it, and name what is in it",
+    "lfs-pointer": "run `git lfs pull`",
+    "robot-description": "save the text of `robot_description` as a file, and name that",
+    "merge-conflict": "resolve the merge, then build again",
+    "launch-file": "name the URDF or xacro file that it loads, with what it passes as `arguments`",
+}
+
+
+class FileKind(NamedTuple):
+    """A file that is no robot."""
+
+    code: str
+    message: str
+    hint: str
+    line: int = 1
+
+
+def find_kind(content: bytes) -> FileKind | None:
+    """Return what a file is, if it is none that has a robot in it as XML, or one of unknown kind."""
+    found = next((one for one in _PACKED if content.startswith(one[0])), None)
+    if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
+        found = b"", "a tar archive", "tar xf FILE"
+    if found:
+        return FileKind("compressed", f"the file is {found[1]}", f"unpack it (`{found[2]}`), and name what is in it")
+    for code, pattern, message in _OTHERS:
+        if match := re.match(pattern, content[:_BEGINNING]):
+            return FileKind(code, message, HINTS[code], content.count(b"\n", 0, match.end()) + 1)
+    return None
+
+
+def find_conflict(text: str) -> FileKind | None:
+    """Return where the first marker of a merge conflict is, if there is one; line ends are unified."""
+    if (marker := re.search(_CONFLICT_MARKER, text)) is None:
+        return None
+    code, line = "merge-conflict", text.count("\n", 0, marker.start()) + 1
+    return FileKind(code, "the file has merge conflict markers", HINTS[code], line)
