@@ -427,6 +427,16 @@ def test_a_merge_that_mentions_what_a_renamed_element_loses_is_a_conflict(projec
     assert_rejected_again_and_again("power")
 
 
+def test_a_merge_that_takes_away_what_was_lacking_a_part_is_a_conflict(project: Path) -> None:
+    """`elementC1.power` meant nothing before, but `elementC1` did."""
+    own_model(f"<% if kind == 'resistor' %>\n{POWER}<% endif %>\n")
+    run()
+    edit(f"{LADDER}/Ladder.mo", "equation", "  Real mine = elementC1.power;\n\nequation")
+    drop("C1")
+    source('"ohm": 100', '"farad": 100')
+    assert_rejected_again_and_again("elementC1")
+
+
 def test_a_merge_that_mentions_what_the_user_deleted_and_the_source_has_no_more_is_a_conflict(project: Path) -> None:
     merging()
     run()

@@ -73,9 +73,9 @@ def find_vanished(generation: Generation, actions: Sequence[Action], merged: Map
     doubtful = _lost_parts(generation, _recorded(generation), _generated(generation))
 
     def vanished(node: Node | None, old_node: Node | None, brought: Collection[str] = ()) -> list[Unresolved]:
-        known = {one.name for one in unresolved(old_node, before, doubtful)} if old_node else set()
+        known = {(one.name, one.part) for one in unresolved(old_node, before, doubtful)} if old_node else set()
         found = unresolved(node, after, doubtful) if node else ()
-        new = [one for one in found if one.kind not in _LEGAL and one.name not in known]
+        new = [one for one in found if one.kind not in _LEGAL and (one.name, one.part) not in known]
         if node and brought:  # is not taken for inherited from a library that is not at hand
             more = (one for one in unresolved(node, after, brought) if one.owner == str(node))
             new += [one for one in more if one not in new and one.name.partition(".")[0] == one.part in brought]
