@@ -3,7 +3,6 @@
 PACKAGES = {
     "check": "rumoca",
     "cluster": "distributed",
-    "omc": "OMPython",
     "physics": "pin",
     "xacro": "xacro",
 }

@@ -161,7 +161,9 @@ class Compilation:
                     if task.title in self._users_models:  # it may be meant to be a part of something
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
-                elif task.title not in self._users_models:
+                else:
+                    self._result.add(explain_warnings(one.warnings, self._compiler, self._package.files))
+                if not one.problem and task.title not in self._users_models:
                     self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
 
     def _experiment(self) -> Experiment | None:
@@ -305,11 +307,20 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str 
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
-    complaints = compiler.complaints(problem)
+    said = compiler.complaints(problem)
+    complaints = [one for one in said if one.code == "does-not-compile"] or said
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
     found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
     return list(found)[:_MOST_DIAGNOSTICS]
+
+
+def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
+    """Warnings for a compiler's text about a model that compiles, as far as they are about files of the package."""
+    complaints = dict.fromkeys(compiler.complaints(text))
+    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
+    found = [_diagnostic(one, package, one.code) for one in own]
+    return [msgspec.structs.replace(one, severity=Severity.WARNING) for one in found]
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:

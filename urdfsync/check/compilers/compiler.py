@@ -48,6 +48,8 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Scalar unknowns of the compiled model; so many equations as well."""
     states: int = 0
     """Scalar states, as the compiler counts them before it reduces the index."""
+    warnings: str = ""
+    """What the compiler says of a model that compiles, in its words."""
     runs: tuple[SimulationResult, ...] = ()
 
 
@@ -66,6 +68,8 @@ class Complaint(msgspec.Struct, frozen=True):
     """As the compiler names it; empty if it does not."""
     line: int = 0
     column: int = 0
+    code: str = "does-not-compile"
+    """Of the diagnostic; another one than this is a warning."""
 
 
 class CompilerError(UrdfsyncError):

@@ -97,7 +97,8 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
     except rumoca.RumocaError as error:
         return CompileResult(_words(error))
     unknowns, states = _counts(model)
-    return CompileResult("", unknowns, states, tuple(_simulate(model, run, task.values) for run in task.runs))
+    runs = tuple(_simulate(model, run, task.values) for run in task.runs)
+    return CompileResult(unknowns=unknowns, states=states, runs=runs)
 
 
 class _Type(msgspec.Struct):
