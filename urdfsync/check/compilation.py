@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,9 +13,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.check import compilers, libraries, process
-from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
-    CompileJob,
     Compiler,
     CompileResult,
     CompileTask,
@@ -24,7 +21,8 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     compile_task,
 )
-from urdfsync.check.package import CheckedPackage, PackageTexts, write_package
+from urdfsync.check.jobs import Jobs
+from urdfsync.check.package import CheckedPackage, PackageTexts
 from urdfsync.check.process import Limits
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
@@ -35,11 +33,9 @@ from urdfsync.check.results import (
     agrees,
     listed,
 )
-from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
-from urdfsync.modelica.names import LIBRARY
 from urdfsync.output.phrases import counted
 from urdfsync.workers import tell
 
@@ -67,7 +63,7 @@ class Compilation:
     ) -> None:
         """`folder` is for copies of the package."""
         self._package, self._options, self._result, self._limits = package, options, result, limits
-        self._folder, self._needed = folder, needed
+        self._jobs = Jobs(package.robot, package.around, needed, options.compiler, limits, folder)
         self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
 
@@ -76,12 +72,8 @@ class Compilation:
 
         `texts` are all those of the package; the compiler gets what they and other libraries need of the standard one.
         """
-        result, physics, standard = self._result, self._options.physics, self._needed.standard
-        others = (text for path in self._needed.others.values() for text in libraries.library_texts(path).values())
-        self._standard = libraries.standard_library_copy(standard, [*texts, *others], UserCache.default())
-        self._originals = {str(self._standard / name): path for name, path in standard.items() if path.suffix != ".mo"}
-        own = find_own_library(LIBRARY, self._package.robot.target.package)
-        self._libraries = {**({LIBRARY: own} if own else {}), **self._needed.others}
+        result, physics = self._result, self._options.physics
+        self._jobs.copy_standard_library(texts)
         if physics and self._compiler.SIMULATES:
             self._compare()
         else:
@@ -196,26 +188,8 @@ class Compilation:
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
-        """Do tasks with a package in a process. Problems name the files that people know, and not their copies."""
-        robot, cache, folder = self._package.robot, UserCache.default(), self._folder / label.replace("/", "-")
-        with cache_errors(cache.folder):
-            top = write_package(folder, robot, texts, self._package.around)
-            roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
-        originals = {**self._originals, str(top): robot.output / top.name}
-        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
-        for task in tasks:
-            first, _, rest = task.source.partition("\n")
-            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
-            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
-        job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
-        tell(f"{robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
-        results = []
-        for one in compilers.run_job(self._options.compiler, job, cache, self._limits):
-            problem = one.problem
-            for copy, original in originals.items():
-                problem = problem.replace(copy, str(original))
-            results.append(msgspec.structs.replace(one, problem=problem))
-        return results
+        tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
+        return self._jobs.run(label, texts, tasks)
 
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
@@ -229,18 +203,6 @@ class Compilation:
             message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
-
-
-def _readable(path: Path, folder: Path) -> str:
-    """A library where the compiler can read it, which takes paths in UTF-8 only: else a copy in `folder`."""
-    try:
-        str(path).encode()
-    except UnicodeEncodeError:
-        copy = folder / path.name
-        folder.mkdir(parents=True, exist_ok=True)
-        (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
-        return str(copy)
-    return str(path)
 
 
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:

@@ -110,12 +110,12 @@ def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"
-            hint = "allow more with `urdfsync check --timeout`"
-            raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-time", message, hint=hint))
+            hint = "allow more with `--timeout`"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", message, hint=hint))
         if used > limits.memory:
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
-            hint = "allow more with `urdfsync check --memory`, if this machine has more"
-            raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-memory", message, hint=hint))
+            hint = "allow more with `--memory`, if this machine has more"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-memory", message, hint=hint))
 
 
 def _loaded(answers: Any) -> Iterator[Any]:
