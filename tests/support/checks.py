@@ -82,6 +82,7 @@ class Compiler:
     INSTALL = "install it"
     REPORT = "report it"
     SIMULATES = False
+    METHODS: tuple[str, ...] = ()
 
     def program(self) -> str | None:
         """All of it is here."""
@@ -108,7 +109,9 @@ class Compiling:
     def __init__(self) -> None:
         self.problem, self.models, self.roots = "", list[str](), list[str]()
 
-    def __call__(self, name: str, job: CompileJob, cache: UserCache, limits: Limits) -> list[CompileResult]:
+    def __call__(
+        self, name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+    ) -> list[CompileResult]:
         """Return a result for each task."""
         self.roots += job.roots
         self.models += [task.title for task in job.tasks]

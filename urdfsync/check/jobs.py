@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -28,9 +28,10 @@ class Jobs:
         compiler: str,
         limits: Limits,
         folder: Path,
+        progress: Callable[[], None] | None = None,
     ) -> None:
-        """`around` is as in `package.files_around`; copies go below `folder`."""
-        self._robot, self._around, self._compiler = robot, around, compiler
+        """`around` is as in `package.files_around`; copies go below `folder`; for `progress` see `process.run`."""
+        self._robot, self._around, self._compiler, self._progress = robot, around, compiler, progress
         self._limits, self._folder, self._needed = limits, folder, needed
 
     def copy_standard_library(self, texts: Iterable[bytes]) -> None:
@@ -70,7 +71,7 @@ class Jobs:
             with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
         job = CompileJob((*roots, str(top)), tuple(with_imports))
         results = []
-        for one in compilers.run_job(self._compiler, job, cache, self._limits):
+        for one in compilers.run_job(self._compiler, job, cache, self._limits, self._progress):
             problem = one.problem
             for copy, original in originals.items():
                 problem = problem.replace(copy, str(original))

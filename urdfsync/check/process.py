@@ -58,10 +58,15 @@ class BrokenProcessError(Exception):
 
 
 def run(
-    function: Callable[..., Iterator[T]], *arguments: Any, limits: Limits, environment: Mapping[str, str] | None = None
+    function: Callable[..., Iterator[T]],
+    *arguments: Any,
+    limits: Limits,
+    environment: Mapping[str, str] | None = None,
+    progress: Callable[[], None] | None = None,
 ) -> list[T]:
     """Return all that a function yields in a process of its own, of which nothing is left in the end.
 
+    `progress` is called again and again until then.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
     started = set[psutil.Process]()  # of a process that has ended, the system knows no children
@@ -79,7 +84,7 @@ def run(
                     with contextlib.suppress(OSError):  # it has ended, and its exit code says why
                         process.stdin.write(pickle.dumps((limits.deadline - time.monotonic(), function, arguments)))
                         process.stdin.flush()
-                _wait(process, limits, started)
+                _wait(process, limits, started, progress)
             finally:
                 for one in started:
                     with contextlib.suppress(psutil.Error):
@@ -95,9 +100,16 @@ def run(
         return results[:-1]
 
 
-def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.Process]) -> None:
+def _wait(
+    process: subprocess.Popen[bytes],
+    limits: Limits,
+    started: set[psutil.Process],
+    progress: Callable[[], None] | None,
+) -> None:
     """Wait for the end of a process; `started` gets what it starts. Raises LimitError."""
     while True:
+        if progress:
+            progress()
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(_INTERVAL)
             return

@@ -26,6 +26,7 @@ MODULES: tuple[str, ...] = ("OMPython",)
 INSTALL = f"install OpenModelica and `{install_command('omc')}`, or check without `--tool omc`"
 REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
 SIMULATES = False
+METHODS: tuple[str, ...] = ()
 
 _FIRST = ("Complex", "ModelicaServices", "Modelica")  # what other libraries rest on
 _STRING = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
