@@ -9,7 +9,8 @@ import msgspec
 
 IGNORABLE = frozenset(
     "byte-order-mark connector-changed does-not-compile does-not-fit dotted-modifier kept-save left-behind "
-    "names-unread nested-redeclare no-package-path no-users-path no-uses not-checked order-lacks order-twice "
+    "limit-passed names-unread nested-redeclare no-joints no-package-path no-users-path no-uses not-checked "
+    "order-lacks order-twice out-of-step "
     "outdated-file outdated-package recovered rename-done rename-uses renamed-robot repeated same-but-for-case "
     "stray-state stray-template taken-back unknown-build unused-argument vanished-name xacro-said".split()
 )

@@ -5,6 +5,7 @@ PACKAGES = {
     "cluster": "distributed",
     "omc": "OMPython",
     "physics": "pin",
+    "plot": "matplotlib pyarrow",
     "xacro": "xacro",
 }
 """The package of each extra, as in pyproject.toml."""
