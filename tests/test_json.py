@@ -238,7 +238,8 @@ def checked() -> CheckResult:
     return CheckResult(
         "arm",
         "Arm",
-        compiled=(CompiledModel("Arm", 0, 0), CompiledModel("ArmRun", 412, 2)),
+        compiled=(CompiledModel("Arm", 0), CompiledModel("ArmRun", 412)),
+        freedoms=1,
         deviations=(hand, exact),
         effects=(EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
         notes=('link "tip" has made-up inertias, because it moves without any mass',),

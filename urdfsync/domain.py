@@ -348,6 +348,8 @@ class Bench(msgspec.Struct, frozen=True):
     """The model that is driven by inputs; empty if there is none."""
     axes: tuple[Axis, ...]
     """From the root outwards."""
+    freedoms: int = 0
+    """Degrees of freedom of the main model."""
 
 
 class Domain(Protocol):

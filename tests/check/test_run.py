@@ -65,7 +65,7 @@ def test_results_come_in_order_and_each_step_is_told(robots: Config, tmp_path: P
     steps: list[tuple[str, int, int]] = []
     late, early = check(robots, ["late", "early"], tell=lambda *step: steps.append(step))
     assert [late.robot, early.robot] == ["late", "early"]
-    assert late.compiled == (CompiledModel("LateRun", 10, 2),)
+    assert late.compiled == (CompiledModel("LateRun", 10),)
     assert codes(late) == codes(early) == []
     (tmp_path / "early.done").unlink()
 

@@ -40,7 +40,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         elif name == "late":
             while not Path("early.done").exists():
                 time.sleep(0.01)
-        result.compiled = (CompiledModel(f"{name.title()}Run", 10, 2),)
+        result.compiled = (CompiledModel(f"{name.title()}Run", 10),)
     except LimitError as error:
         result.add(error.diagnostics)
     Path(f"{name}.done").touch()
@@ -96,7 +96,7 @@ class Compiler:
         """Find all models right."""
         for task in job.tasks:
             list(act(task.source))
-            yield CompileResult(unknowns=7, states=2)
+            yield CompileResult(unknowns=7)
 
     def complaints(self, problem: str) -> list[Complaint]:
         """One for all."""
@@ -115,7 +115,7 @@ class Compiling:
         """Return a result for each task."""
         self.roots += job.roots
         self.models += [task.title for task in job.tasks]
-        return [CompileResult(self.problem, 7, 2) for _ in job.tasks]
+        return [CompileResult(self.problem, 7) for _ in job.tasks]
 
 
 @contextlib.contextmanager

@@ -24,6 +24,7 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     found = bench(ARM, TARGET, Options())
     assert found is not None
     assert (found.test, found.run) == ("ArmTest", "ArmRun")
+    assert found.freedoms == 2, "the finger follows"
     first, finger, wheel = found.axes
     assert first == Axis(
         "joint base-joint",
@@ -34,6 +35,12 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     assert wheel.position == Signal("wheel_joint.revolute.phi", "rad"), "it turns without end"
     assert (finger.position.variable, finger.position.unit) == ("finger_joint.prismatic.s", "m")
     assert finger.effort is None, "it follows another joint"
+
+
+def test_a_floating_base_has_six_degrees_of_freedom_more() -> None:
+    found = bench(ARM, TARGET, Options(base="floating"))
+    assert found is not None
+    assert found.freedoms == 8
 
 
 def test_a_motor_behind_a_gear_drives_as_well() -> None:
@@ -57,4 +64,4 @@ def test_a_robot_in_one_record_is_told_by_the_numbers_of_its_axes() -> None:
 def test_a_record_that_no_generic_robot_reads_has_no_bench(kind: str) -> None:
     loose = tree(Joint("loose", kind, "a", "b"))  # type: ignore[arg-type]
     assert bench(loose, TARGET, Options(approach=("record",))) is None
-    assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", ())
+    assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", (), {"planar": 3, "floating": 6}[kind])

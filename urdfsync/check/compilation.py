@@ -154,7 +154,7 @@ class Compilation:
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
                 elif task.title not in self._users_models:
-                    self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
+                    self._result.compiled += (CompiledModel(task.title, one.unknowns),)
 
     def _experiment(self) -> Experiment | None:
         """The experiment for the package; None if there is none, and the result says why."""

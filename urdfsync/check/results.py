@@ -68,8 +68,6 @@ class CompiledModel(msgspec.Struct, frozen=True):
     """Name below the package."""
     unknowns: int
     """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
-    states: int
-    """As the compiler counts them before it reduces the index."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -95,6 +93,8 @@ class CheckResult(msgspec.Struct):
     conflicting: bool = False
     """Whether it is out of step because edits and new texts contradict each other."""
     compiled: tuple[CompiledModel, ...] = ()
+    freedoms: int | None = None
+    """Degrees of freedom; None if the domain does not say."""
     deviations: tuple[Deviation, ...] | None = None
     """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
     effects: tuple[EditEffect, ...] = ()

@@ -63,6 +63,8 @@ def _check(
     """Check a package as far as this machine can; all that is found goes into the result."""
     robot = package.robot
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
+    bench = package.domain.bench(package.rendering.snapshot, robot.target, robot.options)
+    result.freedoms = bench.freedoms if bench else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.source_diagnostics)
     found = package.domain.cross_check(package.rendering.content, shown(robot.source))

@@ -9,7 +9,7 @@ from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Motion
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, JointType, Motion
 
 _VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
     "rotational": ("revolute.phi", "revolute.w", "tau", "phi"),
@@ -21,13 +21,18 @@ _UNITS: Mapping[Motion, tuple[str, str, str]] = {
     "translational": ("m", "m/s", "N"),
 }
 
+_FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
+"""Degrees of freedom of joints that do not have one."""
+
 
 def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None:
     """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
+    freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in tree.joints if joint.mimic is None)
+    freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", tuple(_axes(tree, options)))
+        return Bench(f"{target.name}Test", f"{target.name}Run", tuple(_axes(tree, options)), freedoms)
     if has_bench(tree.joints, options):
-        return Bench(f"{target.name}Generic", "", tuple(_generic_axes(tree)))
+        return Bench(f"{target.name}Generic", "", tuple(_generic_axes(tree)), freedoms)
     return None
 
 

@@ -54,8 +54,6 @@ class CompileResult(msgspec.Struct, frozen=True):
     """What the compiler says of a model that does not compile, in its words; empty if it does."""
     unknowns: int = 0
     """Scalar unknowns of the compiled model; so many equations as well."""
-    states: int = 0
-    """Scalar states, as the compiler counts them before it reduces the index."""
     runs: tuple[SimulationResult, ...] = ()
     parameters: tuple[str, ...] = ()
     """All parameters of the model, if one that the task sets is not among them."""

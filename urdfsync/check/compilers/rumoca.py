@@ -101,8 +101,7 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
         return CompileResult(parameters=tuple(model.parameters.names))
     if unused := _without_effect(model, task.parameters):
         return CompileResult(without_effect=unused)
-    unknowns, states = _counts(model)
-    return CompileResult("", unknowns, states, tuple(_simulate(model, run, task) for run in task.runs))
+    return CompileResult("", _unknowns(model), tuple(_simulate(model, run, task) for run in task.runs))
 
 
 class _Type(msgspec.Struct):
@@ -136,12 +135,11 @@ class _Equations(msgspec.Struct):
     storage: _Storage
 
 
-def _counts(model: rumoca.Model) -> tuple[int, int]:
-    """Scalar unknowns and states, counted as the compiler does when it finds a model unbalanced."""
+def _unknowns(model: rumoca.Model) -> int:
+    """Scalar unknowns, counted as the compiler does when it finds a model unbalanced."""
     storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
     sizes = [math.prod(one.dimensions) for one in storage.value_types]
-    unknowns = sum(sizes[one.value_type] for one in storage.variables if one.role in _UNKNOWN)
-    return unknowns, sum(sizes[one.value_type] for one in storage.variables if one.role == "state")
+    return sum(sizes[one.value_type] for one in storage.variables if one.role in _UNKNOWN)
 
 
 def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
