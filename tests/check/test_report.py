@@ -127,6 +127,13 @@ def test_one_robot_needs_no_tally(capsys: Capture) -> None:
     ]
 
 
+def test_models_of_the_user_are_counted_apart(capsys: Capture) -> None:
+    users = (CompiledModel("Cell", 9000, is_users=True), CompiledModel("Plant.Line", 7, is_users=True))
+    result = msgspec.structs.replace(RIGHT, compiled=(*COMPILED, *users), failing=("Part",))
+    said = "3 models compile, and 2 of yours; 1 of yours does not; 6 degrees of freedom; 1,204 unknowns in the largest;"
+    assert said in shown(capsys, result)[0]
+
+
 def test_quiet_names_only_what_is_not_right(capsys: Capture) -> None:
     heads = [line.split(":")[0] for line in shown(capsys, *ALL, quiet=True) if not line.startswith(" ")]
     assert heads == ["welder", "picker", "cart", "new", "hoist", "lift"]

@@ -108,6 +108,8 @@ class Compiling:
 
     def __init__(self) -> None:
         self.problem, self.models, self.roots = "", list[str](), list[str]()
+        self.problems: dict[str, str] = {}
+        """Of single models."""
 
     def __call__(
         self, name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
@@ -115,7 +117,7 @@ class Compiling:
         """Return a result for each task."""
         self.roots += job.roots
         self.models += [task.title for task in job.tasks]
-        return [CompileResult(self.problem, 7) for _ in job.tasks]
+        return [CompileResult(self.problems.get(task.title, self.problem), 7) for task in job.tasks]
 
 
 @contextlib.contextmanager

@@ -22,7 +22,7 @@ from urdfsync.check.compilers.compiler import (
     compile_task,
 )
 from urdfsync.check.jobs import Jobs
-from urdfsync.check.package import CheckedPackage, PackageTexts
+from urdfsync.check.package import CheckedPackage, PackageTexts, UsersModels
 from urdfsync.check.process import Limits
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
@@ -39,6 +39,8 @@ from urdfsync.files import shown
 from urdfsync.output.phrases import counted
 from urdfsync.workers import tell
 
+_USERS = "users"
+"""The job that compiles models of the user's outside of the package."""
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
@@ -60,10 +62,15 @@ class Compilation:
         limits: Limits,
         folder: Path,
         needed: libraries.Libraries,
+        users: UsersModels,
+        needed_by_users: libraries.Libraries,
     ) -> None:
-        """`folder` is for copies of the package."""
+        """`folder` is for copies of the package; `users` are models outside of it, and need more libraries."""
         self._package, self._options, self._result, self._limits = package, options, result, limits
         self._jobs = Jobs(package.robot, package.around, needed, options.compiler, limits, folder)
+        self._users, tool = users, options.compiler
+        # of their own: what can't be read of the user's files would keep the package from being compiled
+        self._users_jobs = Jobs(package.robot, package.around, needed_by_users, tool, limits, folder)
         self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
 
@@ -73,7 +80,10 @@ class Compilation:
         `texts` are all those of the package; the compiler gets what they and other libraries need of the standard one.
         """
         result, physics = self._result, self._options.physics
+        texts = list(texts)
         self._jobs.copy_standard_library(texts)
+        if self._users.files:
+            self._users_jobs.copy_standard_library([*texts, *self._package.users_files.values()])
         if physics and self._compiler.SIMULATES:
             self._compare()
         else:
@@ -82,7 +92,8 @@ class Compilation:
             else:
                 result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
             self._compile_all()
-        result.compiled = tuple(sorted(result.compiled, key=lambda one: self._package.models.index(one.model)))
+        order = [*self._package.models, *self._users.files]
+        result.compiled = tuple(sorted(result.compiled, key=lambda one: order.index(one.model)))
 
     def _compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
@@ -142,19 +153,25 @@ class Compilation:
         for model in (*self._package.models, *self._users_models):
             task = compile_task(f"{self._package.robot.target.package}.{model}")
             tasks.append(msgspec.structs.replace(task, title=model))
-        return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
+        texts, own = self._package.files.texts, self._package.robot.target.package.partition(".")[0]
+        jobs: dict[str, _Job] = {f"models{number}": (texts, tasks[number::count]) for number in range(count)}
+        if self._users.files:
+            jobs[_USERS] = texts, [compile_task(model, ("Modelica", "UrdfSync", own)) for model in self._users.files]
+        return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
         for label, (_, tasks) in jobs.items():
             for task, one in zip(tasks, done[label], strict=False):
                 if one.problem:
-                    said = explain(one.problem, self._compiler, self._package.files, task.title)
-                    if task.title in self._users_models:  # it may be meant to be a part of something
+                    file = self._users.files.get(task.title) if label == _USERS else None
+                    said = explain(one.problem, self._compiler, self._package.files, task.title, file)
+                    if label == _USERS or task.title in self._users_models:  # it may be meant to be a part of something
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
-                elif task.title not in self._users_models:
-                    self._result.compiled += (CompiledModel(task.title, one.unknowns),)
+                    self._result.failing += (task.title,) if label == _USERS else ()
+                elif label == _USERS or task.title not in self._users_models:
+                    self._result.compiled += (CompiledModel(task.title, one.unknowns, label == _USERS),)
 
     def _experiment(self) -> Experiment | None:
         """The experiment for the package; None if there is none, and the result says why."""
@@ -184,12 +201,18 @@ class Compilation:
                     done[label] = future.result()
                 except (UrdfsyncError, OSError) as error:
                     done[label] = []
-                    self._result.add(findings_of(error))
+                    found = findings_of(error)
+                    if label == _USERS:  # the package itself may be right
+                        self._result.gaps += (
+                            f"your models outside of the package were not compiled: {found[0].message}",
+                        )
+                    else:
+                        self._result.add(found)
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
         tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
-        return self._jobs.run(label, texts, tasks)
+        return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
 
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
@@ -256,10 +279,16 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
+def explain(
+    problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
+) -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know.
+
+    `file` is that of a model of the user's outside of the package.
+    """
     path = f"{model.replace('.', '/')}.mo"
     users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
+    users_file = str(file) if file else users_file
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)

@@ -15,6 +15,7 @@ from urdfsync.check.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
+    CompiledModel,
     EditEffect,
     agrees,
     largest,
@@ -101,7 +102,9 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         **{name: list(getattr(result, name)) for name in lists},
         "standing": result.status(strict),
         "summary": summary(result, strict),
-        "compiled": [{"model": one.model, "unknowns": one.unknowns or None} for one in result.compiled],
+        "compiled": [
+            {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users} for one in result.compiled
+        ],
         "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
         "agrees": None if result.deviations is None else not result.differs,
@@ -112,6 +115,10 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         ],
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }
+
+
+def _model_values(one: CompiledModel) -> dict[str, Any]:
+    return {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users}
 
 
 def _deviation_values(one: Deviation) -> dict[str, Any]:
@@ -128,8 +135,13 @@ def summary(result: CheckResult, strict: bool) -> str:
     errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
     said = [counted(errors, "error")] if errors else []
     if result.compiled:
-        count, model = len(result.compiled), max(result.compiled, key=lambda model: model.unknowns)
-        said.append("1 model compiles" if count == 1 else f"{count} models compile")
+        own = [one for one in result.compiled if not one.is_users]
+        count, users = len(own), len(result.compiled) - len(own)
+        model = max(own or result.compiled, key=lambda model: model.unknowns)
+        yours = f", and {users} of yours" if users else ""
+        if failing := len(result.failing):
+            yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
+        said.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
         if result.freedoms is not None:
             said.append("1 degree of freedom" if result.freedoms == 1 else f"{result.freedoms} degrees of freedom")
         if model.unknowns:

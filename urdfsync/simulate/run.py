@@ -285,11 +285,8 @@ def _result(
         faults = [*check_layout(package), *check_around(robot.output, work.around)]
         if errors := [one for one in faults if one.severity is Severity.ERROR]:
             raise UrdfsyncError(*errors)
-        said = explain(result.problem, compilers.COMPILERS[options.compiler], package)
-        if package.folder not in work.file.parents:  # what has no place is laid to the package
-            file, anywhere = shown(work.file), shown(package.folder)
-            said = [msgspec.structs.replace(one, file=file) if one.file == anywhere else one for one in said]
-        found += said
+        file = None if package.folder in work.file.parents else work.file
+        found += explain(result.problem, compilers.COMPILERS[options.compiler], package, file=file)
         if work.task.parameters:
             message, names = "the model does not compile with other values", ", ".join(work.task.parameters)
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names}"

@@ -105,6 +105,7 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
 
 
 class _Type(msgspec.Struct):
+    scalar: str
     dimensions: list[int]
 
 
@@ -160,8 +161,9 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
     structural = {one.name for one in model.parameters if one.kind == "structural"}
 
     def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
-        # what the structure depends on is evaluated, and then mentioned nowhere
-        if storage.variables[number].name in structural:
+        # what the structure depends on is evaluated, and then mentioned nowhere; sizes are not even called structural
+        one = storage.variables[number]
+        if one.name in structural or storage.value_types[one.value_type].scalar != "real":
             return True
         found = uses.get(number, [])
         return any(place not in bound for place in found) or any(
