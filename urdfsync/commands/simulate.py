@@ -77,7 +77,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
     check_outputs(outputs, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
     if outputs.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
-        threading.Thread(target=importlib.import_module, args=("urdfsync.simulate.plot",), daemon=True).start()
+        later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
+        later.daemon = True
+        later.start()
     chosen = {name: getattr(args, name) for name in _OPTIONS}
     options = SimulateOptions(
         values=tuple(args.set),

@@ -15,8 +15,8 @@ from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import Component
 from urdfsync.spelling import nearest
 
-_EXPERIMENT = re.compile(r"\bexperiment\s*\(([^()]*)\)")
-_SETTING = re.compile(r"\b(StopTime|Interval|Tolerance|NumberOfIntervals)\s*=\s*([-+.\deE]+)")
+_EXPERIMENT = re.compile(r"\bexperiment\s*\(((?:[^()]|\([^()]*\))*)\)")
+_SETTING = re.compile(r"\b(StopTime|Interval|Tolerance|NumberOfIntervals)\s*=\s*(\d[.\deE+-]*)\s*(?=,|$)")
 _SIZE = re.compile(r"\s*\[\s*(\d+)\s*\]")
 _ARRAY = re.compile(r"\s*\[")
 _UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")

@@ -46,6 +46,8 @@ from urdfsync.simulate.results import (
 from urdfsync.simulate.values import modifiers, read_values
 from urdfsync.spelling import nearest
 
+_LATER = 1.5
+"""Seconds until the compiler is at work."""
 _LONGEST_MESSAGE = 200
 _TIME = re.compile(r"\bt ?= ?([-+.\deE]*\d)")
 _OWN = r"[^.]+"
@@ -247,7 +249,9 @@ def _run(
     if known := cache.load(key, SimulationResult):
         return known, True
     cache.prepare()
-    threading.Thread(target=cache.trim, daemon=True).start()  # 200 ms, which go by while the compiler is at work
+    later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
+    later.daemon = True
+    later.start()
     memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
     limits = Limits(f"the simulation of `{work.model}`", options.timeout, memory)
 
