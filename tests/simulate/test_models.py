@@ -72,9 +72,10 @@ def test_inputs_that_no_table_can_drive_are_refused_with_their_line(input_: str)
 
 
 def test_inputs_become_outputs_where_they_are_declared_and_nothing_else_changes() -> None:
-    driven = model().driven()
+    driven = model().driven("Plant")
     assert driven.changed == {
         "/p/Plant/Run.mo": RUN.replace("RealInput", "RealOutput"),
         "/p/Plant/Base.mo": BASE.replace("RealInput", "RealOutput"),
     }
     assert driven.modifiers == ("elbowDrive(exact = true)", "slides(each exact = true)")
+    assert model().driven("Plant.Arm").modifiers == (), "a model of the user's"

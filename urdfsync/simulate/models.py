@@ -21,6 +21,8 @@ _SIZE = re.compile(r"\s*\[\s*(\d+)\s*\]")
 _ARRAY = re.compile(r"\s*\[")
 _UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")
 _KINDS = ("model", "block", "class")
+_FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
+"""Ends of the names of drives of the Modelica Standard Library that have a filter."""
 
 
 class Input(msgspec.Struct, frozen=True):
@@ -75,14 +77,17 @@ class Model:
             found += map(Input, names, units)
         return found
 
-    def driven(self) -> Driven:
-        """Return what makes the inputs follow a table, and the drives follow the inputs as they are."""
+    def driven(self, package: str) -> Driven:
+        """Return what makes the inputs follow a table, and the drives of the package follow the inputs as they are.
+
+        Drives of the user's own models stay: without a filter, start values may contradict the motion there.
+        """
         changed: dict[str, list[int]] = {}
         modifiers = []
         for node, component in self._components():
             if component.type.parts[-1] == "RealInput":
                 changed.setdefault(node.file, []).append(component.type.starts[-1])
-            elif component.type.parts[-2:] in (("Sources", "Position"), ("Sources", "Speed")):
+            elif str(node).startswith(f"{package}.") and component.type.parts[-2:] in _FILTERED:
                 start = component.name.starts[0] + len(str(component.name))
                 each = "each " if _ARRAY.match(self._text(node.file), start) else ""
                 modifiers.append(f"{component.name}({each}exact = true)")

@@ -164,7 +164,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
             message = f"`{model.name}` has no inputs that a motion could drive"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
         motion = read_motion(options.motion, inputs)
-        stop, driven = motion.times[-1], model.driven()
+        stop, driven = motion.times[-1], model.driven(robot.target.package)
         changed = {Path(file): text.encode() for file, text in driven.changed.items()}
         functions, equations = course_functions(motion)
         changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
