@@ -8,7 +8,7 @@ PACKAGES = {
     "plot": "matplotlib pyarrow",
     "xacro": "xacro",
 }
-"""The package of each extra, as in pyproject.toml."""
+"""The packages of each extra, as in pyproject.toml."""
 
 
 def install_command(extra: str) -> str:

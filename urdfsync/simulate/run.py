@@ -290,11 +290,11 @@ def _result(
         if errors := [one for one in faults if one.severity is Severity.ERROR]:
             raise UrdfsyncError(*errors)
         file = None if package.folder in work.file.parents else work.file
-        found += explain(result.problem, compilers.COMPILERS[options.compiler], package, file=file)
-        if work.task.parameters:
-            message, names = "the model does not compile with other values", ", ".join(work.task.parameters)
+        said = explain(result.problem, compilers.COMPILERS[options.compiler], package, file=file)
+        if names := ", ".join(work.task.parameters):
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names}"
-            found.append(Diagnostic(Severity.NOTE, "set", message, hint=hint))
+            said = [msgspec.structs.replace(one, hint=hint) for one in said]
+        found += said
     for run in result.runs:
         if run.problem:
             words = " ".join(run.problem.split())[:_LONGEST_MESSAGE]
