@@ -34,7 +34,7 @@ TITLE = "OpenModelica"
 MODULES: tuple[str, ...] = ()
 INSTALL = "install OpenModelica, or check without `--tool omc`"
 REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
-SIMULATES = True
+METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 
 _STANDARD = ("Complex", "ModelicaServices", "Modelica")
 _TOLERANCE = 1e-8
@@ -134,7 +134,7 @@ def _settings(run: Simulation) -> str:
     override = f", simflags={quoted(f'-override={changed}')}" if changed else ""
     intervals, tolerance = max(1, round(run.stop / run.step)), run.tolerance or _TOLERANCE
     times = f"startTime=0, stopTime={run.stop!r}, numberOfIntervals={intervals}, tolerance={tolerance!r}"
-    return f'{times}, method="dassl", outputFormat="csv"{override}'
+    return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="csv"{override}'
 
 
 def _ask(folder: Path, calls: Sequence[str], title: str) -> list[_Answer]:
@@ -195,7 +195,7 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
         fields = {name: _text(text) for name, text in _FIELD.findall(value)}
         log = fields.get("messages", value)
         if fields.get("resultFile"):
-            runs.append(_read_results(folder / fields["resultFile"], task.values))
+            runs.append(_read_results(folder / fields["resultFile"], task))
         elif log.startswith("Failed to build model"):
             return CompileResult(messages.strip() or one_line(log))
         else:
@@ -204,19 +204,20 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
     return CompileResult(runs=tuple(runs))
 
 
-def _read_results(file: Path, names: Sequence[str]) -> SimulationResult:
+def _read_results(file: Path, task: CompileTask) -> SimulationResult:
     """The series of a file with a column for each variable."""
+    wanted = re.compile(task.pattern)
     try:
         with file.open(encoding="utf-8", newline="") as text:
             rows = csv.reader(text)
             columns = {name: number for number, name in enumerate(next(rows, []))}
-            missing = [name for name in ("time", *names) if name not in columns]
-            if missing:
+            names = list(dict.fromkeys(("time", *task.values, *filter(wanted.fullmatch, columns))))
+            if missing := [name for name in names if name not in columns]:
                 return SimulationResult(problem=f"the result has no `{missing[0]}`")
-            numbers = [[float(row[columns[name]]) for name in ("time", *names)] for row in rows]
+            numbers = [[float(row[columns[name]]) for name in names] for row in rows]
     except (OSError, ValueError, IndexError) as error:
         return SimulationResult(problem=f"the result can't be read: {error}")
-    return SimulationResult(dict(zip(("time", *names), map(tuple, zip(*numbers, strict=True)), strict=False)))
+    return SimulationResult(dict(zip(names, map(tuple, zip(*numbers, strict=True)), strict=False)))
 
 
 def _package_files(job: CompileJob) -> list[Path]:
