@@ -15,6 +15,9 @@ from urdfsync.check.cache import LIMIT
 from urdfsync.check.libraries import NEXT, OLDEST
 from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
+from urdfsync.simulate.motion import MOST_ROWS
+from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
+from urdfsync.simulate.results import TOLERANCE as SIMULATED_TO
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 
@@ -52,7 +55,7 @@ def test_commands_install_what_there_is() -> None:
             assert wanted or file.name in ("speed.md", "extras.py"), f"{file}: pip install {command}"
 
 
-@pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking")])
+@pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking"), ("simulate", "simulate")])
 def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
@@ -72,6 +75,16 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     assert "Up to six edited files are tried one by one" in page
     assert f"| `--timeout S` | {defaults.timeout:.0f} |" in page
     assert f"| `--wait S` | {defaults.wait:.0f} |" in page
+
+
+def test_numbers_of_simulations_are_those_in_use() -> None:
+    page = (REPOSITORY / "docs/simulate.md").read_text(encoding="utf-8")
+    defaults = SimulateOptions()
+    assert f"| `--stop S` | as the model says, else {STOP:g} |" in page
+    assert f"| `--step S` | as the model says, else a {STEPS}th of it |" in page
+    assert f"| `--tolerance T` | as the model says, else {SIMULATED_TO:g} |" in page
+    assert f"| `--timeout S` | {defaults.timeout:g} |" in page
+    assert f"There may be up to {MOST_ROWS:,} rows." in page
 
 
 def test_every_option_of_a_robot_is_documented() -> None:

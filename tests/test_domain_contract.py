@@ -226,3 +226,5 @@ def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
     models = case.domain.models(case.snapshot, TARGET, case.options)
     assert models[0] == TARGET.name
     assert {f"{model.replace('.', '/')}.mo" for model in models} <= case.generated().artifacts.keys()
+    if bench := case.domain.bench(case.snapshot, TARGET, case.options):
+        assert {bench.test, bench.run} - {""} <= {*models}, "what is simulated is checked"

@@ -142,4 +142,4 @@ def test_what_fails_while_an_interruption_is_cleared_away_is_that_interruption(
 def test_what_is_to_be_installed_exists() -> None:
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     for name, package in extras.PACKAGES.items():
-        assert [re.split(r"[<>=; ]", needed)[0] for needed in project["optional-dependencies"][name]] == [package]
+        assert [re.split(r"[<>=; ]", needed)[0] for needed in project["optional-dependencies"][name]] == package.split()

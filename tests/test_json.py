@@ -24,12 +24,14 @@ from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
+from urdfsync.simulate import results as simulation
+from urdfsync.simulate.results import SimulateResult
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
-BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, RESOLVE, ADOPT, INIT, RECORD, LIBRARY = ONE
+BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, SIMULATE, RESOLVE, ADOPT, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
@@ -236,7 +238,8 @@ def checked() -> CheckResult:
     return CheckResult(
         "arm",
         "Arm",
-        compiled=(CompiledModel("Arm", 0, 0), CompiledModel("ArmRun", 412, 2)),
+        compiled=(CompiledModel("Arm", 0), CompiledModel("ArmRun", 412)),
+        freedoms=1,
         deviations=(hand, exact),
         effects=(EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
         notes=('link "tip" has made-up inertias, because it moves without any mass',),
@@ -255,6 +258,27 @@ def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) 
     document = printed(execute, folder, "check", "--physics")
     assert document == CHECK
     assert json.loads(json.dumps(document, allow_nan=False)) == CHECK
+
+
+def simulated() -> SimulateResult:
+    """An arm whose joint passes a limit."""
+    place = "robot.hold"
+    position = simulation.Quantity(f"{place}.revolute.phi", "rad", 0.0, 1.25, -1.0, 1.0)
+    speed = simulation.Quantity(f"{place}.revolute.w", "rad/s", 0.0, 2.5, None, None)
+    passed = simulation.PassedLimit("position", 1.0, 0.75, 0.25, 0.5)
+    warning = Diagnostic(Severity.WARNING, "limit-passed", "joint hold: position passes its limit, 1 rad")
+    joint = simulation.JointResult("joint hold", "robot", position, speed, passed=(passed,))
+    series = {"time": (0.0, 0.5, 1.0)}
+    return SimulateResult("arm", "Arm.ArmTest", 1.0, 0.5, 1e-6, (joint,), series, (warning,), 8.25, is_known=False)
+
+
+def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    cli.main(["init", "arm.urdf"])
+    monkeypatch.setattr("urdfsync.commands.simulate.simulate", lambda *_: simulated())
+    monkeypatch.setattr("urdfsync.commands.simulate.write_outputs", lambda *_: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    files = ("--csv", "arm.csv", "--parquet", "arm.parquet", "--plot", "arm.png")
+    assert printed(execute, folder, "simulate", *files) == SIMULATE
 
 
 def test_library(folder: Path, execute: Execute) -> None:

@@ -30,6 +30,7 @@ _COMMANDS = (
     "status",
     "watch",
     "check",
+    "simulate",
     "resolve",
     "record",
     "hook",

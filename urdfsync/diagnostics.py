@@ -9,10 +9,11 @@ from collections.abc import Collection
 import msgspec
 
 IGNORABLE = frozenset(
-    "byte-order-mark connector-changed does-not-compile does-not-fit dotted-modifier kept-save left-behind "
-    "names-unread nested-redeclare no-package-path no-users-path no-uses not-checked order-lacks order-twice "
-    "outdated-file outdated-package recovered rename-done rename-uses renamed-robot repeated same-but-for-case "
-    "stray-state stray-template taken-back unknown-build unused-argument vanished-name xacro-said".split()
+    "byte-order-mark compiler-warning connector-changed does-not-compile does-not-fit dotted-modifier kept-save "
+    "left-behind limit-passed names-unread nested-redeclare no-joints no-package-path no-users-path no-uses "
+    "not-checked order-lacks order-twice out-of-step outdated-file outdated-package recovered rename-done rename-uses "
+    "renamed-robot repeated same-but-for-case stray-state stray-template taken-back units unknown-build "
+    "unused-argument vanished-name xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
 

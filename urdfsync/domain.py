@@ -317,6 +317,41 @@ class Experiment(msgspec.Struct, frozen=True):
     """What the comparison does not cover, and why: one sentence each, without a full stop."""
 
 
+class Signal(msgspec.Struct, frozen=True):
+    """A quantity of a joint in a simulation; names are those of variables and parameters below the main model."""
+
+    variable: str
+    unit: str
+    limits: tuple[str, ...] = ()
+    """Parameters: the lower and the upper limit, one alone for a limit of the absolute value, none for no limit."""
+    added: tuple[str, str] | None = None
+    """A parameter and a variable whose product is a part of the quantity."""
+
+
+class Axis(msgspec.Struct, frozen=True):
+    """What a simulation tells of one joint that moves."""
+
+    element: str
+    """In the domain's words: `joint elbow`."""
+    position: Signal
+    velocity: Signal
+    effort: Signal | None = None
+    """None for a joint without a drive of its own."""
+
+
+class Bench(msgspec.Struct, frozen=True):
+    """How a package is simulated; models are named below the package."""
+
+    test: str
+    """The model that needs no input."""
+    run: str
+    """The model that is driven by inputs; empty if there is none."""
+    axes: tuple[Axis, ...]
+    """From the root outwards."""
+    freedoms: int = 0
+    """Degrees of freedom of the main model."""
+
+
 class Domain(Protocol):
     """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`.
 
@@ -501,6 +536,10 @@ class Domain(Protocol):
     def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
         """Return the classes that have to compile by themselves, by name below the package, the main one first."""
         return (target.name,)
+
+    def bench(self, snapshot: Snapshot, target: Target, options: Any) -> Bench | None:
+        """Return how the package is simulated and what is told of it, or None if nothing in it can be. Pure."""
+        return None
 
     def record(self, reading: Reading, file: str, target: Target, options: Any) -> Standalone | None:
         """Return the whole model as one record that needs nothing around it, or None if the domain has none.

@@ -3,11 +3,11 @@
 PACKAGES = {
     "check": "rumoca",
     "cluster": "distributed",
-    "omc": "OMPython",
     "physics": "pin",
+    "plot": "matplotlib pyarrow",
     "xacro": "xacro",
 }
-"""The package of each extra, as in pyproject.toml."""
+"""The packages of each extra, as in pyproject.toml."""
 
 
 def install_command(extra: str) -> str:

@@ -6,6 +6,7 @@ All robots are built with the default configuration.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import os
 import tempfile
@@ -19,6 +20,8 @@ from support.daemon import LIMIT, Watch
 from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
 from benchmarks.published import Published
 from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
+from urdfsync.check.cache import UserCache
+from urdfsync.check.libraries import find_standard_library, standard_library_copy
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 REFERENCE = 12.0
@@ -150,6 +153,38 @@ def check(tools: Tools) -> Iterator[Pair]:
     )
 
 
+_DIRECT = """
+import sys, rumoca
+source = "model P\\n  import Modelica;\\n  import UrdfSync;\\n  import Arm;\\n  extends Arm.ArmTest;\\nend P;\\n"
+model = rumoca.Session(roots=sys.argv[1:]).loads(source, model="P", filename="P.mo")
+model.simulate((0, 5), config=rumoca.SimConfig(dt=0.02, rtol=1e-6, atol=1e-6))
+"""
+
+
+def simulate(tools: Tools) -> Iterator[Pair]:
+    """From the command to the plot, beside compiling and integrating alone."""
+    place = tools.folder / "arm"
+    place.mkdir()
+    (place / "arm.urdf").write_bytes(ARM.read_bytes())
+    (place / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    run(tools.urdfsync("build", "--quiet"), place)
+    texts = [file.read_bytes() for file in (place / "modelica").rglob("*.mo")]
+    standard = standard_library_copy(find_standard_library(os.environ).parts, texts, UserCache.default())
+    roots = [str(standard), str(REPOSITORY / "modelica/UrdfSync"), str(place / "modelica/Arm")]
+    direct = [str(tools.scripts / "python"), "-c", _DIRECT, *roots]
+    stops = itertools.count(5.0, 1e-9)  # what was simulated before is not simulated again
+
+    def measurement() -> Cost:
+        command = tools.urdfsync("simulate", "--stop", repr(next(stops)), "--plot", "arm.png")
+        return measure(command, place, "plot: arm.png")
+
+    more = Reading(lambda mine, other: mine.wall - other.wall, 1.0, "s more than that")
+    compiler = "compiling and integrating alone"
+    yield Pair(
+        "six-axis arm, 5 s, with a plot", measurement, compiler, lambda: measure(direct, place), [more], is_slow=True
+    )
+
+
 TABLES = {
     "noop": ("nothing to do", nothing_to_do),
     "change": ("one mass changed, whole process", one_mass_changed),
@@ -157,6 +192,7 @@ TABLES = {
     "watch": ("one mass changed in the daemon", daemon),
     "growth": ("growth of a first build", growth),
     "check": ("check with warm caches", check),
+    "simulate": ("simulation", simulate),
 }
 
 

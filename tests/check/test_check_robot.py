@@ -254,8 +254,8 @@ def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
         }
     )
     result = check()
-    assert (result.status(strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 3)
-    assert "modelica/Bench.mo" in result.unchecked[0]
+    assert (result.status(strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 4)
+    assert "Bench" in compiler.models
     assert any(root.endswith("/Pumps") for root in compiler.roots)
     assert all(root.encode() for root in compiler.roots)
 
@@ -332,9 +332,62 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
         "MyArm.mo:7: error: MyArm has no `elbwo`; did you mean `elbow.axis`?",
     ]
     assert result.failed
-    assert len(result.compiled) == 3, "the package itself is right"
-    files = "modelica/Bench/MyBench.mo, modelica/Draft.mo and modelica/MyArm.mo"
-    assert result.unchecked[0] == f"{files} outside of the package: names were checked, but nothing there was compiled"
+    assert [one.model for one in result.compiled if one.is_users] == ["MyBench", "MyArm"]
+    assert len(result.compiled) == 5, "the package itself is right"
+    assert result.gaps == ("modelica/Draft.mo outside of the package: nothing there was compiled",)
+
+
+@pytest.mark.parametrize(
+    ("files", "models", "roots"),
+    [
+        ({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"}, ["Cell"], ["Cell.mo"]),
+        (
+            {
+                "Plant/package.mo": "package Plant\nend Plant;\n",
+                "Plant/Cells/package.mo": "within Plant;\npackage Cells\n  model Two = Arm.Arm;\nend Cells;\n",
+                "Plant/Cells/One.mo": "within Plant.Cells;\nblock One\n  Arm.Arm a;\nend One;\n",
+                "Plant/Base.mo": "within Plant;\npartial model Base\n  Arm.Arm a;\nend Base;\n",
+            },
+            ["Plant.Cells.One", "Plant.Cells.Two"],
+            ["Plant"],
+        ),
+    ],
+)
+def test_models_beside_the_package_are_compiled_with_it(
+    arm: Path, modelica_library: Path, compiler: Compiling, files: dict[str, str], models: list[str], roots: list[str]
+) -> None:
+    write(files)
+    result = check()
+    assert [one.model for one in result.compiled if one.is_users] == models
+    assert {str(Path("modelica", root).resolve()) for root in roots} <= set(compiler.roots)
+    assert (result.status(strict=True), result.gaps) == (CheckStatus.RIGHT, ())
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("Other.mo", "model Cell\n  Arm.Arm a;\nend Cell;\n"),
+        ("Cell.mo", "within Plant;\nmodel Cell\n  Arm.Arm a;\nend Cell;\n"),
+        ("Cell.mo", "model Cell\n  Arm.Arm a;\nend Cell;\nmodel Cell2\nend Cell2;\n"),
+    ],
+)
+def test_a_model_that_no_compiler_would_find_keeps_the_verdict_from_being_right(
+    arm: Path, modelica_library: Path, compiler: Compiling, file: str, text: str
+) -> None:
+    write({file: text})
+    result = check()
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert result.gaps == (f"modelica/{file} outside of the package: nothing there was compiled",)
+
+
+def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    write({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"})
+    compiler.problems["Cell"] = "unbalanced model: 2 equations, 3 unknowns"
+    result = check()
+    assert (result.failing, len(result.compiled)) == (("Cell",), 3)
+    assert lines(result) == ["Cell.mo:0: warning: there is 1 equation too few; "]
 
 
 def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:

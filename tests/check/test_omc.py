@@ -1,18 +1,19 @@
-"""OpenModelica: what it is told, what its answers mean, and its absence. With a real `omc` only where there is one."""
+"""OpenModelica: what it is told, what its answers mean, and its absence.
+
+The answers are those that it gave once, see `../shared/omc`. With a real `omc` only where there is one.
+"""
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import sys
-import types
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support import fake_omc
+from support import corpus, fake_omc
 
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import installed_version, omc, run_job
@@ -21,146 +22,167 @@ from urdfsync.check.compilers.compiler import (
     CompilerError,
     CompileResult,
     CompileTask,
+    Complaint,
     Simulation,
+    compile_task,
 )
 from urdfsync.check.process import Limits
 
-TASK = CompileTask("Probe_", 'model Probe_ "a \\ b"\nend Probe_;\n', (Simulation(1, 0.1),))
-BALANCED = '"Check of Probe_ completed successfully.\nClass Probe_ has 4 equation(s) and 4 variable(s).\n1 of these."\n'
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
+
+RECORDED = corpus.FOLDER.parent / "omc"
+TASK = CompileTask("Good", 'model Good "a \\ b"\nend Good;\n', title="Lab.Good")
+BALANCED = '"Check of Good completed successfully.\nClass Good has 4 equation(s) and 4 variable(s).\n1 of these."\n'
 LOST = '[/ws/Arm/Joints/Elbow.mo:76:3-76:35:writable] Error: Variable orgin.frame_a not found in scope \\"Arm\\".\n'
-ODD = '"[/x/a.mo:1:1-2:2:writable] Warning: Something is odd.\n"\n'
+UNITS = """\
+[/ws/Arm/Joints/Elbow.mo:27:3-27:52:writable] Warning: The following equation is INCONSISTENT due to specified unit information: a = b
+Warning: The units of following sub-expressions need to be equal:
+- sub-expression \\"a\\" has unit \\"Hz\\"
+- sub-expression \\"b\\" has unit \\"m\\"
+"""  # noqa: E501 - it says so in one line
+RESULT = """\
+record SimulationResult
+    resultFile = "{file}",
+    simulationOptions = "startTime = 0.0, stopTime = 1.0",
+    messages = "{messages}",
+    timeTotal = 4.768848468
+end SimulationResult;
+"{said}"
+"""
 
-needs_library = pytest.mark.skipif(importlib.util.find_spec("OMPython") is None, reason="no OMPython")
-needs_scripts = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
-
-
-def work(
-    answer: Callable[[str], str], job: CompileJob, monkeypatch: pytest.MonkeyPatch
-) -> tuple[list[CompileResult], list[str]]:
-    """The results of a job with a stand-in for the client library, and what that was asked."""
-    asked: list[str] = []
-
-    class RefusedError(Exception):
-        pass
-
-    class Session:
-        def sendExpression(self, expression: str, parsed: bool) -> str:  # noqa: N802 - its name there
-            asked.append(expression)
-            if (found := answer(expression)) == "refuse":
-                raise RefusedError("OMC error occurred")
-            return found
-
-    library = types.SimpleNamespace(OMCSessionLocal=Session, OMSessionException=RefusedError)
-    monkeypatch.setitem(sys.modules, "OMPython", library)
-    return list(omc.work(job)), asked
-
-
-def test_packages_are_loaded_before_what_rests_on_them_each_call_with_its_messages(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    library, robot = tmp_path / "library", tmp_path / "A b"
-    names = ("Complex 4.1.0.mo", "ModelicaServices 4.1.0/package.mo", "Modelica 4.1.0/package.mo")
-    for file in (*(library / name for name in names), library / "Resources" / "text", robot / "package.mo"):
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.touch()
-    job = CompileJob((str(robot), str(library)), (TASK,))
-    (result,), asked = work(lambda call: BALANCED if call.startswith("check") else "true\n", job, monkeypatch)
-    loads = [
-        f'loadFile("{file.as_posix()}", uses=false)' for file in (*(library / n for n in names), robot / "package.mo")
-    ]
-    text = 'loadString("model Probe_ \\"a \\\\ b\\"\nend Probe_;\n", uses=false)'
-    assert asked == [
-        "cd(getTempDirectoryPath())",
-        *(f"{call}; getErrorString()" for call in (*loads, text, "checkModel(Probe_)")),
-    ]
-    assert (result.problem, result.unknowns) == ("", 4)
-    assert result.runs[0].problem == "OpenModelica only compiles here"
-
-
-@given(st.lists(st.text()))
-def test_texts_survive_being_quoted(texts: list[str]) -> None:
-    assert omc.strings("\n".join(map(omc.quoted, texts))) == texts
-
-
-@pytest.mark.parametrize(("load", "check", "problem"), [
-    ("true\n" + ODD, BALANCED + ODD, ""),
-    ("true\n", BALANCED.replace("4 variable", "5 variable"), "unbalanced model: 4 equations, 5 unknowns"),
-    ("true\n", f'""\n"{LOST}Error: Error occurred while flattening\n"\n',
-     LOST.replace("\\", "") + "Error: Error occurred while flattening"),
-    ("true\n", "", "the model does not compile"),
-    ("true\n", "false\n", "false"),
-    ("true\n", "refuse", "OMC error occurred"),
-    ('false\n"Error: text"\n', BALANCED, "Error: text"),
-    ('""\n""\n', BALANCED, "OpenModelica can't load it and gives no reason"),
-    ("refuse", BALANCED, "OMC error occurred"),
-])  # fmt: skip
-def test_every_answer_but_success_is_a_problem_of_its_task(
-    load: str, check: str, problem: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    bad = CompileTask("Bad", "model Bad end Bad;")
-
-    def answer(call: str) -> str:
-        if "Bad" in call:
-            return check if call.startswith("checkModel") else load
-        return BALANCED if call.startswith("checkModel") else "true\n"
-
-    results, _ = work(answer, CompileJob((), (TASK, bad, TASK)), monkeypatch)
-    assert [one.problem for one in results] == ["", problem, ""]
-
-
-def test_a_library_that_can_not_be_loaded_is_the_problem_of_every_task(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "package.mo").touch()
-    for said, problem in (('false\n"Error: parse error"\n', "Error: parse error"), ("refuse", "OMC error occurred")):
-        job = CompileJob((str(tmp_path),), (TASK, TASK))
-        results, _ = work(lambda call, said=said: said if "loadFile" in call else "true\n", job, monkeypatch)  # type: ignore[misc]
-        assert [one.problem for one in results] == [problem] * 2
+Ask = Callable[..., list[CompileResult]]
 
 
 @pytest.fixture
-def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with an `omc` that answers from `answers.json`, first on the PATH."""
-    folder = tmp_path / "home" / "bin"
-    folder.mkdir(parents=True)
+def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
+    """Do tasks with an `omc` on the PATH that gives these answers to calls that begin so."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
     script = folder / "omc"
     script.write_text(f"#!{sys.executable}\n{Path(fake_omc.__file__).read_text()}")
     script.chmod(0o755)
     monkeypatch.setenv("PATH", str(folder), prepend=":")
     monkeypatch.delenv("OPENMODELICAHOME", raising=False)
-    return folder
+
+    def done(answers: Mapping[str, str], *tasks: CompileTask, roots: tuple[str, ...] = ()) -> list[CompileResult]:
+        (folder / "answers.json").write_text(json.dumps(answers))
+        job = CompileJob(roots, tasks or (TASK,))
+        return run_job("omc", job, UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9))
+
+    return done
 
 
-@needs_library
-@needs_scripts
-def test_the_client_library_carries_questions_and_answers(fake: Path, tmp_path: Path) -> None:
-    failed = f'""\n"{LOST}"\n'
-    (fake / "answers.json").write_text(json.dumps({"checkModel(Good": BALANCED, "checkModel(Bad": failed}))
-    (tmp_path / "package.mo").touch()
-    tasks = (CompileTask("Good", "model Good\nend Good;"), CompileTask("Bad", "model Bad\nend Bad;"))
-    good, bad = run_job(
-        "omc", CompileJob((str(tmp_path),), tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9)
+def asked(tmp_path: Path) -> list[str]:
+    return (tmp_path / "bin/asked.txt").read_text().splitlines()
+
+
+def test_libraries_and_the_package_are_loaded_then_each_model_is_checked(ask: Ask, tmp_path: Path) -> None:
+    library, robot = tmp_path / "library", tmp_path / "A b"
+    for file in (library / "Modelica 4.1.0/package.mo", library / "Own/package.mo", robot / "package.mo"):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    (result,) = ask({"checkModel": BALANCED + '""\n'}, roots=(str(library), str(robot)))
+    assert (result.problem, result.unknowns) == ("", 4)
+    version, standard, *files, text, check = asked(tmp_path)
+    assert (version, standard, check) == ("getVersion()", "loadModel(Modelica)", "checkModel(Good)")
+    assert files == [f'loadFile("{folder}/package.mo")' for folder in (library / "Own", robot)]
+    assert text.endswith('/task0.mo")')
+
+
+def test_an_omc_without_a_c_compiler_is_told_to_do_without(ask: Ask, tmp_path: Path) -> None:
+    ask({"getVersion": '"v1.27.0-dev-ea251558-rust"\n""\n', "checkModel": BALANCED + '""\n'})
+    assert asked(tmp_path)[1] == 'setCommandLineOptions("--simCodeTarget=wasm-jit")'
+
+
+@pytest.mark.parametrize(("load", "check", "problem"), [
+    ('true\n""\n', BALANCED.replace("4 variable", "5 variable") + '""\n', "unbalanced model: 4 equations, 5 unknowns"),
+    ('true\n""\n', f'""\n"{LOST}"\n', LOST.replace("\\", "").strip()),
+    ('true\n""\n', '""\n""\n', "the model does not compile"),
+    ('false\n"Error: text"\n', BALANCED + '""\n', "Error: text"),
+    ('false\n""\n', BALANCED + '""\n', "OpenModelica can't load it and gives no reason"),
+])  # fmt: skip
+def test_every_answer_but_success_is_a_problem_of_its_task(ask: Ask, load: str, check: str, problem: str) -> None:
+    bad = CompileTask("Bad", "model Bad end Bad;", title="Lab.Bad")
+    answers = {"checkModel(Good)": BALANCED + '""\n', "checkModel(Bad)": check}
+    answers |= {f'loadFile("{"x"}': load}
+    found = ask(answers | ({} if load.startswith("true") else {"loadModel": load}), TASK, bad)
+    assert found[1].problem == problem
+    assert found[0].problem == ("" if load.startswith("true") else problem)
+
+
+def test_units_that_do_not_fit_are_a_warning_of_their_own_kind(ask: Ask) -> None:
+    (result,) = ask({"checkModel": f'{BALANCED}"{UNITS}"\n'})
+    (complaint,) = omc.complaints(result.warnings)
+    assert (complaint.code, complaint.file, complaint.line) == ("units", "/ws/Arm/Joints/Elbow.mo", 27)
+    assert complaint.message.endswith('- sub-expression "a" has unit "Hz" - sub-expression "b" has unit "m"')
+
+
+def test_an_error_in_a_library_counts_where_the_user_caused_it() -> None:
+    said = "[/ws/Elbow.mo:9:5-9:21:writable] Notification: From here:\n"
+    said += "[/lib/Parts.mo:15:3-15:75:writable] Error: Type mismatch in\n  binding.\nNotification: Something else.\n"
+    assert omc.complaints(said) == [Complaint("Type mismatch in binding.", "/ws/Elbow.mo", 9, 5)]
+
+
+def simulated(ask: Ask, tmp_path: Path, file: str, messages: str = "", said: str = "") -> CompileResult:
+    run = Simulation(1, 0.25, {"robot.k": 2.0}, 1e-9)
+    task = CompileTask("Good", "model Good end Good;", (run,), ("q[1,2]",), title="Lab.Good")
+    (result,) = ask({"simulate": RESULT.format(file=file, messages=messages, said=said)}, task)
+    simulate = asked(tmp_path)[-1]
+    assert "stopTime=1, numberOfIntervals=4, tolerance=1e-09" in simulate
+    assert 'simflags="-override=robot.k=2.0"' in simulate
+    return result
+
+
+def test_the_result_of_a_simulation_is_read_from_its_file(ask: Ask, tmp_path: Path) -> None:
+    (tmp_path / "x_res.csv").write_text('"time","p","q[1,2]"\n0,1,2\n0.25,1,3e-1\n')
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.csv").runs
+    assert run.values == {"time": (0, 0.25), "q[1,2]": (2, 0.3)}
+
+
+@pytest.mark.parametrize(("content", "problem"), [
+    ('"time","p"\n0,1\n', "the result has no `q[1,2]`"),
+    ('"time","q[1,2]"\n0,one\n', "the result can't be read"),
+    ('"time","q[1,2]"\n0\n', "the result can't be read"),
+    ("", "the result has no `time`"),
+])  # fmt: skip
+def test_a_result_of_another_form_is_a_problem(ask: Ask, tmp_path: Path, content: str, problem: str) -> None:
+    (tmp_path / "x_res.csv").write_text(content)
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.csv").runs
+    assert run.problem.startswith(problem)
+
+
+def test_what_stops_a_simulation_is_told(ask: Ask, tmp_path: Path) -> None:
+    log = "Simulation execution failed for model: Good\nLOG_SUCCESS       | info    | The initialization finished.\n"
+    log += "|                 | |       | The following assertion has been violated at time 0.500000\n"
+    (run,) = simulated(ask, tmp_path, "", log).runs
+    assert run.problem == (
+        "Simulation execution failed for model: Good; The following assertion has been violated at time 0.500000"
     )
-    assert (good.problem, good.unknowns) == ("", 4)
-    assert bad.problem.startswith("[/ws/Arm/Joints/Elbow.mo:76:3-76:35:writable] Error: Variable")
-    assert f'loadFile("{tmp_path}/package.mo", uses=false); getErrorString()' in (fake / "asked.txt").read_text()
 
 
-@needs_library
-@needs_scripts
+def test_a_model_that_can_not_be_built_does_not_compile(ask: Ask, tmp_path: Path) -> None:
+    result = simulated(ask, tmp_path, "", "Failed to build model: Good", "Error: Too few equations.")
+    assert (result.problem, result.runs) == ("Error: Too few equations.", ())
+
+
 def test_an_omc_that_does_not_start_or_is_not_there_is_one_clear_line(
-    fake: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ask: Ask, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    cache = UserCache(tmp_path / "cache")
-    (fake / "omc").write_text("no program")
+    (tmp_path / "bin/omc").write_text("no program")
     with pytest.raises(CompilerError, match="OpenModelica does not start"):
-        run_job("omc", CompileJob((), (TASK,)), cache, Limits("the check", 60, 2e9))
+        ask({})
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(CompilerError, match="`omc` is not on the PATH; install OpenModelica"):
-        run_job("omc", CompileJob((), (TASK,)), cache, Limits("the check", 60, 2e9))
+        ask({})
 
 
-@needs_scripts
+@pytest.mark.parametrize("answer", ["", "a panic of its own\n"])
+def test_an_omc_that_dies_or_says_what_nobody_knows_is_told_with_the_call(ask: Ask, answer: str) -> None:
+    with pytest.raises(CompilerError, match=r"OpenModelica ended at `checkModel\(Good\)` \(exit code") as caught:
+        ask({"checkModel": answer})
+    assert answer.strip() in str(caught.value)
+
+
 def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """So that what one of them found right is not taken from the cache for the other."""
     program = tmp_path / "bin" / "omc"
@@ -172,3 +194,42 @@ def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.Monk
         program.chmod(0o755)
         found.append(installed_version("omc"))
     assert len(set(found)) == 3
+
+
+@given(st.lists(st.text()))
+def test_any_texts_are_read_as_answers(texts: list[str]) -> None:
+    printed = "".join(f"true\n{omc.quoted(text)}\n" for text in texts)
+    assert [one.messages for one in omc.read_answers(printed)[0]] == texts
+
+
+@pytest.mark.skipif(not RECORDED.is_dir(), reason="no recorded answers of OpenModelica beside the corpus")
+@pytest.mark.parametrize("name", sorted(one.name for one in RECORDED.glob("*/")) if RECORDED.is_dir() else ["none"])
+def test_recorded_answers_are_understood(name: str) -> None:
+    """Each fault is told once, where the user made it."""
+    folder = RECORDED / name
+    if not (folder / "stdout").is_file():
+        pytest.skip("nothing was recorded there")
+    answers, rest = omc.read_answers((folder / "stdout").read_text(encoding="utf-8"))
+    assert rest.strip() == ""
+    assert len(answers) == (folder / "script.mos").read_text().count("getErrorString")
+    found = [
+        one for answer in answers[-1:] for one in omc.complaints(answer.messages) if one.code != "compiler-warning"
+    ]
+    edit = folder / "edit.txt"
+    expected = {"unknown-class": 1, "unknown-name": 1, "unknown-modifier": 1, "wrong-type": 1, "units": 1}
+    if name in expected:
+        assert len(found) == expected[name]
+        assert found[0].file.endswith(edit.read_text().splitlines()[0])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(omc.program() is None, reason="no OpenModelica")
+def test_a_real_omc_compiles_and_simulates(tmp_path: Path) -> None:
+    text = "model Probe_\n  Real x(start = 1, fixed = true);\nequation\n  der(x) = -x;\nend Probe_;\n"
+    tasks = (
+        CompileTask("Probe_", text, (Simulation(1, 0.5),), ("x",)),
+        compile_task("Modelica.Blocks.Examples.PID_Controller", ["Modelica"]),
+    )
+    simulated, compiled = run_job("omc", CompileJob((), tasks), UserCache(tmp_path), Limits("the check", 300, 4e9))
+    assert simulated.runs[0].values["x"][-1] == pytest.approx(0.36787944, abs=1e-6)
+    assert (compiled.problem, compiled.unknowns > 0) == ("", True)

@@ -45,6 +45,12 @@ def test_an_error_and_an_end_before_the_end_are_told(deed: str, kind: type[Excep
     assert not isinstance(caught.value, BrokenProcessError) or caught.value.results == ["one"]
 
 
+def test_progress_is_told_until_the_end() -> None:
+    told: list[int] = []
+    assert run(act, "one", limits=limits(), progress=lambda: told.append(1)) == ["one"]
+    assert told
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
 @pytest.mark.parametrize(("deed", "code", "words", "hint"), [
     ("abort", "compiler-crashed", r"crashed at Plant.Bad: signal 6 (SIGABRT): last words", "report it"),

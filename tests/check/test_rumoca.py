@@ -10,6 +10,7 @@ import pytest
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import find_missing, run_job
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation
+from urdfsync.check.compilers.rumoca import METHODS
 from urdfsync.check.process import Limits
 
 DECAY = """
@@ -39,13 +40,68 @@ def results(tmp_path: Path, *tasks: CompileTask, roots: tuple[str, ...] = ()) ->
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:
     runs = (Simulation(1.0, 0.25), Simulation(1.0, 0.25, {"k": 2.0}, tolerance=1e-10))
     found, unbalanced = results(tmp_path, decay(*runs), CompileTask("M", DECAY % "\n  x = 1;"))
-    assert (found.problem, found.unknowns, found.states) == ("", 10, 1)
+    assert (found.problem, found.unknowns) == ("", 10)
     for run, k, error in zip(found.runs, (1.0, 2.0), (1e-4, 1e-8), strict=True):
         assert list(run.values) == ["time", "x", "y[2,3]"]
         assert (run.values["time"][0], run.values["time"][-1]) == (0.0, 1.0)
         assert run.values["x"][-1] == pytest.approx(math.exp(-k), rel=error)
         assert run.values["y[2,3]"][0] == k
     assert f"{found.unknowns + 1} equations, {found.unknowns} unknowns" in unbalanced.problem, "as the compiler counts"
+
+
+PARTS = """
+package M
+  record Numbers
+    Real gain = 2;
+    Real idle = 3;
+  end Numbers;
+  model Part
+    parameter Numbers numbers;
+    Real x(start = 0, fixed = true);
+  equation
+    der(x) = numbers.gain;
+  end Part;
+  model Whole
+    parameter Numbers numbers;
+    parameter Integer size = 2;
+    Part first(numbers = numbers), second[size];
+    Real y = first.x + second[1].x;
+  end Whole;
+  model Top
+    extends Whole(%s);
+  end Top;
+end M;
+"""
+
+
+def parts(*parameters: str, modifiers: str = "", method: str = "") -> CompileTask:
+    pattern = r"y|(?:.*\.)?x|numbers\.gain"
+    run = Simulation(1.0, 0.5, method=method)
+    return CompileTask("M.Top", PARTS % modifiers, (run,), pattern=pattern, parameters=parameters)
+
+
+def test_what_a_pattern_matches_comes_back(tmp_path: Path) -> None:
+    results_of = results(tmp_path, *(parts(method=method) for method in METHODS))
+    for (run,) in (one.runs for one in results_of):
+        assert set(run.values) == {"time", "first.x", "second[1].x", "second[2].x", "y"}, (
+            "nothing of the compiler's own"
+        )
+        assert run.values["y"][-1] == pytest.approx(4.0)
+        assert run.parameters == {"numbers.gain": 2.0}
+
+
+def test_a_parameter_that_is_set_has_to_be_there_and_to_have_an_effect(tmp_path: Path) -> None:
+    right, structural, absent, idle = results(
+        tmp_path,
+        parts("numbers.gain", modifiers="numbers(gain = 5)"),
+        parts("size", modifiers="size = 3"),
+        parts("numbers.gian", modifiers="numbers(gian = 5)"),
+        parts("numbers.idle", modifiers="numbers(idle = 5)"),
+    )
+    assert right.runs[0].values["first.x"][-1] == pytest.approx(5.0)
+    assert "second[3].x" in structural.runs[0].values
+    assert ("numbers.gain" in absent.parameters, absent.runs) == (True, ())
+    assert (idle.without_effect, idle.runs) == (("numbers.idle",), ())
 
 
 def test_a_model_that_does_not_compile_is_a_result_and_the_next_one_follows(tmp_path: Path) -> None:
@@ -82,10 +138,14 @@ def test_the_search_path_of_the_user_has_no_say(tmp_path: Path, monkeypatch: pyt
 
 
 def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shutil.which", lambda name: name)
-    for absent, compiler, other in (("rumoca", "rumoca", "omc"), ("OMPython", "omc", "rumoca")):
-        monkeypatch.setattr("importlib.util.find_spec", lambda name, absent=absent: None if name == absent else name)
-        assert find_missing(other) is None
-        missing = find_missing(compiler)
-        assert missing is not None
-        assert f"{absent} is not installed" in missing.message
+    monkeypatch.setattr("shutil.which", lambda name, path=None: None)
+    missing = find_missing("omc")
+    assert find_missing("rumoca") is None
+    assert missing is not None
+    assert "`omc` is not on the PATH" in missing.message
+    monkeypatch.setattr("shutil.which", lambda name, path=None: name)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "rumoca" else name)
+    missing = find_missing("rumoca")
+    assert find_missing("omc") is None
+    assert missing is not None
+    assert "rumoca is not installed" in missing.message

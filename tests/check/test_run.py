@@ -65,7 +65,7 @@ def test_results_come_in_order_and_each_step_is_told(robots: Config, tmp_path: P
     steps: list[tuple[str, int, int]] = []
     late, early = check(robots, ["late", "early"], tell=lambda *step: steps.append(step))
     assert [late.robot, early.robot] == ["late", "early"]
-    assert late.compiled == (CompiledModel("LateRun", 10, 2),)
+    assert late.compiled == (CompiledModel("LateRun", 10),)
     assert codes(late) == codes(early) == []
     (tmp_path / "early.done").unlink()
 
@@ -89,9 +89,9 @@ def test_a_process_that_breaks_down_is_one_clear_error(robots: Config) -> None:
 def test_time_and_memory_are_limited(robots: Config) -> None:
     early, slow = check(robots, ["early", "slow"], CheckOptions(timeout=3, jobs=2))
     assert not early.failed
-    assert codes(slow) == ["check-out-of-time"]
+    assert codes(slow) == ["out-of-time"]
     (big,) = check(robots, ["big"], CheckOptions(memory=0.2))
-    assert codes(big) == ["check-out-of-memory"]
+    assert codes(big) == ["out-of-memory"]
     assert "--memory" in big.diagnostics[0].hint
 
 

@@ -40,7 +40,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         elif name == "late":
             while not Path("early.done").exists():
                 time.sleep(0.01)
-        result.compiled = (CompiledModel(f"{name.title()}Run", 10, 2),)
+        result.compiled = (CompiledModel(f"{name.title()}Run", 10),)
     except LimitError as error:
         result.add(error.diagnostics)
     Path(f"{name}.done").touch()
@@ -81,7 +81,7 @@ class Compiler:
     MODULES: tuple[str, ...] = ()
     INSTALL = "install it"
     REPORT = "report it"
-    SIMULATES = False
+    METHODS: tuple[str, ...] = ()
 
     def program(self) -> str | None:
         """All of it is here."""
@@ -95,7 +95,7 @@ class Compiler:
         """Find all models right."""
         for task in job.tasks:
             list(act(task.source))
-            yield CompileResult(unknowns=7, states=2)
+            yield CompileResult(unknowns=7)
 
     def complaints(self, problem: str) -> list[Complaint]:
         """One for all."""
@@ -107,12 +107,16 @@ class Compiling:
 
     def __init__(self) -> None:
         self.problem, self.models, self.roots = "", list[str](), list[str]()
+        self.problems: dict[str, str] = {}
+        """Of single models."""
 
-    def __call__(self, name: str, job: CompileJob, cache: UserCache, limits: Limits) -> list[CompileResult]:
+    def __call__(
+        self, name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+    ) -> list[CompileResult]:
         """Return a result for each task."""
         self.roots += job.roots
         self.models += [task.title for task in job.tasks]
-        return [CompileResult(self.problem, 7, 2) for _ in job.tasks]
+        return [CompileResult(self.problems.get(task.title, self.problem), 7) for task in job.tasks]
 
 
 @contextlib.contextmanager

@@ -1,36 +1,29 @@
-"""Stands for `omc`: listens as it does, and answers from a JSON file beside it (`answers.json`).
+"""Stands for `omc SCRIPT.mos`: prints an answer to each call of a script, as the compiler does.
 
-That file maps the beginning of an expression to the answer; `getMessagesStringInternal()` has none to give, other
-expressions are answered with `true` and no messages. What was asked is written to `asked.txt`.
+`answers.json` beside it maps the beginning of a call to what is printed; what is not there is `true` without messages.
+A call that is answered with nothing ends it, with exit code 3. What was asked is added to `asked.txt`.
 """
 
 from __future__ import annotations
 
 import json
+import re
 import sys
-import tempfile
 from pathlib import Path
 
-import zmq
+VERSION = '"OpenModelica 1.26.0"\n""\n'
 
 
 def main() -> None:
-    """Answer until told to quit."""
-    here = Path(__file__).parent
-    answers = json.loads((here / "answers.json").read_text())
-    socket = zmq.Context().socket(zmq.REP)
-    port = socket.bind_to_random_port("tcp://127.0.0.1")
-    file = Path(tempfile.gettempdir()) / "fake-omc.port"
-    file.write_text(f"tcp://127.0.0.1:{port}")
-    sys.stdout.write(f"Started\nDumped server port in file: {file}\n")
-    sys.stdout.flush()
-    with (here / "asked.txt").open("a") as asked:
-        while (expression := socket.recv_string()) != "quit()":
-            asked.write(f"{expression}\n")
-            asked.flush()
-            silent = "{}\n" if expression == "getMessagesStringInternal()" else 'true\n""\n'
-            socket.send_string(next((answers[key] for key in answers if expression.startswith(key)), silent))
-    socket.send_string("")
+    """Answer all calls of the script."""
+    here, script = Path(__file__).parent, Path(sys.argv[1]).read_text()
+    answers = {"getVersion": VERSION, **json.loads((here / "answers.json").read_text())}
+    for call in re.findall(r"^(.*); getErrorString\(\);$", script, re.MULTILINE):
+        with (here / "asked.txt").open("a") as asked:
+            asked.write(f"{call}\n")
+        if not (answer := next((answers[key] for key in answers if call.startswith(key)), 'true\n""\n')):
+            sys.exit(3)
+        sys.stdout.write(answer)
 
 
 if __name__ == "__main__":

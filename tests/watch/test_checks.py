@@ -23,7 +23,7 @@ from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
-RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12, 3),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
 WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,9 +13,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.check import compilers, libraries, process
-from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import (
-    CompileJob,
     Compiler,
     CompileResult,
     CompileTask,
@@ -24,7 +21,8 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     compile_task,
 )
-from urdfsync.check.package import CheckedPackage, PackageTexts, write_package
+from urdfsync.check.jobs import Jobs
+from urdfsync.check.package import CheckedPackage, PackageTexts, UsersModels
 from urdfsync.check.process import Limits
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
@@ -35,14 +33,14 @@ from urdfsync.check.results import (
     agrees,
     listed,
 )
-from urdfsync.config import find_own_library
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
-from urdfsync.modelica.names import LIBRARY
 from urdfsync.output.phrases import counted
 from urdfsync.workers import tell
 
+_USERS = "users"
+"""The job that compiles models of the user's outside of the package."""
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
@@ -64,10 +62,15 @@ class Compilation:
         limits: Limits,
         folder: Path,
         needed: libraries.Libraries,
+        users: UsersModels,
+        needed_by_users: libraries.Libraries,
     ) -> None:
-        """`folder` is for copies of the package."""
+        """`folder` is for copies of the package; `users` are models outside of it, and need more libraries."""
         self._package, self._options, self._result, self._limits = package, options, result, limits
-        self._folder, self._needed = folder, needed
+        self._jobs = Jobs(package.robot, package.around, needed, options.compiler, limits, folder)
+        self._users, tool = users, options.compiler
+        # of their own: what can't be read of the user's files would keep the package from being compiled
+        self._users_jobs = Jobs(package.robot, package.around, needed_by_users, tool, limits, folder)
         self._compiler = compilers.COMPILERS[options.compiler]
         self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
 
@@ -76,21 +79,18 @@ class Compilation:
 
         `texts` are all those of the package; the compiler gets what they and other libraries need of the standard one.
         """
-        result, physics, standard = self._result, self._options.physics, self._needed.standard
-        others = (text for path in self._needed.others.values() for text in libraries.library_texts(path).values())
-        self._standard = libraries.standard_library_copy(standard, [*texts, *others], UserCache.default())
-        self._originals = {str(self._standard / name): path for name, path in standard.items() if path.suffix != ".mo"}
-        own = find_own_library(LIBRARY, self._package.robot.target.package)
-        self._libraries = {**({LIBRARY: own} if own else {}), **self._needed.others}
-        if physics and self._compiler.SIMULATES:
+        result, physics = self._result, self._options.physics
+        texts = list(texts)
+        self._jobs.copy_standard_library(texts)
+        if self._users.files:
+            self._users_jobs.copy_standard_library([*texts, *self._package.users_files.values()])
+        if physics:
             self._compare()
         else:
-            if physics:
-                result.gaps = (f"poses and efforts were not compared: `--tool {self._options.compiler}` only compiles",)
-            else:
-                result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
+            result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
             self._compile_all()
-        result.compiled = tuple(sorted(result.compiled, key=lambda one: self._package.models.index(one.model)))
+        order = [*self._package.models, *self._users.files]
+        result.compiled = tuple(sorted(result.compiled, key=lambda one: order.index(one.model)))
 
     def _compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
@@ -150,19 +150,27 @@ class Compilation:
         for model in (*self._package.models, *self._users_models):
             task = compile_task(f"{self._package.robot.target.package}.{model}")
             tasks.append(msgspec.structs.replace(task, title=model))
-        return {f"models{number}": (self._package.files.texts, tasks[number::count]) for number in range(count)}
+        texts, own = self._package.files.texts, self._package.robot.target.package.partition(".")[0]
+        jobs: dict[str, _Job] = {f"models{number}": (texts, tasks[number::count]) for number in range(count)}
+        if self._users.files:
+            jobs[_USERS] = texts, [compile_task(model, ("Modelica", "UrdfSync", own)) for model in self._users.files]
+        return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
         for label, (_, tasks) in jobs.items():
             for task, one in zip(tasks, done[label], strict=False):
                 if one.problem:
-                    said = explain(one.problem, self._compiler, self._package.files, task.title)
-                    if task.title in self._users_models:  # it may be meant to be a part of something
+                    file = self._users.files.get(task.title) if label == _USERS else None
+                    said = explain(one.problem, self._compiler, self._package.files, task.title, file)
+                    if label == _USERS or task.title in self._users_models:  # it may be meant to be a part of something
                         said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
                     self._result.add(said)
-                elif task.title not in self._users_models:
-                    self._result.compiled += (CompiledModel(task.title, one.unknowns, one.states),)
+                    self._result.failing += (task.title,) if label == _USERS else ()
+                    continue
+                self._result.add(explain_warnings(one.warnings, self._compiler, self._package.files))
+                if label == _USERS or task.title not in self._users_models:
+                    self._result.compiled += (CompiledModel(task.title, one.unknowns, label == _USERS),)
 
     def _experiment(self) -> Experiment | None:
         """The experiment for the package; None if there is none, and the result says why."""
@@ -192,30 +200,18 @@ class Compilation:
                     done[label] = future.result()
                 except (UrdfsyncError, OSError) as error:
                     done[label] = []
-                    self._result.add(findings_of(error))
+                    found = findings_of(error)
+                    if label == _USERS:  # the package itself may be right
+                        self._result.gaps += (
+                            f"your models outside of the package were not compiled: {found[0].message}",
+                        )
+                    else:
+                        self._result.add(found)
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
-        """Do tasks with a package in a process. Problems name the files that people know, and not their copies."""
-        robot, cache, folder = self._package.robot, UserCache.default(), self._folder / label.replace("/", "-")
-        with cache_errors(cache.folder):
-            top = write_package(folder, robot, texts, self._package.around)
-            roots = [_readable(path, folder / ".libraries") for path in self._libraries.values()]
-        originals = {**self._originals, str(top): robot.output / top.name}
-        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
-        for task in tasks:
-            first, _, rest = task.source.partition("\n")
-            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
-            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
-        job = CompileJob((str(self._standard), *roots, str(top)), tuple(with_imports))
-        tell(f"{robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
-        results = []
-        for one in compilers.run_job(self._options.compiler, job, cache, self._limits):
-            problem = one.problem
-            for copy, original in originals.items():
-                problem = problem.replace(copy, str(original))
-            results.append(msgspec.structs.replace(one, problem=problem))
-        return results
+        tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
+        return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
 
     def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
@@ -229,18 +225,6 @@ class Compilation:
             message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
-
-
-def _readable(path: Path, folder: Path) -> str:
-    """A library where the compiler can read it, which takes paths in UTF-8 only: else a copy in `folder`."""
-    try:
-        str(path).encode()
-    except UnicodeEncodeError:
-        copy = folder / path.name
-        folder.mkdir(parents=True, exist_ok=True)
-        (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
-        return str(copy)
-    return str(path)
 
 
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
@@ -294,10 +278,16 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str = "") -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know."""
+def explain(
+    problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
+) -> list[Diagnostic]:
+    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know.
+
+    `file` is that of a model of the user's outside of the package.
+    """
     path = f"{model.replace('.', '/')}.mo"
     users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
+    users_file = str(file) if file else users_file
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
@@ -305,11 +295,20 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, model: str 
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
-    complaints = compiler.complaints(problem)
+    said = compiler.complaints(problem)
+    complaints = [one for one in said if one.code == "does-not-compile"] or said
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
     found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
     return list(found)[:_MOST_DIAGNOSTICS]
+
+
+def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
+    """Warnings for a compiler's text about a model that compiles, as far as they are about files of the package."""
+    complaints = dict.fromkeys(compiler.complaints(text))
+    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
+    found = [_diagnostic(one, package, one.code) for one in own]
+    return [msgspec.structs.replace(one, severity=Severity.WARNING) for one in found]
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:

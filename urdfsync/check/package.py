@@ -9,7 +9,7 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -23,10 +23,11 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import has_word
+from urdfsync.modelica.files import has_word, text_of
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import Class
 
 
 class PackageTexts(msgspec.Struct, frozen=True):
@@ -180,6 +181,50 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
 def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     """The user's models in no robot's package that have to do with this robot's package."""
     return find_users_files(config, robot, {other.folder for other in config.robots}, [robot.folder.name])
+
+
+class UsersModels(msgspec.Struct, frozen=True):
+    """The user's models outside of the package, as far as they can be compiled."""
+
+    files: Mapping[str, Path]
+    """The file of each model, by its full name: of each model or block that is not partial."""
+    libraries: Mapping[str, Path]
+    """The top-level classes that they are in, but for the one around the package: folders or files."""
+    left_out: tuple[Path, ...]
+    """Files that no compiler would find, or that are no Modelica."""
+
+
+def users_models(robot: RobotConfig, files: Mapping[Path, bytes]) -> UsersModels:
+    """Return what can be compiled of the user's files."""
+    models, libraries, left_out = dict[str, Path](), dict[str, Path](), list[Path]()
+    top = robot.target.package.partition(".")[0]
+    for path, content in files.items():
+        found = parse(text_of(content))
+        around = tuple(found.within.split(".")) if found.within else ()
+        place = path.parent if path.name == "package.mo" else path
+        name = (*around, found.classes[0].name.parts[0]) if len(found.classes) == 1 else ()
+        root = place.parents[len(around) - 1] if 0 < len(around) <= len(place.parents) else place
+        is_stored = place.with_suffix("").parts[-len(name) :] == name and (
+            not around or (root / "package.mo").is_file()
+        )
+        is_around = bool(name) and name[0] == top and root == robot.output / top
+        if found.is_broken or not name or not is_stored or (name[0] == top and not is_around):
+            left_out.append(path)
+            continue
+        if not is_around:
+            libraries[name[0]] = root
+        models |= dict.fromkeys(_models_in(found.classes, around), path)
+    return UsersModels(models, libraries, tuple(left_out))
+
+
+def _models_in(classes: Sequence[Class], around: tuple[str, ...]) -> Iterator[str]:
+    """Yield the models and blocks in classes that are not partial, by their full names."""
+    for one in classes:
+        name = (*around, one.name.parts[0])
+        if one.kind in ("model", "block") and "partial" not in one.prefixes:
+            yield ".".join(name)
+        elif one.kind == "package":
+            yield from _models_in(one.classes, name)
 
 
 def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:

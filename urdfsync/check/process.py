@@ -58,10 +58,15 @@ class BrokenProcessError(Exception):
 
 
 def run(
-    function: Callable[..., Iterator[T]], *arguments: Any, limits: Limits, environment: Mapping[str, str] | None = None
+    function: Callable[..., Iterator[T]],
+    *arguments: Any,
+    limits: Limits,
+    environment: Mapping[str, str] | None = None,
+    progress: Callable[[], None] | None = None,
 ) -> list[T]:
     """Return all that a function yields in a process of its own, of which nothing is left in the end.
 
+    `progress` is called again and again until then.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
     started = set[psutil.Process]()  # of a process that has ended, the system knows no children
@@ -79,7 +84,7 @@ def run(
                     with contextlib.suppress(OSError):  # it has ended, and its exit code says why
                         process.stdin.write(pickle.dumps((limits.deadline - time.monotonic(), function, arguments)))
                         process.stdin.flush()
-                _wait(process, limits, started)
+                _wait(process, limits, started, progress)
             finally:
                 for one in started:
                     with contextlib.suppress(psutil.Error):
@@ -95,9 +100,16 @@ def run(
         return results[:-1]
 
 
-def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.Process]) -> None:
+def _wait(
+    process: subprocess.Popen[bytes],
+    limits: Limits,
+    started: set[psutil.Process],
+    progress: Callable[[], None] | None,
+) -> None:
     """Wait for the end of a process; `started` gets what it starts. Raises LimitError."""
     while True:
+        if progress:
+            progress()
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(_INTERVAL)
             return
@@ -110,12 +122,12 @@ def _wait(process: subprocess.Popen[bytes], limits: Limits, started: set[psutil.
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"
-            hint = "allow more with `urdfsync check --timeout`"
-            raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-time", message, hint=hint))
+            hint = "allow more with `--timeout`"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", message, hint=hint))
         if used > limits.memory:
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
-            hint = "allow more with `urdfsync check --memory`, if this machine has more"
-            raise LimitError(Diagnostic(Severity.ERROR, "check-out-of-memory", message, hint=hint))
+            hint = "allow more with `--memory`, if this machine has more"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-memory", message, hint=hint))
 
 
 def _loaded(answers: Any) -> Iterator[Any]:

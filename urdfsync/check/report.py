@@ -15,6 +15,7 @@ from urdfsync.check.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
+    CompiledModel,
     EditEffect,
     agrees,
     largest,
@@ -45,9 +46,10 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     said, advice = list[tuple[str, str]](), _ADVICE
     for one, others in _by_kind([one for one in result.deviations or () if not agrees(one)]):
         what, amount = _amount(one)
-        size = f" (its largest is {_digits(one.value)} {one.unit})" if one.unit in ("N·m", "N", "kg") else ""
-        sentence = f"{one.element}: {what} differs from {result.reference or 'the reference'} by {amount}{size}"
-        said.append((f"{sentence}{others}{advice}", "bold red"))
+        reference = result.reference or "the reference"
+        said.append((f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"))
+        if one.unit in ("N·m", "N", "kg"):
+            said.append((f"  its largest {what} by {reference} is {_digits(one.value)} {one.unit}", "dim"))
         advice = ""
     for found in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(found.deviations, found.owners))
@@ -63,8 +65,8 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
         said.append(("the package is out of step; run `urdfsync build`", "yellow"))
     if verbose:
         for model in result.compiled:
-            size = f"{model.unknowns:,} equations = unknowns, {counted(model.states, 'state')}"
-            said.append((f"{model.model}: {size if model.unknowns else 'compiles'}", "dim"))
+            size = f"{model.unknowns:,} unknowns" if model.unknowns else "compiles"
+            said.append((f"{model.model}: {size}", "dim"))
         for one in result.deviations or ():
             what, amount = _amount(one)
             said.append((f"{one.element}: {what} differs by {amount} ({one.relative:.1e})", "dim"))
@@ -101,9 +103,9 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         "standing": result.status(strict),
         "summary": summary(result, strict),
         "compiled": [
-            {"model": one.model, "unknowns": one.unknowns or None, "states": one.states if one.unknowns else None}
-            for one in result.compiled
+            {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users} for one in result.compiled
         ],
+        "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
         "agrees": None if result.deviations is None else not result.differs,
         "deviations": list(map(_deviation_values, result.deviations or ())),
@@ -113,6 +115,10 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         ],
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }
+
+
+def _model_values(one: CompiledModel) -> dict[str, Any]:
+    return {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users}
 
 
 def _deviation_values(one: Deviation) -> dict[str, Any]:
@@ -129,11 +135,17 @@ def summary(result: CheckResult, strict: bool) -> str:
     errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
     said = [counted(errors, "error")] if errors else []
     if result.compiled:
-        count, model = len(result.compiled), max(result.compiled, key=lambda model: model.unknowns)
-        said.append("1 model compiles" if count == 1 else f"{count} models compile")
+        own = [one for one in result.compiled if not one.is_users]
+        count, users = len(own), len(result.compiled) - len(own)
+        model = max(own or result.compiled, key=lambda model: model.unknowns)
+        yours = f", and {users} of yours" if users else ""
+        if failing := len(result.failing):
+            yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
+        said.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
+        if result.freedoms is not None:
+            said.append("1 degree of freedom" if result.freedoms == 1 else f"{result.freedoms} degrees of freedom")
         if model.unknowns:
-            size = f"{model.unknowns:,} equations = unknowns and {counted(model.states, 'state')}"
-            said.append(size if count == 1 else f"{size} in the largest")
+            said.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
     elif not errors:
         said.append("syntax and layout")
     for name, quantities in _KINDS:

@@ -68,8 +68,8 @@ class CompiledModel(msgspec.Struct, frozen=True):
     """Name below the package."""
     unknowns: int
     """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
-    states: int
-    """As the compiler counts them before it reduces the index."""
+    is_users: bool = False
+    """Whether it is the user's, outside of the package; then `model` is its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -95,6 +95,10 @@ class CheckResult(msgspec.Struct):
     conflicting: bool = False
     """Whether it is out of step because edits and new texts contradict each other."""
     compiled: tuple[CompiledModel, ...] = ()
+    failing: tuple[str, ...] = ()
+    """Full names of the user's models outside of the package that do not compile by themselves."""
+    freedoms: int | None = None
+    """Degrees of freedom; None if the domain does not say."""
     deviations: tuple[Deviation, ...] | None = None
     """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
     effects: tuple[EditEffect, ...] = ()

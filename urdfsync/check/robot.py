@@ -6,13 +6,14 @@ import contextlib
 import time
 from pathlib import Path
 
+import msgspec
 import psutil
 
 from urdfsync.check import compilers, libraries, texts
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import Compilation
 from urdfsync.check.fingerprint import fingerprint
-from urdfsync.check.package import CheckedPackage, read_package
+from urdfsync.check.package import CheckedPackage, read_package, users_models
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
@@ -63,6 +64,8 @@ def _check(
     """Check a package as far as this machine can; all that is found goes into the result."""
     robot = package.robot
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
+    bench = package.domain.bench(package.rendering.snapshot, robot.target, robot.options)
+    result.freedoms = bench.freedoms if bench else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.source_diagnostics)
     found = package.domain.cross_check(package.rendering.content, shown(robot.source))
@@ -79,7 +82,14 @@ def _check(
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
     else:
         with contextlib.nullcontext(folder) if folder else UserCache.default().workspace() as place:
-            Compilation(package, options, result, limits, place / robot.name, needed).run(contents)
+            users = users_models(robot, package.users_files)
+            if users.left_out:
+                files = listed([shown(path) for path in users.left_out])
+                result.gaps += (f"{files} outside of the package: nothing there was compiled",)
+            every = libraries.find_libraries(config, robot, [*contents, *package.users_files.values()], uses)
+            every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
+            compilation = Compilation(package, options, result, limits, place / robot.name, needed, users, every)
+            compilation.run(contents)
 
 
 def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:
@@ -87,9 +97,6 @@ def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: C
     found = texts.check_layout(package.files)
     found += texts.check_around(package.robot.output, package.around)
     result.add(found)
-    if package.users_files:
-        files = listed([shown(path) for path in sorted(package.users_files)])
-        result.unchecked = (f"{files} outside of the package: names were checked, but nothing there was compiled",)
     if any(one.severity is Severity.ERROR for one in found):
         return "files have errors"
     own, others = texts.check_names(package, needed.standard)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import sys
 from collections.abc import Iterable
@@ -44,20 +43,13 @@ def add(commands: arguments.Commands) -> None:
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
     seconds = f"seconds for a robot (default: {default.timeout:g})"
-    option("--timeout", type=_amount, metavar="S", default=default.timeout, help=seconds)
+    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
     option(
-        "--memory", type=_amount, metavar="GB", help="memory for all robots together (default: most of what is free)"
+        "--memory",
+        type=arguments.amount,
+        metavar="GB",
+        help="memory for all robots together (default: most of what is free)",
     )
-
-
-def _amount(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not 0 < number < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is no limit; give a number greater than 0")
-    return number
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

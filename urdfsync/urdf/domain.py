@@ -10,6 +10,7 @@ from typing import get_args
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import (
     Artifact,
+    Bench,
     Conversion,
     Dependency,
     Domain,
@@ -25,6 +26,7 @@ from urdfsync.domain import (
 )
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
+from urdfsync.urdf.benches import bench
 from urdfsync.urdf.connectors import connector_options
 from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
@@ -187,6 +189,10 @@ class UrdfDomain(Domain):
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """Return the robot, its benches, and the record if there is no robot."""
         return package.models(joints_of(snapshot["joints"]), target, options)
+
+    def bench(self, snapshot: Snapshot, target: Target, options: Options) -> Bench | None:
+        """Return Test and Run, or the bench of the generic robot, with position, speed and effort of each joint."""
+        return bench(KinematicTree.of(from_snapshot(snapshot), (target.name,)), target, options)
 
     def record(self, reading: Reading, file: str, target: Target, options: Options) -> Standalone | None:
         """Return the record of the whole robot, and which joints the generic robot can't move."""

@@ -6,7 +6,7 @@ import contextlib
 import importlib.metadata
 import importlib.util
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from urdfsync.check import process
@@ -41,8 +41,10 @@ def installed_version(name: str, *others: str) -> str:
     return "; ".join(found)
 
 
-def run_job(name: str, job: CompileJob, cache: UserCache, limits: Limits) -> list[CompileResult]:
-    """Do the tasks of a job in a process; returns a result for each, in order.
+def run_job(
+    name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
+) -> list[CompileResult]:
+    """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
 
     A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down, and
     LimitError.
@@ -53,7 +55,7 @@ def run_job(name: str, job: CompileJob, cache: UserCache, limits: Limits) -> lis
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         environment = compiler.environment(str(cache.compiler), folder)
         try:
-            return process.run(compiler.work, job, limits=limits, environment=environment)
+            return process.run(compiler.work, job, limits=limits, environment=environment, progress=progress)
         except ImportError as error:
             raise CompilerError(_missing(compiler, f"{compiler.TITLE} does not start: {error}")) from None
         except BrokenProcessError as error:

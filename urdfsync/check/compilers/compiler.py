@@ -18,6 +18,8 @@ class Simulation(msgspec.Struct, frozen=True):
     parameters: Mapping[str, float] = {}
     tolerance: float | None = None
     """Of the integration, relative and absolute; None leaves it to the compiler."""
+    method: str = ""
+    """One of `Compiler.METHODS`; empty leaves it to the compiler."""
 
 
 class CompileTask(msgspec.Struct, frozen=True):
@@ -28,6 +30,10 @@ class CompileTask(msgspec.Struct, frozen=True):
     runs: tuple[Simulation, ...] = ()
     values: tuple[str, ...] = ()
     """Variables of which each run hands back a series."""
+    pattern: str = ""
+    """A regular expression: variables and parameters whose whole name it matches are handed back as well."""
+    parameters: tuple[str, ...] = ()
+    """Parameters that the text sets: a task is done only if there are such, and if something depends on them."""
     title: str = ""
     """What messages call the model."""
 
@@ -37,6 +43,8 @@ class SimulationResult(msgspec.Struct, frozen=True):
 
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
+    parameters: Mapping[str, float] = {}
+    """The values of parameters that `CompileTask.pattern` matches, as far as the compiler knows them."""
 
 
 class CompileResult(msgspec.Struct, frozen=True):
@@ -46,9 +54,13 @@ class CompileResult(msgspec.Struct, frozen=True):
     """What the compiler says of a model that does not compile, in its words; empty if it does."""
     unknowns: int = 0
     """Scalar unknowns of the compiled model; so many equations as well."""
-    states: int = 0
-    """Scalar states, as the compiler counts them before it reduces the index."""
+    warnings: str = ""
+    """What the compiler says of a model that compiles, in its words."""
     runs: tuple[SimulationResult, ...] = ()
+    parameters: tuple[str, ...] = ()
+    """All parameters of the model, if one that the task sets is not among them."""
+    without_effect: tuple[str, ...] = ()
+    """Parameters that the task sets and on which nothing in the compiled model depends."""
 
 
 class CompileJob(msgspec.Struct, frozen=True):
@@ -66,6 +78,8 @@ class Complaint(msgspec.Struct, frozen=True):
     """As the compiler names it; empty if it does not."""
     line: int = 0
     column: int = 0
+    code: str = "does-not-compile"
+    """Of the diagnostic; another one than this is a warning."""
 
 
 class CompilerError(UrdfsyncError):
@@ -83,7 +97,8 @@ class Compiler(Protocol):
     """How to get it, as a hint."""
     REPORT: str
     """What to do when the compiler crashes, as a hint."""
-    SIMULATES: bool
+    METHODS: tuple[str, ...]
+    """Methods of integration."""
 
     def program(self) -> str | None:
         """Return the path of the program that the modules start, empty if they need none; None if it is missing."""

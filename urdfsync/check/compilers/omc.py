@@ -1,34 +1,49 @@
-"""OpenModelica: models are compiled and balanced with it, not simulated. Untried with a real `omc`.
+"""OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files of CSV.
 
-Written from the documentation of its scripting functions and of its client library, OMPython.
+Written for the answers that OpenModelica 1.27 gave, see docs/checking.md.
 """
 
 from __future__ import annotations
 
+import csv
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterator
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
 
 from urdfsync.check.compilers.compiler import (
     CompileJob,
+    CompilerError,
     CompileResult,
     CompileTask,
     Complaint,
+    Simulation,
     SimulationResult,
     one_line,
 )
-from urdfsync.extras import install_command
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.processes import exit_cause
 
 TITLE = "OpenModelica"
-MODULES: tuple[str, ...] = ("OMPython",)
-INSTALL = f"install OpenModelica and `{install_command('omc')}`, or check without `--tool omc`"
+MODULES: tuple[str, ...] = ()
+INSTALL = "install OpenModelica, or check without `--tool omc`"
 REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
-SIMULATES = False
+METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 
-_FIRST = ("Complex", "ModelicaServices", "Modelica")  # what other libraries rest on
-_STRING = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
+_STANDARD = ("Complex", "ModelicaServices", "Modelica")
+_TOLERANCE = 1e-8
+_VALUE = re.compile(
+    r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
+    r'|"(?P<text>(?:[^"\\]|\\.)*)"|(?P<word>true|false))(?=\n|\Z)',
+    re.DOTALL,
+)
+_FIELD = re.compile(r'^ *(\w+) = "((?:[^"\\]|\\.)*)"', re.MULTILINE | re.DOTALL)
 _ESCAPED = re.compile(r"\\(.)", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 _COUNTS = re.compile(r"has (\d+) equation\(s\) and (\d+) variable\(s\)")
@@ -36,95 +51,189 @@ _MESSAGE = re.compile(
     r"^(?:\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)-\d+:\d+:\w+\] )?(?P<level>Error|Warning|Notification): ",
     re.MULTILINE,
 )
+_UNITS, _UNITS_GO_ON = "INCONSISTENT due to specified unit information", "The units of following sub-expressions"
+_FOLLOWS = re.compile(r"Failed to load package |Class \S+ not found in scope <top>", re.IGNORECASE)
+"""What is also said where something else could not be read."""
+_LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
+
+
+class _Answer(NamedTuple):
+    """What OpenModelica answers to a call, and what it says about that."""
+
+    value: str
+    messages: str
 
 
 def program() -> str | None:
-    """See `Compiler`. The client library prefers the variable to the PATH."""
+    """See `Compiler`: below OPENMODELICAHOME, else on the PATH."""
     home = os.environ.get("OPENMODELICAHOME")
-    return str(Path(home, "bin", "omc")) if home else shutil.which("omc")
+    return shutil.which("omc", path=str(Path(home, "bin")) if home else None)
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: the temporary folder is for its log, its port and what it may write."""
+    """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
     return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
 
 
 def complaints(problem: str) -> list[Complaint]:
-    """See `Compiler`. Each message goes on to the beginning of the next one; only errors count."""
-    found = list(_MESSAGE.finditer(problem))
-    ends = [*(one.start() for one in found[1:]), len(problem)]
-    errors = []
-    for one, end in zip(found, ends, strict=bool(found)):
-        if one["level"] == "Error":
-            words, line, column = one_line(problem[one.end() : end]), int(one["line"] or 0), int(one["column"] or 0)
-            errors.append(Complaint(words, file=one["file"] or "", line=line, column=column))
-    words = one_line(problem)
-    return errors or ([Complaint(words)] if words else [])
+    """See `Compiler`. Each message goes on to the beginning of the next one; notifications do not count.
+
+    Of an error in a library that has two places, the first one counts, which a notification tells.
+    """
+    found, origin = list[Complaint](), Complaint("")
+    messages = list(_MESSAGE.finditer(problem))
+    ends = [*(one.start() for one in messages[1:]), len(problem)]
+    for one, end in zip(messages, ends, strict=bool(messages)):
+        words = one_line(problem[one.end() : end])
+        if one["level"] == "Notification":
+            if words == "From here:":
+                origin = Complaint("", one["file"] or "", int(one["line"] or 0), int(one["column"] or 0))
+            continue
+        if found and not one["file"] and words.startswith(_UNITS_GO_ON):
+            found[-1] = msgspec.structs.replace(found[-1], message=f"{found[-1].message}; {words}")
+            continue
+        place = origin.file or one["file"] or "", origin.line or int(one["line"] or 0)
+        column = origin.column or int(one["column"] or 0)
+        code = "units" if _UNITS in words else "compiler-warning" if one["level"] == "Warning" else "does-not-compile"
+        found.append(Complaint(words, *place, column, code))
+        origin = Complaint("")
+    found = [one for one in found if not _FOLLOWS.match(one.message)] or found
+    return found or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """See `Compiler`: one session; what can't be loaded is the problem of each task."""
-    import OMPython  # an optional extra
+    """See `Compiler`: all in one script. What can't be loaded is the problem of each task."""
+    folder = Path(tempfile.mkdtemp())
+    files = _package_files(job)
+    version = _ask(folder, ["getVersion()"], "")[0].value
+    # the one that compiles to WebAssembly needs no C compiler, and has no other target
+    options = ['setCommandLineOptions("--simCodeTarget=wasm-jit")'] if version.endswith("-rust") else []
+    loads = [*options, "loadModel(Modelica)", *(f"loadFile({quoted(path.as_posix())})" for path in files)]
+    calls = [_calls(task, number, folder) for number, task in enumerate(job.tasks)]
+    answers = iter(_ask(folder, [*loads, *(call for some in calls for call in some)], job.tasks[0].title))
+    problem = "\n".join(_problem(next(answers)) for _ in loads).strip()
+    for task, some in zip(job.tasks, calls, strict=True):
+        given = [next(answers) for _ in some]
+        yield CompileResult(problem) if problem else _result(task, given, folder)
 
+
+def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
+    """What to ask for a task: its text is loaded, then checked or simulated."""
+    file = folder / f"task{number}.mo"
+    file.write_text(task.source, encoding="utf-8")
+    found = [f"loadFile({quoted(file.as_posix())})"]
+    if not task.runs:
+        return [*found, f"checkModel({task.model})"]
+    for each, run in enumerate(task.runs):
+        found.append(f"simulate({task.model}, {_settings(run)}, fileNamePrefix={quoted(f'task{number}_{each}')})")
+    return found
+
+
+def _settings(run: Simulation) -> str:
+    changed = ",".join(f"{name}={value!r}" for name, value in run.parameters.items())
+    override = f", simflags={quoted(f'-override={changed}')}" if changed else ""
+    intervals, tolerance = max(1, round(run.stop / run.step)), run.tolerance or _TOLERANCE
+    times = f"startTime=0, stopTime={run.stop!r}, numberOfIntervals={intervals}, tolerance={tolerance!r}"
+    return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="csv"{override}'
+
+
+def _ask(folder: Path, calls: Sequence[str], title: str) -> list[_Answer]:
+    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them."""
+    script = folder / "script.mos"
+    script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
     try:
-        session = OMPython.OMCSessionLocal()
-    except (OMPython.OMSessionException, OSError) as error:
+        done = subprocess.run(  # noqa: S603 - the user's own program
+            [program() or "omc", script.name], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, check=False
+        )
+    except OSError as error:
         raise ImportError(str(error)) from error
-
-    def ask(call: str) -> str:
-        return str(session.sendExpression(call, parsed=False))
-
-    problem = ""
-    try:
-        ask("cd(getTempDirectoryPath())")
-        calls = (f"loadFile({quoted(file.as_posix())}, uses=false)" for file in _package_files(job))
-        problem = next(filter(None, (_load(ask, call) for call in calls)), "")
-    except OMPython.OMSessionException as error:
-        problem = str(error)
-    for task in job.tasks:
-        try:
-            result = CompileResult(problem) if problem else _compile(ask, task)
-        except OMPython.OMSessionException as error:
-            result = CompileResult(str(error))
-        yield result
+    answers, rest = read_answers(done.stdout.decode(errors="replace"))
+    if len(answers) < len(calls):
+        said = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or rest.strip().splitlines()[:1]
+        if len(calls) == 1:
+            raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *said))))
+        message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
+        hint = f"{title}: {REPORT}"
+        raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *said)), hint=hint))
+    return answers
 
 
-def _load(ask: Callable[[str], str], call: str) -> str:
-    """Load something; returns what is wrong, empty if it is there."""
-    answer = ask(f"{call}; getErrorString()")
-    if answer.lstrip().startswith("true"):
+def read_answers(printed: str) -> tuple[list[_Answer], str]:
+    """Return the answers in what OpenModelica printed, two values for each call, and the rest, which is none."""
+    values, end = list[str](), 0
+    while found := _VALUE.match(printed, end):
+        values.append(found["record"] or found["word"] or _text(found["text"]))
+        end = found.end()
+    return [_Answer(*pair) for pair in zip(values[::2], values[1::2], strict=False)], printed[end:]
+
+
+def _problem(answer: _Answer) -> str:
+    """What is wrong with something that was to be loaded; empty if it is there."""
+    if answer.value == "true":
         return ""
-    return "\n".join(filter(None, map(str.strip, strings(answer)))) or "OpenModelica can't load it and gives no reason"
+    return answer.messages.strip() or "OpenModelica can't load it and gives no reason"
 
 
-def _compile(ask: Callable[[str], str], task: CompileTask) -> CompileResult:
-    if problem := _load(ask, f"loadString({quoted(task.source)}, uses=false)"):
+def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    loaded, *rest = answers
+    if problem := _problem(loaded):
         return CompileResult(problem)
-    # the messages in the same breath, or the client library takes them for itself
-    answer = ask(f"checkModel({task.model}); getErrorString()")
-    said, *messages = strings(answer) or [answer]
+    if task.runs:
+        return _simulated(task, rest, folder)
+    ((said, messages),) = rest
     counts = _COUNTS.search(said)
     if "completed successfully" not in said or counts is None:
-        words = "\n".join(filter(None, map(str.strip, (*messages, said))))
-        return CompileResult(words or "the model does not compile")
+        return CompileResult("\n".join(filter(None, map(str.strip, (messages, said)))) or "the model does not compile")
     if counts[1] != counts[2]:
         return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
-    runs = tuple(SimulationResult(problem="OpenModelica only compiles here") for _ in task.runs)
-    return CompileResult(unknowns=int(counts[2]), runs=runs)
+    return CompileResult(unknowns=int(counts[2]), warnings=messages.strip())
+
+
+def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    runs = []
+    for value, messages in answers:
+        fields = {name: _text(text) for name, text in _FIELD.findall(value)}
+        log = fields.get("messages", value)
+        if fields.get("resultFile"):
+            runs.append(_read_results(folder / fields["resultFile"], task))
+        elif log.startswith("Failed to build model"):
+            return CompileResult(messages.strip() or one_line(log))
+        else:
+            words = [_LOG.sub("", line) for line in log.splitlines() if not line.startswith("LOG_SUCCESS")]
+            runs.append(SimulationResult(problem=one_line("; ".join(filter(None, words)))))
+    return CompileResult(runs=tuple(runs))
+
+
+def _read_results(file: Path, task: CompileTask) -> SimulationResult:
+    """The series of a file with a column for each variable."""
+    wanted = re.compile(task.pattern)
+    try:
+        with file.open(encoding="utf-8", newline="") as text:
+            rows = csv.reader(text)
+            columns = {name: number for number, name in enumerate(next(rows, []))}
+            names = list(dict.fromkeys(("time", *task.values, *filter(wanted.fullmatch, columns))))
+            if missing := [name for name in names if name not in columns]:
+                return SimulationResult(problem=f"the result has no `{missing[0]}`")
+            numbers = [[float(row[columns[name]]) for name in names] for row in rows]
+    except (OSError, ValueError, IndexError) as error:
+        return SimulationResult(problem=f"the result can't be read: {error}")
+    return SimulationResult(dict(zip(names, map(tuple, zip(*numbers, strict=True)), strict=False)))
 
 
 def _package_files(job: CompileJob) -> list[Path]:
-    """The files to load so that all roots are there, which are packages or folders of packages; libraries first."""
+    """The files to load so that all roots are there, which are packages or folders of packages.
+
+    The standard library is OpenModelica's own, which goes with it.
+    """
     found: list[Path] = []
     for root in map(Path, job.roots):
         whole = root if root.is_file() else root / "package.mo"
         found += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
+    return [path for path in found if _class_name(path) not in _STANDARD]
 
-    def rank(file: Path) -> int:
-        name = (file.parent if file.name == "package.mo" else file).stem.split(" ")[0]
-        return _FIRST.index(name) if name in _FIRST else len(_FIRST)
 
-    return sorted(found, key=rank)
+def _class_name(file: Path) -> str:
+    return (file.parent.name if file.name == "package.mo" else file.stem).split(" ")[0]
 
 
 def quoted(text: str) -> str:
@@ -132,6 +241,6 @@ def quoted(text: str) -> str:
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
-def strings(answer: str) -> list[str]:
-    """The texts in an answer, without their quotes."""
-    return [_ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), text) for text in _STRING.findall(answer)]
+def _text(literal: str) -> str:
+    """The text of a literal of Modelica, given without its quotes."""
+    return _ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), literal)

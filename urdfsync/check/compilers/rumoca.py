@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -32,7 +32,7 @@ TITLE = "the compiler"
 MODULES: tuple[str, ...] = ("rumoca",)
 INSTALL = install_command("check")
 REPORT = "report it to the authors of rumoca"
-SIMULATES = True
+METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
@@ -96,48 +96,99 @@ def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
         model = session.loads(task.source, model=task.model, filename=_FILE)
     except rumoca.RumocaError as error:
         return CompileResult(_words(error))
-    unknowns, states = _counts(model)
-    return CompileResult("", unknowns, states, tuple(_simulate(model, run, task.values) for run in task.runs))
+    if not set(task.parameters).issubset(model.parameters.names):
+        return CompileResult(parameters=tuple(model.parameters.names))
+    if unused := _without_effect(model, task.parameters):
+        return CompileResult(without_effect=unused)
+    runs = tuple(_simulate(model, run, task) for run in task.runs)
+    return CompileResult(unknowns=_unknowns(model), runs=runs)
 
 
 class _Type(msgspec.Struct):
+    scalar: str
     dimensions: list[int]
 
 
+class _Attributes(msgspec.Struct):
+    binding: int | None
+
+
 class _Variable(msgspec.Struct):
+    name: str
     role: str
     value_type: int
+    attributes: _Attributes
+
+
+class _Expressions(msgspec.Struct):
+    nodes: list[dict[str, Any]]
 
 
 class _Storage(msgspec.Struct):
     value_types: list[_Type]
     variables: list[_Variable]
+    expressions: _Expressions
 
 
 class _Equations(msgspec.Struct):
-    """The part of the compiler's own form of a model that says how many variables there are."""
+    """A part of the compiler's own form of a model: its variables, and where expressions mention them."""
 
     storage: _Storage
 
 
-def _counts(model: rumoca.Model) -> tuple[int, int]:
-    """Scalar unknowns and states, counted as the compiler does when it finds a model unbalanced."""
+def _unknowns(model: rumoca.Model) -> int:
+    """Scalar unknowns, counted as the compiler does when it finds a model unbalanced."""
     storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
     sizes = [math.prod(one.dimensions) for one in storage.value_types]
-    unknowns = sum(sizes[one.value_type] for one in storage.variables if one.role in _UNKNOWN)
-    return unknowns, sum(sizes[one.value_type] for one in storage.variables if one.role == "state")
+    return sum(sizes[one.value_type] for one in storage.variables if one.role in _UNKNOWN)
 
 
-def _simulate(model: rumoca.Model, run: Simulation, values: tuple[str, ...]) -> SimulationResult:
+def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of some parameters that no equation uses, neither itself nor what is bound to them.
+
+    rumoca 0.10.2 takes a modifier of a part of a record that is handed down as a whole, and then uses the whole.
+    """
+    if not names:
+        return ()
+    storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
+    bound = {one.attributes.binding: number for number, one in enumerate(storage.variables)}
+    uses: dict[int, list[int]] = {}
+    for place, node in enumerate(storage.expressions.nodes):
+        match node:
+            case {"coordinate": {"parameter": int(number)}}:
+                uses.setdefault(number, []).append(place)
+    numbers = {one.name: number for number, one in enumerate(storage.variables)}
+    structural = {one.name for one in model.parameters if one.kind == "structural"}
+
+    def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
+        # what the structure depends on is evaluated, and then mentioned nowhere; sizes are not even called structural
+        one = storage.variables[number]
+        if one.name in structural or storage.value_types[one.value_type].scalar != "real":
+            return True
+        found = uses.get(number, [])
+        return any(place not in bound for place in found) or any(
+            is_used(bound[place], above | {number}) for place in found if bound[place] not in above
+        )
+
+    return tuple(name for name in names if name in numbers and not is_used(numbers[name]))
+
+
+def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> SimulationResult:
     import rumoca
 
     try:
-        config = rumoca.SimConfig(dt=run.step, rtol=run.tolerance, atol=run.tolerance)
+        tolerance, method = run.tolerance, run.method or None
+        config = rumoca.SimConfig(dt=run.step, rtol=tolerance, atol=tolerance, solver=method)
         result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
-        series = {name: tuple(result[name].tolist()) for name in values}
+        wanted = re.compile(task.pattern)
+        others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # but for its own
+        names = dict.fromkeys((*task.values, *others))
+        series = {name: tuple(result[name].tolist()) for name in names}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
-    return SimulationResult({"time": tuple(result.time.tolist()), **series})  # all finite, or it says so itself
+    known = {one.name: one.value for one in model.parameters if one.value is not None and wanted.fullmatch(one.name)}
+    times = tuple(result.time.tolist())
+    return SimulationResult({"time": times, **series}, parameters=known)  # all finite, or it says so itself
 
 
 def _words(error: Exception) -> str:

@@ -1,0 +1,67 @@
+"""What a simulation tells of joints: which models are simulated, and the names of variables and limits."""
+
+from __future__ import annotations
+
+import pytest
+from support.robots import tree
+
+from urdfsync.domain import Axis, Bench, Signal, Target
+from urdfsync.urdf.benches import bench
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, Limit, Mimic, Transmission
+
+TARGET = Target("Plant.Arm", "Arm")
+ARM = tree(
+    Joint("base-joint", "revolute", "base", "upper", limit=Limit(-1, 1, 2, 3)),
+    Joint("wheel", "continuous", "upper", "wheel", transmission=Transmission(50.0)),
+    Joint("finger", "prismatic", "upper", "finger", limit=Limit(), mimic=Mimic("wheel")),
+    Joint("weld", "fixed", "finger", "tip"),
+)
+
+
+def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
+    name = "base_joint.parameters.limits"
+    found = bench(ARM, TARGET, Options())
+    assert found is not None
+    assert (found.test, found.run) == ("ArmTest", "ArmRun")
+    assert found.freedoms == 2, "the finger follows"
+    first, finger, wheel = found.axes
+    assert first == Axis(
+        "joint base-joint",
+        Signal("base_joint.revolute.phi", "rad", (f"{name}.lower", f"{name}.upper")),
+        Signal("base_joint.revolute.w", "rad/s", (f"{name}.velocity",)),
+        Signal("base_jointAxis.tau", "N·m", (f"{name}.effort",)),
+    )
+    assert wheel.position == Signal("wheel_joint.revolute.phi", "rad"), "it turns without end"
+    assert (finger.position.variable, finger.position.unit) == ("finger_joint.prismatic.s", "m")
+    assert finger.effort is None, "it follows another joint"
+
+
+def test_a_floating_base_has_six_degrees_of_freedom_more() -> None:
+    found = bench(ARM, TARGET, Options(base="floating"))
+    assert found is not None
+    assert found.freedoms == 8
+
+
+def test_a_motor_behind_a_gear_drives_as_well() -> None:
+    found = bench(ARM, TARGET, Options(drives="motor"))
+    assert found is not None
+    wheel = found.axes[2].effort
+    assert wheel is not None
+    assert wheel.added == ("wheel_joint.parameters.transmission.reduction", "wheel_jointMotor.tau")
+
+
+def test_a_robot_in_one_record_is_told_by_the_numbers_of_its_axes() -> None:
+    found = bench(ARM, TARGET, Options(approach=("record",)))
+    assert found is not None
+    assert (found.test, found.run) == ("ArmGeneric", "")
+    assert [axis.position.variable for axis in found.axes] == ["phi[1]", "phi[2]"]
+    assert found.axes[0].velocity == Signal("w_phi[1]", "rad/s", ("data.base_joint.limits.velocity",))
+    assert found.axes[0].effort == Signal("rotationalAxis[1].tau", "N·m", ("data.base_joint.limits.effort",))
+
+
+@pytest.mark.parametrize("kind", ["planar", "floating"])
+def test_a_record_that_no_generic_robot_reads_has_no_bench(kind: str) -> None:
+    loose = tree(Joint("loose", kind, "a", "b"))  # type: ignore[arg-type]
+    assert bench(loose, TARGET, Options(approach=("record",))) is None
+    assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", (), {"planar": 3, "floating": 6}[kind])

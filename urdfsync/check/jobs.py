@@ -1,0 +1,97 @@
+"""Does tasks of a compiler with versions of one robot's package, each a copy in a folder that the compiler reads."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.check import compilers, libraries
+from urdfsync.check.cache import UserCache, cache_errors
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask
+from urdfsync.check.package import write_package
+from urdfsync.check.process import Limits
+from urdfsync.config import RobotConfig, find_own_library
+from urdfsync.modelica.names import LIBRARY
+
+
+class Jobs:
+    """Where the tasks of one robot are done."""
+
+    def __init__(
+        self,
+        robot: RobotConfig,
+        around: Mapping[str, bytes],
+        needed: libraries.Libraries,
+        compiler: str,
+        limits: Limits,
+        folder: Path,
+        progress: Callable[[], None] | None = None,
+    ) -> None:
+        """`around` is as in `package.files_around`; copies go below `folder`; for `progress` see `process.run`."""
+        self._robot, self._around, self._compiler, self._progress = robot, around, compiler, progress
+        self._limits, self._folder, self._needed = limits, folder, needed
+
+    def copy_standard_library(self, texts: Iterable[bytes]) -> None:
+        """Copy what `texts`, those of the package, and other libraries need of the standard one. Raises CacheError."""
+        standard = self._needed.standard
+        others = (text for path in self._needed.others.values() for text in libraries.library_texts(path).values())
+        self._standard = libraries.standard_library_copy(standard, [*texts, *others], UserCache.default())
+        self._originals = {str(self._standard / name): path for name, path in standard.items() if path.suffix != ".mo"}
+        own = find_own_library(LIBRARY, self._robot.target.package)
+        self._libraries = {**({LIBRARY: own} if own else {}), **self._needed.others}
+
+    def run(
+        self,
+        label: str,
+        texts: Mapping[str, bytes],
+        tasks: Sequence[CompileTask],
+        changed: Mapping[Path, bytes] | None = None,
+    ) -> list[CompileResult]:
+        """Do tasks with a package in a process. Problems name the files that people know, and not their copies.
+
+        `label` names the copy; `changed` are files of other libraries that have another content there. Raises
+        CompilerError, LimitError and CacheError.
+        """
+        cache, folder = UserCache.default(), self._folder / label.replace("/", "-")
+        originals, roots = dict(self._originals), [str(self._standard)]
+        with cache_errors(cache.folder):
+            top = write_package(folder, self._robot, texts, self._around)
+            for path in self._libraries.values():
+                root = _readable(path, folder / ".libraries", changed or {})
+                originals[root] = path
+                roots.append(root)
+        originals[str(top)] = self._robot.output / top.name
+        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
+        for task in tasks:
+            first, _, rest = task.source.partition("\n")
+            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
+            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
+        job = CompileJob((*roots, str(top)), tuple(with_imports))
+        results = []
+        for one in compilers.run_job(self._compiler, job, cache, self._limits, self._progress):
+            problem = one.problem
+            for copy, original in originals.items():
+                problem = problem.replace(copy, str(original))
+            results.append(msgspec.structs.replace(one, problem=problem))
+        return results
+
+
+def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
+    """A library where the compiler can read it, which takes paths in UTF-8 only; else, or if changed, a copy."""
+    inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        pass
+    else:
+        if not inside:
+            return str(path)
+    copy = folder / path.name
+    folder.mkdir(parents=True, exist_ok=True)
+    (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
+    for file, content in inside.items():
+        (copy / file.relative_to(path)).write_bytes(content)
+    return str(copy)

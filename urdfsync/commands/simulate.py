@@ -1,0 +1,98 @@
+"""`urdfsync simulate`: simulates a model with a robot's package, and holds the joints against their limits."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import threading
+from pathlib import Path
+
+from urdfsync import config
+from urdfsync.check.compilers import COMPILERS
+from urdfsync.commands import arguments
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.engine.result import Exit
+from urdfsync.output.console import Console
+from urdfsync.simulate.files import Outputs, check_outputs, write_outputs
+from urdfsync.simulate.report import result_lines, to_json
+from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
+from urdfsync.simulate.run import simulate
+
+_OPTIONS = ("model", "stop", "step", "tolerance", "method", "motion", "compiler", "timeout", "memory", "wait")
+"""Fields of `SimulateOptions` that are arguments of the same name."""
+
+
+def add(commands: arguments.Commands) -> None:
+    """Add the command's parser."""
+    parser = arguments.add_command(
+        commands,
+        "simulate",
+        run,
+        "--robot --wait",
+        help="simulate a robot, and hold its joints against their limits",
+        description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
+        "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
+        "written but the files that you name.",
+        epilog="examples: urdfsync simulate arm --plot arm.png\n"
+        "          urdfsync simulate --model Plant.Cell --stop 5 --csv cell.csv\n"
+        "          urdfsync simulate arm --set robot.elbow.parameters.dynamics.damping=4\n"
+        "          urdfsync simulate arm --input motion.csv\n\n"
+        "exit codes: 0 simulated, also where limits are passed; 2 error, 130 interrupted",
+    )
+    option, default = parser.add_argument, SimulateOptions()
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("--model", metavar="NAME", default="", help="the model (default: Test of the robot; with --input, Run)")
+    stop = f"end of the simulation (default: as the model says, else {STOP:g})"
+    option("--stop", type=arguments.amount, metavar="S", help=stop)
+    steps = f"interval of results (default: as the model says, else {STEPS} of them)"
+    option("--step", type=arguments.amount, metavar="S", help=steps)
+    tolerance = f"of the integration (default: as the model says, else {TOLERANCE:g})"
+    option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
+    methods = ", ".join(name for one in COMPILERS.values() for name in one.METHODS)
+    option("--method", metavar="M", default="", help=f"of the integration: {methods}")
+    option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
+    option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
+    option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
+    option("--parquet", type=Path, metavar="FILE", help="likewise")
+    more = "a variable for these files as well, such as 'robot.hand.*'; may be repeated"
+    option("--variable", action="append", metavar="PATTERN", default=[], help=more)
+    option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
+    option("--tool", dest="compiler", choices=tuple(COMPILERS), default=default.compiler, help="the compiler: rumoca")
+    seconds = f"seconds for all of it (default: {default.timeout:g})"
+    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
+    option("--memory", type=arguments.amount, metavar="GB", help="memory for it (default: what is free)")
+
+
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Simulate one robot, write what was asked for, and show what came out."""
+    configuration = arguments.configuration(args)
+    robots = arguments.select_robots(args, configuration, console)
+    if len(robots) > 1:
+        names = ", ".join(robot.name for robot in robots)
+        message = f"{len(robots)} robots are meant; one can be simulated at a time"
+        raise ConfigError(Diagnostic(Severity.ERROR, "robots", message, hint=f"name one: {names}"))
+    (robot,) = robots
+    outputs = Outputs(args.csv, args.parquet, args.plot)
+    inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
+    check_outputs(outputs, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
+    if outputs.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
+        later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
+        later.daemon = True
+        later.start()
+    chosen = {name: getattr(args, name) for name in _OPTIONS}
+    options = SimulateOptions(
+        values=tuple(args.set),
+        variables=tuple(args.variable),
+        package_paths=config.ros_package_path(os.environ),
+        **chosen,
+    )
+    result = simulate(configuration, robot, options, console.progress)
+    write_outputs(outputs, result)
+    if console.json:
+        console.add_robot(to_json(result, outputs.files()))
+    elif not console.quiet:
+        console.print(result_lines(result, outputs.files()))
+    console.findings(result.diagnostics)
+    console.end("simulate", Exit.IN_STEP)
+    return Exit.IN_STEP

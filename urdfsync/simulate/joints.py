@@ -1,0 +1,102 @@
+"""Joints over a simulation: where they are in a model, what they did, and which of their limits they passed."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from urdfsync.domain import Axis, Signal
+from urdfsync.simulate.results import JointResult, PassedLimit, Quantity, Series
+
+_ENDLESS = 1e300
+"""From here on a limit is none: compilers write infinity as the greatest number that they have."""
+_MARGIN, _SHARE = 1e-6, 1e-6
+"""What the models of joints take for rounding: of positions in their unit, of speeds and efforts as a share as well."""
+
+
+def pattern(axes: Sequence[Axis]) -> str:
+    """Return a regular expression for all that is read of joints, wherever in a model the robot is."""
+    names = dict.fromkeys(name for axis in axes for signal in _signals(axis) for name in _names(signal))
+    return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
+
+
+def joint_results(axes: Sequence[Axis], series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
+    """Return what each joint of each robot in a model did, in the order of `axes`."""
+    found = []
+    for place in robots(axes, series):
+        for axis in axes:
+            signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
+            values = {name: _values(signal, place, series, parameters) for name, signal in signals.items() if signal}
+            told = {
+                name: _quantity(signal, place, values[name], parameters)
+                for name, signal in signals.items()
+                if signal and values[name] is not None
+            }
+            passed = [one for name in told for one in _passed(name, told[name], series["time"], values[name])]
+            if told:
+                found.append(JointResult(axis.element, place, **told, passed=tuple(passed)))
+    return found
+
+
+def robots(axes: Sequence[Axis], series: Series) -> list[str]:
+    """Return the components that are robots with these axes: those below which most of the positions are.
+
+    A joint may have been exchanged for another model, and parts of something else may have the name of a joint.
+    """
+    found: dict[str, int] = {}
+    for axis in axes:
+        for name in series:
+            if name == axis.position.variable or name.endswith(f".{axis.position.variable}"):
+                place = name.removesuffix(axis.position.variable).removesuffix(".")
+                found[place] = found.get(place, 0) + 1
+    return sorted(place for place, count in found.items() if count == max(found.values()))
+
+
+def _signals(axis: Axis) -> Iterator[Signal]:
+    yield from filter(None, (axis.position, axis.velocity, axis.effort))
+
+
+def _names(signal: Signal) -> Iterator[str]:
+    yield from (signal.variable, *signal.limits, *(signal.added or ()))
+
+
+def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
+    """Return the numbers of a signal as an array; None if the model does not have it."""
+    name, *added = (_below(place, one) for one in (signal.variable, *(signal.added or ())))
+    if name not in series:
+        return None
+    import numpy as np  # 100 ms, which go by while the compiler is at work if there is a plot
+
+    values = np.array(series[name])
+    if added and added[0] in parameters and added[1] in series:
+        values += parameters[added[0]] * np.array(series[added[1]])
+    return values
+
+
+def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float]) -> Quantity:
+    limits = [parameters.get(_below(place, one), math.inf) for one in signal.limits] or [math.inf]
+    limits = [-limits[0], limits[0]] if len(limits) == 1 else limits
+    lower, upper = (limit if abs(limit) < _ENDLESS else None for limit in limits)
+    name = _below(place, signal.variable)
+    return Quantity(name, signal.unit, float(values.min()), float(values.max()), lower, upper)
+
+
+def _passed(name: str, quantity: Quantity, times: Sequence[float], values: Any) -> Iterator[PassedLimit]:
+    """Yield the limits that a quantity passes by more than the models of joints allow for rounding."""
+    import numpy as np  # see above
+
+    share = 0.0 if name == "position" else _SHARE
+    for limit, sign in ((quantity.lower, -1), (quantity.upper, 1)):
+        if limit is not None:
+            excess = sign * (values - limit)
+            is_beyond = (1 - share) * sign * values > sign * limit + _MARGIN
+            if is_beyond.any():
+                seconds = float(np.diff(times)[is_beyond[:-1]].sum())
+                first = float(times[int(is_beyond.argmax())])
+                yield PassedLimit(name, limit, first, float(excess.max()), seconds)
+
+
+def _below(place: str, name: str) -> str:
+    return f"{place}.{name}" if place else name

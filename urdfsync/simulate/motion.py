@@ -1,0 +1,229 @@
+"""A motion from a CSV file: its columns by the inputs of a model, and the Modelica text that follows it.
+
+Positions and speeds are joined by a cubic spline, so that they can be differentiated; other inputs by straight lines.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import math
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.files import shown
+from urdfsync.simulate.models import Input
+from urdfsync.spelling import nearest
+
+MOST_ROWS = 10_000
+MOST_BYTES = 50_000_000
+
+_UNITS = {
+    "rad": {"rad": 1.0, "deg": math.pi / 180},
+    "m": {"m": 1.0, "mm": 1e-3},
+    "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3},
+    "N.m": {"N.m": 1.0, "N·m": 1.0},
+    "N": {"N": 1.0},
+    "s": {"s": 1.0, "ms": 1e-3},
+}
+"""By unit of an input, the units that a column may have, and what they are in that of the input."""
+_SMOOTH = ("rad", "m", "rad/s", "m/s")
+_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
+
+
+class Motion(msgspec.Struct, frozen=True):
+    """Times in s, from 0 on, and the value of each input at each of them, in the unit of the input."""
+
+    times: tuple[float, ...]
+    values: tuple[tuple[Input, tuple[float, ...]], ...]
+
+
+def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
+    """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError and OSError."""
+    if file.stat().st_size > MOST_BYTES:
+        _refuse(file, f"the file has more than {MOST_BYTES // 10**6} MB", hint="leave out columns and rows")
+    try:
+        text = file.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    try:
+        rows = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        _refuse(file, f"the file is no CSV: {error}", reader.line_num)
+    if len(rows) < 3:
+        _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
+    if len(rows) > MOST_ROWS + 1:
+        _refuse(
+            file, f"the file has more than {MOST_ROWS} rows", hint="leave out rows: what is between is interpolated"
+        )
+    (line, header), *rows = rows
+    factors = _columns(file, line, header, inputs)
+    table = [[_number(file, line, cell) for cell in row] for line, row in _of_width(file, len(header), rows)]
+    columns = {name: [factor * row[place] for row in table] for place, (name, factor) in enumerate(factors)}
+    times = columns["time"]
+    for number, (before, time) in enumerate(itertools.pairwise(times), start=1):
+        if time <= before:
+            _refuse(
+                file,
+                f"the time does not go on: {before:g} s, then {time:g} s",
+                rows[number][0],
+                "sort the rows by time",
+            )
+    if times[0] != 0:
+        _refuse(file, f"the time begins at {times[0]:g} s", rows[0][0], "let it begin at 0")
+    return Motion(tuple(times), tuple((one, tuple(columns[one.name])) for one in inputs))
+
+
+def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> list[tuple[str, float]]:
+    """The name of each column, and what its unit is in that of the input."""
+    found: list[tuple[str, float]] = []
+    units = {"time": "s", **{one.name: one.unit for one in inputs}}
+    for place, cell in enumerate(header):
+        match = _HEADER.fullmatch(cell)
+        name, unit = (match["name"], match["unit"]) if match else (cell, None)
+        if place == 0 and name != "time":
+            _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
+        if name not in units:
+            near = nearest(name, units)
+            others = f"the inputs are {', '.join(list(units)[1:])}"
+            _refuse(file, f"the model has no input `{name}`", line, f"did you mean `{near}`?" if near else others)
+        if name in [other for other, _ in found]:
+            _refuse(file, f"the column `{name}` is there twice", line)
+        known = _UNITS.get(units[name], {units[name]: 1.0})
+        if unit is not None and unit not in known:
+            _refuse(file, f"`{name}` can't be given in {unit}", line, f"give it in {' or '.join(filter(None, known))}")
+        found.append((name, known[unit] if unit is not None else 1.0))
+    if missing := [name for name in units if name not in dict(found)]:
+        _refuse(file, f"columns are missing: {', '.join(missing)}", line)
+    return found
+
+
+def _of_width(file: Path, width: int, rows: Sequence[tuple[int, list[str]]]) -> Iterator[tuple[int, list[str]]]:
+    for line, row in rows:
+        if len(row) != width:
+            _refuse(file, f"the row has {len(row)} cells, the header {width}", line)
+        yield line, row
+
+
+def _number(file: Path, line: int, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        _refuse(file, f"{cell.strip()!r} is no number", line)
+    return number
+
+
+def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
+    raise SourceError(Diagnostic(Severity.ERROR, "motion", message, shown(file), line, hint=hint))
+
+
+_FUNCTION = """
+  function {name}{number}
+    input Real t;{inputs}
+    output Real y;
+  protected
+    Integer k;
+    Integer top;
+    Integer middle;
+    Real h;
+    Real a;
+    Real b;
+  algorithm
+    k := 1;
+    top := {count};
+    middle := 1;
+    for i in 1:{halvings} loop
+      middle := div(k + top, 2);
+      if t >= times[middle] then
+        k := middle;
+      else
+        top := middle;
+      end if;
+    end for;
+    h := times[k + 1] - times[k];
+    a := (times[k + 1] - t)/h;
+    b := (t - times[k])/h;
+    y := {value};{annotation}
+  end {name}{number};
+"""
+_KINDS = (
+    (
+        "course",
+        "",
+        "a*q{0}[k] + b*q{0}[k + 1] + ((a^3 - a)*m{0}[k] + (b^3 - b)*m{0}[k + 1])*h^2/6",
+        "(derivative = slope{0})",
+    ),
+    (
+        "slope",
+        "\n    input Real t1;",
+        "t1*((q{0}[k + 1] - q{0}[k])/h + ((1 - 3*a^2)*m{0}[k] + (3*b^2 - 1)*m{0}[k + 1])*h/6)",
+        "(derivative(order = 2) = bend{0})",
+    ),
+    ("bend", "\n    input Real t1;\n    input Real t2;", "a*m{0}[k] + b*m{0}[k + 1]", ""),
+)
+"""Value, first and second derivative of a spline through the points `times`, `q`, with second derivatives `m`."""
+
+
+def course_functions(motion: Motion) -> tuple[str, list[str]]:
+    """Return functions of a package, and an equation for each input that calls them."""
+    count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
+    halvings = max(1, math.ceil(math.log2(count - 1)))
+    for number, (one, values) in enumerate(motion.values, 1):
+        bends = second_derivatives(motion.times, values) if one.unit in _SMOOTH else [0.0] * count
+        lines += [_constant(f"q{number}", values), _constant(f"m{number}", bends)]
+        for name, inputs, value, derivative in _KINDS:
+            annotation = f"\n    annotation {derivative.format(number)};" if derivative else ""
+            words = {"inputs": inputs, "value": value.format(number), "annotation": annotation}
+            text = _FUNCTION.format(name=name, number=number, count=count, halvings=halvings, **words)
+            lines.append(text)
+        equations.append(f"{one.name} = course{number}(time);")
+    return "".join(lines), equations
+
+
+def _constant(name: str, values: Sequence[float]) -> str:
+    return f"  constant Real {name}[{len(values)}] = {{{', '.join(map(repr, values))}}};\n"
+
+
+def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[float]:
+    """Return the second derivatives of the cubic spline through points that has no seam at its second and last but one.
+
+    Such a spline is exact for a cubic; through three points it is a parabola, through two a straight line.
+    """
+    import numpy as np  # 100 ms, which no other simulation needs
+
+    count = len(times)
+    steps, slopes = np.diff(times), np.diff(values) / np.diff(times)
+    if count == 2:
+        return [0.0, 0.0]
+    if count == 3:
+        return [float(2 * (slopes[1] - slopes[0]) / (steps[0] + steps[1]))] * 3
+    # unknowns: the second derivatives at all points but the first and the last, which follow from these
+    lower, upper = steps[1:-1].copy(), steps[1:-1].copy()
+    middle, right = 2 * (steps[:-1] + steps[1:]), 6 * np.diff(slopes)
+    first, last = steps[0] / steps[1], steps[-1] / steps[-2]
+    middle[0] += steps[0] * (1 + first)
+    upper[0] -= steps[0] * first
+    middle[-1] += steps[-1] * (1 + last)
+    lower[-1] -= steps[-1] * last
+    for k in range(1, count - 2):
+        factor = lower[k - 1] / middle[k - 1]
+        middle[k] -= factor * upper[k - 1]
+        right[k] -= factor * right[k - 1]
+    found: Any = np.zeros(count)
+    found[count - 2] = right[-1] / middle[-1]
+    for k in range(count - 4, -1, -1):
+        found[k + 1] = (right[k] - upper[k] * found[k + 2]) / middle[k]
+    found[0] = (1 + first) * found[1] - first * found[2]
+    found[-1] = (1 + last) * found[-2] - last * found[-3]
+    return [float(one) for one in found]

@@ -1,0 +1,90 @@
+"""A simulation in words: what was simulated, a row for each joint, and where the results went; and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync.output.console import StyledLine, line
+from urdfsync.simulate.results import JointResult, Quantity, SimulateResult
+
+_HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
+_NOTHING = 5e-7
+"""Smaller numbers are shown as 0: they come from rounding."""
+
+
+def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
+    """All that there is to say of a simulation but for its diagnostics."""
+    took = "as simulated before" if result.is_known else f"{result.seconds:.1f} s"
+    about = f": {result.model}, {result.stop:g} s in steps of {result.step:g} s; {took}"
+    yield line((result.robot, "bold"), (about, ""))
+    robots = list(dict.fromkeys(joint.robot for joint in result.joints))
+    for robot in robots:
+        if robots != ["robot"]:
+            yield line((f"  {robot or 'the model itself'}", "bold"))
+        rows = [_row(joint) for joint in result.joints if joint.robot == robot]
+        widths = [max(map(len, column)) for column in zip(_HEADER, *(cells for cells, _ in rows), strict=True)]
+        yield line((_aligned(_HEADER, widths), "dim"))
+        for cells, style in rows:
+            yield line((_aligned(cells, widths), style))
+    for name, file in files.items():
+        yield line((f"  {name}: ", ""), (str(file), "bold"))
+
+
+def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
+    return ("  " + "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))).rstrip()
+
+
+def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
+    """The cells of a joint, and their style."""
+    position, limits = "-", "-"
+    if joint.position:
+        position = f"{_digits(joint.position.least)} … {_digits(joint.position.greatest)} {joint.position.unit}"
+        ends = joint.position.lower, joint.position.upper
+        if ends != (None, None):
+            limits = " … ".join("-" if end is None else _digits(end) for end in ends)
+    name = joint.element.partition(" ")[2] or joint.element
+    return (name, position, limits, _size(joint.speed), _size(joint.effort)), "bold yellow" if joint.passed else ""
+
+
+def _size(quantity: Quantity | None) -> str:
+    """The greatest absolute value, and its limit: `0.31/5 rad/s`."""
+    if quantity is None:
+        return "-"
+    size = max(abs(quantity.least), abs(quantity.greatest))
+    limit = "" if quantity.upper is None else f"/{_digits(quantity.upper)}"
+    return f"{_digits(size)}{limit} {quantity.unit}"
+
+
+def _digits(number: float) -> str:
+    return f"{0 if abs(number) < _NOTHING else number:.3g}"
+
+
+def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]:
+    """A simulation as plain data, without its series."""
+    return {
+        "name": result.robot,
+        "model": result.model,
+        "stop": result.stop,
+        "step": result.step,
+        "tolerance": result.tolerance,
+        "points": len(result.series["time"]),
+        "seconds": result.seconds,
+        "known": result.is_known,
+        "joints": [_joint_values(joint) for joint in result.joints],
+        "files": {name: str(file) for name, file in files.items()},
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }
+
+
+def _joint_values(joint: JointResult) -> dict[str, Any]:
+    quantities = {name: getattr(joint, name) for name in ("position", "speed", "effort")}
+    return {
+        "element": joint.element,
+        "robot": joint.robot,
+        **{name: one and msgspec.structs.asdict(one) for name, one in quantities.items()},
+        "passed": list(map(msgspec.structs.asdict, joint.passed)),
+    }

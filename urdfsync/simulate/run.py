@@ -1,0 +1,318 @@
+"""Simulates one model with the package of one robot, as it is on disk."""
+
+from __future__ import annotations
+
+import fnmatch
+import os
+import re
+import threading
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+import psutil
+
+from urdfsync import __version__
+from urdfsync.check import compilers, libraries
+from urdfsync.check.cache import UserCache, digest
+from urdfsync.check.compilation import explain
+from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult
+from urdfsync.check.jobs import Jobs
+from urdfsync.check.package import PackageTexts, files_around, package_texts, users_files
+from urdfsync.check.process import Limits
+from urdfsync.check.texts import check_around, check_layout
+from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Bench
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.engine.rendering import Rendering
+from urdfsync.files import shown
+from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.simulate import joints
+from urdfsync.simulate.models import Model, find_model
+from urdfsync.simulate.motion import course_functions, read_motion
+from urdfsync.simulate.results import (
+    STEPS,
+    STOP,
+    TOLERANCE,
+    JointResult,
+    PassedLimit,
+    SimulateOptions,
+    SimulateResult,
+)
+from urdfsync.simulate.values import modifiers, read_values
+from urdfsync.spelling import nearest
+
+_LATER = 1.5
+"""Seconds until the compiler is at work."""
+_LONGEST_MESSAGE = 200
+_TIME = re.compile(r"\bt ?= ?([-+.\deE]*\d)")
+_OWN = r"[^.]+"
+"""Matches the variables of a model itself, its inputs and outputs among them."""
+
+
+class _Package(msgspec.Struct):
+    """The package of a robot on disk, and what is around it."""
+
+    bench: Bench
+    texts: PackageTexts
+    around: Mapping[str, bytes]
+    warnings: tuple[Diagnostic, ...]
+
+
+class _Work(msgspec.Struct):
+    """What the compiler is to do."""
+
+    model: str
+    task: CompileTask
+    plain: CompileTask
+    """The same model without other values of parameters."""
+    texts: Mapping[str, bytes]
+    around: Mapping[str, bytes]
+    changed: Mapping[Path, bytes]
+    """Files of libraries with another content."""
+    needed: libraries.Libraries
+    file: Path
+    """The file of the model."""
+
+
+def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
+    """Simulate a model with the package of a robot. Writes nothing but the cache.
+
+    Raises UrdfsyncError for whatever is wrong with the model, its inputs or the compiler, OSError for what can't be
+    read.
+    """
+    begin = time.monotonic()
+    _check_compiler(options)
+    package = _read_package(config, robot, options)
+    work = _prepare(config, robot, options, package)
+    simulation, is_known = _run(robot, options, package.texts, work, progress)
+    (run,) = work.task.runs
+    found = joints.joint_results(package.bench.axes, simulation.values, simulation.parameters)
+    diagnostics = [*package.warnings, *(_warning(joint, one) for joint in found for one in joint.passed)]
+    if not found and package.bench.axes:
+        message = f"`{work.model}` has no joint of {robot.target.package}, so none is shown"
+        diagnostics.append(Diagnostic(Severity.NOTE, "no-joints", message))
+    return SimulateResult(
+        robot=robot.name,
+        model=work.model,
+        stop=run.stop,
+        step=run.step,
+        tolerance=run.tolerance or TOLERANCE,
+        joints=tuple(found),
+        series=simulation.values,
+        diagnostics=robot.without_ignored(diagnostics),
+        seconds=time.monotonic() - begin,
+        is_known=is_known,
+    )
+
+
+def _check_compiler(options: SimulateOptions) -> None:
+    """Raise ConfigError for a compiler that can't do this, CompilerError for one that is not there."""
+    compiler = compilers.COMPILERS[options.compiler]
+    if missing := compilers.find_missing(options.compiler):
+        raise UrdfsyncError(missing)
+    if options.method and options.method not in compiler.METHODS:
+        near = nearest(options.method, compiler.METHODS)
+        hint = f"did you mean `{near}`?" if near else f"it has {', '.join(compiler.METHODS)}"
+        message = f"{compiler.TITLE} has no method `{options.method}`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
+
+
+def _read_package(config: Config, robot: RobotConfig, options: SimulateOptions) -> _Package:
+    """Read the package of a robot. Raises UrdfsyncError if there is none."""
+    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+    (built,) = build(config, [robot], request)
+    if built.failed:
+        raise UrdfsyncError(*built.diagnostics)
+    texts = package_texts(robot.folder)
+    if not texts:
+        message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, shown(robot.folder), hint=hint))
+    rendering = Rendering(config, robot, request)
+    bench = rendering.domain.bench(rendering.snapshot, robot.target, robot.options) or Bench("", "", ())
+    package = PackageTexts(robot.target.package, robot.folder, texts)
+    around = files_around(config, robot, texts)
+    message, hint = "the package is out of step with its source; it is simulated as it is", "run `urdfsync build`"
+    late = Diagnostic(Severity.WARNING, "out-of-step", message, shown(robot.folder), hint=hint)
+    return _Package(bench, package, around, () if built.in_step else (late,))
+
+
+def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, package: _Package) -> _Work:
+    """Find the model and what it needs, and write the text that simulates it."""
+    bench, texts, around = package.bench, package.texts.texts, package.around
+    name = options.model or (bench.run if options.motion else bench.test)
+    if not name:
+        what = "has inputs" if options.motion else "can be simulated"
+        message = f"the package of robot `{robot.name}` has no model that {what}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
+    needed = libraries.find_libraries(config, robot, [*texts.values(), *around.values()])
+    if needed.problem:
+        raise UrdfsyncError(needed.problem)
+    model, needed = _find_model(config, robot, name, package, needed)
+    settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
+    stop, changed, functions, equations = settings.get("StopTime", STOP), dict[Path, bytes](), "", list[str]()
+    changes = modifiers(values)
+    if options.motion:
+        if not inputs:
+            message = f"`{model.name}` has no inputs that a motion could drive"
+            raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
+        motion = read_motion(options.motion, inputs)
+        stop, driven = motion.times[-1], model.driven(robot.target.package)
+        changed = {Path(file): text.encode() for file, text in driven.changed.items()}
+        functions, equations = course_functions(motion)
+        changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
+        if options.stop and options.stop > stop:
+            message = f"the motion ends at {stop:g} s, before the stop time, {options.stop:g} s"
+            raise ConfigError(Diagnostic(Severity.ERROR, "motion", message, shown(options.motion)))
+    elif inputs:
+        names = ",".join(["time", *(one.name for one in inputs)])
+        hint = f"give a CSV file with `--input`; its first line is {names}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
+    stop = options.stop or stop
+    step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
+    tolerance = options.tolerance or settings.get("Tolerance", TOLERANCE)
+    wanted = [_OWN, joints.pattern(bench.axes), *(_glob(one) for one in options.variables)]
+    plain = CompileTask(
+        "Probe_.Probe",
+        _probe(robot, model.name, functions, [], equations),
+        (Simulation(stop, step, tolerance=tolerance, method=options.method),),
+        pattern="|".join(f"(?:{one})" for one in wanted if one),
+        title=model.name,
+    )
+    source = _probe(robot, model.name, functions, changes, equations)
+    task = msgspec.structs.replace(plain, source=source, parameters=tuple(values))
+    own = {path: changed.pop(robot.folder / path, content) for path, content in texts.items()}
+    outside = {path: changed.pop(robot.output / path, content) for path, content in around.items()}
+    return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
+
+
+def _find_model(
+    config: Config, robot: RobotConfig, name: str, package: _Package, needed: libraries.Libraries
+) -> tuple[Model, libraries.Libraries]:
+    """Return the model of a name, and the libraries that are needed with those of the model. Raises ConfigError."""
+    texts, top = package.texts.texts, robot.target.package.partition(".")[0]
+    around = {robot.output / path: content for path, content in package.around.items() if path.endswith(".mo")}
+    is_own = f"{name.replace('.', '/')}.mo" in texts or name.startswith(f"{robot.target.package}.")
+    files = {} if is_own else users_files(config, robot)
+    places = [robot.output, config.root, *robot.users, *libraries.library_folders(os.environ)]
+
+    def find(library: str) -> Path | None:
+        if own := find_own_library(library, robot.target.package):
+            return own
+        return needed.standard.get(library) or libraries.find_library(library, places)
+
+    sources = StoredClasses(robot.target.package, robot.folder, texts, {**around, **files}, find)
+    contents = {robot.folder / path: content for path, content in texts.items()} | around | files
+    decoded = {str(path): content.decode("utf-8-sig", "replace") for path, content in contents.items()}
+    model = find_model(Scopes(sources), robot.target.package, name, decoded)
+    library = model.name.partition(".")[0]
+    if library != top and library not in libraries.STANDARD:
+        file = Path(model.node.file)
+        every = [*texts.values(), *package.around.values(), *([files[file]] if file in files else [])]
+        found = libraries.needed_libraries(every, top, places, [library])
+        if library not in found and find_own_library(library, robot.target.package) is None:
+            found[library] = file  # a file of another name than its class
+        needed = msgspec.structs.replace(needed, others={**needed.others, **found})
+    return model, needed
+
+
+def _probe(robot: RobotConfig, model: str, functions: str, changes: list[str], equations: list[str]) -> str:
+    """Return a package with a model that extends another one; it names the libraries, or rumoca loads none."""
+    names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
+    imports = "".join(f"  import {name};\n" for name in names)
+    changed = f"({', '.join(changes)})" if changes else ""
+    lines = ["  equation", *(f"    {equation}" for equation in equations)] if equations else []
+    body = "\n".join(["  model Probe", f"    extends {model}{changed};", *lines, "  end Probe;"])
+    return f"package Probe_\n{imports}{functions}{body}\nend Probe_;\n"
+
+
+def _glob(text: str) -> str:
+    """Return a regular expression for a pattern of variables, in which brackets are those of Modelica."""
+    return fnmatch.translate(text.replace("[", "[[]"))
+
+
+def _run(
+    robot: RobotConfig, options: SimulateOptions, package: PackageTexts, work: _Work, progress: Progress
+) -> tuple[SimulationResult, bool]:
+    """Return what a simulation gave, and whether it is that of an earlier one of the same. Raises UrdfsyncError."""
+    cache, begin = UserCache.default(), time.monotonic()
+    version = __version__, compilers.installed_version(options.compiler)
+    files = (sorted(one.items()) for one in (work.texts, work.around, work.changed))
+    key = digest(*version, work.task, robot.target, *files, work.needed.state())
+    if known := cache.load(key, SimulationResult):
+        return known, True
+    cache.prepare()
+    later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
+    later.daemon = True
+    later.start()
+    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
+    limits = Limits(f"the simulation of `{work.model}`", options.timeout, memory)
+
+    def tell() -> None:
+        progress(f"{robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
+
+    with cache.workspace() as folder:
+        jobs = Jobs(robot, work.around, work.needed, options.compiler, limits, folder, tell)
+        jobs.copy_standard_library([*work.texts.values(), *work.around.values()])
+        (result,) = jobs.run("simulation", work.texts, [work.task], work.changed)
+        if result.problem and work.task.parameters:  # perhaps since there is no such parameter
+            check = msgspec.structs.replace(work.plain, runs=(), parameters=work.task.parameters)
+            (plain,) = jobs.run("plain", work.texts, [check], work.changed)
+            result = plain if plain.parameters else result
+    simulation = _result(robot, result, options, package, work)
+    cache.save(key, simulation)
+    return simulation, False
+
+
+def _result(
+    robot: RobotConfig, result: CompileResult, options: SimulateOptions, package: PackageTexts, work: _Work
+) -> SimulationResult:
+    """Return the simulation of a result. Raises UrdfsyncError if there is none."""
+    found = []
+    for name in work.task.parameters if result.parameters else ():
+        if name not in result.parameters:
+            near = nearest(name, result.parameters, 0.8)
+            hint = f"did you mean `{near}`?" if near else ""
+            found.append(Diagnostic(Severity.ERROR, "set", f"`{work.model}` has no parameter `{name}`", hint=hint))
+    for name in result.without_effect:
+        message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
+        found.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))
+    if result.problem:
+        # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
+        faults = [*check_layout(package), *check_around(robot.output, work.around)]
+        if errors := [one for one in faults if one.severity is Severity.ERROR]:
+            raise UrdfsyncError(*errors)
+        file = None if package.folder in work.file.parents else work.file
+        said = explain(result.problem, compilers.COMPILERS[options.compiler], package, file=file)
+        if names := ", ".join(work.task.parameters):
+            hint = f"perhaps one of these is final, or gets the wrong kind of value: {names}"
+            said = [msgspec.structs.replace(one, hint=hint) for one in said]
+        found += said
+    for run in result.runs:
+        if run.problem:
+            words = " ".join(run.problem.split())[:_LONGEST_MESSAGE]
+            moment = f"at {float(when[1]):g} s" if (when := _TIME.search(words)) else "before its end"
+            begins = "initial" in words or (when is not None and float(when[1]) == 0)
+            what = "does not initialise" if begins else f"stops {moment}"
+            message, hint = (
+                f"the simulation of `{work.model}` {what}: {words}",
+                "try another `--method` or `--tolerance`",
+            )
+            found.append(Diagnostic(Severity.ERROR, "no-simulation", message, shown(work.file), hint=hint))
+    if found:
+        raise UrdfsyncError(*found)
+    (run,) = result.runs
+    return run
+
+
+def _warning(joint: JointResult, passed: PassedLimit) -> Diagnostic:
+    where = "" if joint.robot in ("", "robot") else f"{joint.robot}: "
+    unit = {"position": joint.position, "speed": joint.speed, "effort": joint.effort}[passed.quantity]
+    text = unit.unit if unit else ""
+    message = f"{where}{joint.element}: {passed.quantity} passes its limit, {passed.limit:.4g} {text}, "
+    message += f"at {passed.time:.4g} s; by up to {passed.excess:.3g} {text}, for {passed.seconds:.3g} s"
+    return Diagnostic(Severity.WARNING, "limit-passed", message)

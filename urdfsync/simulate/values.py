@@ -1,0 +1,64 @@
+"""Parameters that get other values, `robot.elbow.parameters.dynamics.damping=4`, as modifiers of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NoReturn
+
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.names import is_identifier
+
+_SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
+
+
+def read_values(given: Iterable[str]) -> dict[str, str]:
+    """Return the value of each parameter, in Modelica. Raises ConfigError for what is no parameter or no value."""
+    found: dict[str, str] = {}
+    for one in given:
+        name, is_assigned, value = (part.strip() for part in one.partition("="))
+        if not is_assigned:
+            _refuse(f"`{one}` gives no value", "write NAME=VALUE, such as `robot.elbow.parameters.dynamics.damping=4`")
+        if not all(is_identifier(part) for part in name.split(".")):
+            hint = "give the whole vector, as in `axis={0,1,0}`" if "[" in name else ""
+            _refuse(f"`{name}` can't be a parameter", hint)
+        if not _is_literal(value):
+            _refuse(f"`{value}` is no value for `{name}`", 'give a number, true, false, a "text" or a vector: {0,1,0}')
+        if name in found:
+            _refuse(f"`{name}` gets two values", "give one of them")
+        found[name] = value
+    return found
+
+
+def modifiers(values: Mapping[str, str]) -> list[str]:
+    """Return modifiers of a model that give its parameters these values. Raises ConfigError for contradictions."""
+    tree: dict[str, Any] = {}
+    for name, value in values.items():
+        *path, last = name.split(".")
+        inside = tree
+        for part in path:
+            inside = inside.setdefault(part, {})
+            if isinstance(inside, str):
+                break
+        if isinstance(inside, str) or last in inside:
+            _refuse(f"`{name}` gets a value, and so does a part of it or what it is a part of", "give one of them")
+        inside[last] = value
+    return [_modifier(name, value) for name, value in tree.items()]
+
+
+def _modifier(name: str, value: str | dict[str, Any]) -> str:
+    if isinstance(value, str):
+        return f"{name} = {value}"
+    return f"{name}({', '.join(_modifier(*one) for one in value.items())})"
+
+
+def _is_literal(value: str) -> bool:
+    """Whether a text is made of numbers, truth values and texts alone, or of vectors of them."""
+    tokens, faults = lex(value)
+    words = [one.text for one in tokens[:-1]]
+    is_plain = all(word in _SIGNS or word[0] in '0123456789."' for word in words)
+    return bool(words) and not faults and is_plain and words.count("{") == words.count("}")
+
+
+def _refuse(message: str, hint: str = "") -> NoReturn:
+    raise ConfigError(Diagnostic(Severity.ERROR, "set", message, hint=hint))

@@ -1,0 +1,72 @@
+"""What a simulation of a generated robot tells of its joints: variables, and the parameters that limit them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from urdfsync.domain import Axis, Bench, Signal, Target
+from urdfsync.urdf.artifacts import has_bench
+from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, JointType, Motion
+
+_VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
+    "rotational": ("revolute.phi", "revolute.w", "tau", "phi"),
+    "translational": ("prismatic.s", "prismatic.v", "f", "s"),
+}
+"""Position and speed in the model of a joint, effort of a flange, and position in the generic robot."""
+_UNITS: Mapping[Motion, tuple[str, str, str]] = {
+    "rotational": ("rad", "rad/s", "N·m"),
+    "translational": ("m", "m/s", "N"),
+}
+
+_FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
+"""Degrees of freedom of joints that do not have one."""
+
+
+def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None:
+    """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
+    freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in tree.joints if joint.mimic is None)
+    freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
+    if "package" in options.approach:
+        return Bench(f"{target.name}Test", f"{target.name}Run", tuple(_axes(tree, options)), freedoms)
+    if has_bench(tree.joints, options):
+        return Bench(f"{target.name}Generic", "", tuple(_generic_axes(tree)), freedoms)
+    return None
+
+
+def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
+    """Yield the joints of one degree of freedom in the robot of a package."""
+    drives = connector_names(tree, options).drives
+    for joint in tree.joints:
+        if motion := MOTION_KINDS.get(joint.type):
+            name, drive = tree.joint(joint.name).component, drives.get(joint.name)
+            position, velocity, effort, _ = _VARIABLES[motion]
+            units, limits = _UNITS[motion], f"{name}.parameters.limits"
+            range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
+            motor = (
+                (f"{name}.parameters.transmission.reduction", f"{drive.motor}.tau") if drive and drive.motor else None
+            )
+            yield Axis(
+                f"joint {joint.name}",
+                Signal(f"{name}.{position}", units[0], range_),
+                Signal(f"{name}.{velocity}", units[1], (f"{limits}.velocity",)),
+                Signal(f"{drive.axis}.{effort}", units[2], (f"{limits}.effort",), motor) if drive else None,
+            )
+
+
+def _generic_axes(tree: KinematicTree) -> Iterator[Axis]:
+    """Yield the axes of the generic robot, which numbers them by kind."""
+    for motion in MOTIONS:
+        for number, joint in enumerate(tree.axes(motion), 1):
+            _, _, effort, position = _VARIABLES[motion]
+            units, limits = _UNITS[motion], f"data.{tree.joint(joint.name).component}.limits"
+            range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
+            speed = "w_phi" if motion == "rotational" else "v_s"
+            yield Axis(
+                f"joint {joint.name}",
+                Signal(f"{position}[{number}]", units[0], range_),
+                Signal(f"{speed}[{number}]", units[1], (f"{limits}.velocity",)),
+                Signal(f"{motion}Axis[{number}].{effort}", units[2], (f"{limits}.effort",)),
+            )
