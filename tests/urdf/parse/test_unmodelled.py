@@ -174,6 +174,20 @@ def test_a_robot_of_links_and_joints_has_no_note() -> None:
     assert read_robot(namespace.encode(), "a.urdf").unmodelled == ()
 
 
+def test_an_orientation_as_quaternion_is_modelled() -> None:
+    turned = link("tip") + joint("k", "fixed", "arm", "tip", inside=['<origin quat_xyzw="0 0 1 1"/>'])
+    content = robot(*TREE, turned).replace("<robot", '<robot version="1.1"')
+    assert read_robot(content.encode(), "a.urdf").unmodelled == ()
+
+
+def test_a_prefix_that_is_declared_where_it_is_used_says_nothing_of_the_robot() -> None:
+    rotor = '<drake:rotor_inertia xmlns:drake="urn:drake" value="1e-4"/>'
+    element = (
+        f'<transmission name="t" xmlns:x="urn:x"><joint name="j"/><actuator name="m">{rotor}</actuator></transmission>'
+    )
+    assert notes(element, '<gazebo xmlns:y="urn:y"/>') == []
+
+
 @pytest.mark.parametrize(("element", "code"), [
     (LOOP, "loop-joint"), (GAZEBO_LOOP, "loop-joint"), (STRAY, "stray-inertial"),
 ])  # fmt: skip
