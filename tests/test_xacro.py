@@ -148,6 +148,27 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute) -> None:
+    lower = '  <xacro:beam name="lower" parent="upper" mass="1" length="1"/>\n</robot>'
+    files = {
+        "arm.urdf.xacro": xacros.ARM.replace("</robot>", lower),
+        "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring/>\n      <child"),
+    }
+    xacros.write(project, files)
+    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    assert note["message"] == "not modelled: 2 <spring> (joint to_upper, joint to_lower)"
+    xacros.write(
+        project, {**files, "parts/beam.xacro": files["parts/beam.xacro"].replace("<parent", "<parent size='1'")}
+    )
+    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    file = str(Path("urdf/parts/beam.xacro"))
+    assert note["details"] == [
+        f"line {file}:13: attribute parent size",
+        f"line {file}:14: <spring> joint to_upper",
+        f"line {file}:14: <spring> joint to_lower",
+    ]
+
+
 def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute) -> None:
     with (built / "urdf/masses.yaml").open("a") as file:
         file.write("# a comment\n")

@@ -58,7 +58,7 @@ class Source(msgspec.Struct, frozen=True):
         if not self.places or found.file != self.name or not found.line:
             return found
         (file, line), message = self._place(found.line), self._with_places(found.message)
-        details = tuple(map(self._with_places, found.details))
+        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # a macro has the same each time
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:

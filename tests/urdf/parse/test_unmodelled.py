@@ -113,6 +113,9 @@ LEFT_OUT = {
     "of a contact": ('<link name="l"><collision><geometry><sphere radius="1"/></geometry><contact_coefficients mu="1"'
         ' restitution="1"/></collision></link>' + joint("jl", "fixed", "arm", "l"),
         "1 attribute (contact_coefficients restitution)"),
+    "beside the friction of a link": ('<link name="l"><contact id="1"><lateral_friction value="1"/><rolling_friction '
+        'value="0"/></contact></link>' + joint("jl", "fixed", "arm", "l"),
+        "2 contact settings (contact id, rolling_friction)"),
     "a texture": (
         '<material name="m"><color rgba="1 1 1 1"/><texture filename="a.png"/></material>', "1 <texture> (a.png)"
     ),

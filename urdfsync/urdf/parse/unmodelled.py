@@ -111,6 +111,9 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
             yield from _plugins(element)
         case "transmission":
             yield from _parts_of_transmission(element, modelled)
+        case "contact" if len(element):  # its friction may be modelled
+            yield from _attributes("contact setting", element)
+            yield from (_Part("contact setting", one.tag, one) for one in element)
         case tag if not is_loop(element) and (owner or tag != "inertial"):
             yield _Part(f"<{tag}>", element.get("name") or owner, element)
 
