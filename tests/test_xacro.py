@@ -347,6 +347,18 @@ def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, exec
         assert "urdfsync.toml:3: warning: robot `arm`: the source has no argument `lenght`" in words
 
 
+def test_sources_of_no_robot_are_warned_about_too(project: Path, execute: Execute) -> None:
+    said = xacros.ARM.replace("</robot>", "${xacro.warning('mind the step')}</robot>")
+    xacros.write(project, {"arm.urdf.xacro": said, "other.urdf.xacro": said})
+    for command in (["record", "-o", "Arm.mo"], ["add"]):
+        words = execute(*command, "urdf/other.urdf.xacro", "lenght:=1").words
+        assert "urdf/other.urdf.xacro: warning: mind the step [xacro-said]" in words
+        assert "urdf/other.urdf.xacro: warning: the source has no argument `lenght`; correct its name" in words
+    (project / "urdf/other.urdf.xacro").write_text(xacros.ARM)
+    words = execute("diff", "urdf/arm.urdf.xacro", "--against", "urdf/other.urdf.xacro").words
+    assert "urdf/arm.urdf.xacro: warning: mind the step [xacro-said]" in words
+
+
 @NEEDS_GIT
 def test_branches_unite_without_a_conflict(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(built, monkeypatch)

@@ -291,5 +291,5 @@ def _read(
         again=False,
         progress=lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
-    found = map(text.locate, (*reading.diagnostics, *imported.diagnostics))
-    return Version(snapshot, imported.imports), imported, tuple(found)
+    found = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
+    return Version(snapshot, imported.imports), imported, found
