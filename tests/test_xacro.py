@@ -386,6 +386,9 @@ def test_a_revision_is_compared_as_it_was_expanded(
     (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
     assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
     assert "1.5 → 2.5 kg" in execute("diff", "urdf/arm.urdf.xacro", code=1).out
+    execute("build")
+    without_xacro(monkeypatch, built)  # it is expanded already
+    assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
 
 
 @NEEDS_GIT
