@@ -581,3 +581,8 @@ def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute
         found = execute("build", "--trust", code=2).words
         assert "urdfsync.toml:3: error: robot `arm`: the command" in found
         assert "failed: exit code 1: no such mass" in found
+
+
+def test_a_command_that_writes_no_source_has_failed(commanded: Path, execute: Execute) -> None:
+    (commanded / "make.py").write_text("")
+    assert "failed: it did not write arm.urdf; correct it" in execute("build", "--trust", code=2).words

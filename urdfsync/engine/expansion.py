@@ -201,6 +201,8 @@ def run_command(config: Config, robot: RobotConfig) -> None:
         )
         words = done.stdout.decode(errors="replace").strip().splitlines()[-1:]
         reason = ": ".join([exit_cause(done.returncode), *words]) if done.returncode else ""
+        if not reason and not robot.source.is_file():
+            reason = f"it did not write {shown(robot.source)}"
     except subprocess.TimeoutExpired:
         reason = f"it takes more than {COMMAND_SECONDS:g} s"
     except OSError as error:
