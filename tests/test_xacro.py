@@ -148,6 +148,27 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute) -> None:
+    lower = '  <xacro:beam name="lower" parent="upper" mass="1" length="1"/>\n</robot>'
+    files = {
+        "arm.urdf.xacro": xacros.ARM.replace("</robot>", lower),
+        "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring/>\n      <child"),
+    }
+    xacros.write(project, files)
+    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    assert note["message"] == "not modelled: 2 <spring> (joint to_upper, joint to_lower)"
+    xacros.write(
+        project, {**files, "parts/beam.xacro": files["parts/beam.xacro"].replace("<parent", "<parent size='1'")}
+    )
+    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    file = str(Path("urdf/parts/beam.xacro"))
+    assert note["details"] == [
+        f"line {file}:13: attribute parent size",
+        f"line {file}:14: <spring> joint to_upper",
+        f"line {file}:14: <spring> joint to_lower",
+    ]
+
+
 def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute) -> None:
     with (built / "urdf/masses.yaml").open("a") as file:
         file.write("# a comment\n")
@@ -326,6 +347,18 @@ def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, exec
         assert "urdfsync.toml:3: warning: robot `arm`: the source has no argument `lenght`" in words
 
 
+def test_sources_of_no_robot_are_warned_about_too(project: Path, execute: Execute) -> None:
+    said = xacros.ARM.replace("</robot>", "${xacro.warning('mind the step')}</robot>")
+    xacros.write(project, {"arm.urdf.xacro": said, "other.urdf.xacro": said})
+    for command in (["record", "-o", "Arm.mo"], ["add"]):
+        words = execute(*command, "urdf/other.urdf.xacro", "lenght:=1").words
+        assert "urdf/other.urdf.xacro: warning: mind the step [xacro-said]" in words
+        assert "urdf/other.urdf.xacro: warning: the source has no argument `lenght`; correct its name" in words
+    (project / "urdf/other.urdf.xacro").write_text(xacros.ARM)
+    words = execute("diff", "urdf/arm.urdf.xacro", "--against", "urdf/other.urdf.xacro").words
+    assert "urdf/arm.urdf.xacro: warning: mind the step [xacro-said]" in words
+
+
 @NEEDS_GIT
 def test_branches_unite_without_a_conflict(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(built, monkeypatch)
@@ -353,6 +386,9 @@ def test_a_revision_is_compared_as_it_was_expanded(
     (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
     assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
     assert "1.5 → 2.5 kg" in execute("diff", "urdf/arm.urdf.xacro", code=1).out
+    execute("build")
+    without_xacro(monkeypatch, built)  # it is expanded already
+    assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
 
 
 @NEEDS_GIT
@@ -545,3 +581,8 @@ def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute
         found = execute("build", "--trust", code=2).words
         assert "urdfsync.toml:3: error: robot `arm`: the command" in found
         assert "failed: exit code 1: no such mass" in found
+
+
+def test_a_command_that_writes_no_source_has_failed(commanded: Path, execute: Execute) -> None:
+    (commanded / "make.py").write_text("")
+    assert "failed: it did not write arm.urdf; correct it" in execute("build", "--trust", code=2).words

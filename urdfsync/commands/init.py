@@ -163,7 +163,7 @@ def _guess(
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
     proposals = tuple(domain.propose(snapshot, reading.diagnostics))
     guess = Guess(name + count, path.as_posix(), values, package + count, proposals)
-    return guess, tuple(map(text.locate, reading.diagnostics))
+    return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
 
 
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:

@@ -73,7 +73,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
     generated = Package([found.artifact], sources.domain_templates(domain), target.package)
-    told = map(text.locate, (*reading.diagnostics, *found.diagnostics))
+    told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *found.diagnostics))]
     console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))
     record = generated.content(found.artifact.path).decode()
     values = {"class": target.name, "within": target.package}

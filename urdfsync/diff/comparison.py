@@ -201,7 +201,11 @@ def _with_version(
             revision = Revision(source.parent, against)
             text = _in_revision(revision, robot, config)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
-        current = _VersionedSource(source_files.read_file_source(source, arguments, folders), (source,))
+        if config and robot.is_xacro and not robot.command:  # it may be expanded already
+            text = source_files.read_source(config, robot, Store(config.root), options)
+        else:
+            text = source_files.read_file_source(source, arguments, folders)
+        current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, _, told_before = _read(domain, robot, other, imported, options)
     before = {(one.code, one.message) for one in told_before}
@@ -291,5 +295,5 @@ def _read(
         again=False,
         progress=lambda done, total: options.progress(f"{robot.name}: imports", done, total),
     )
-    found = map(text.locate, (*reading.diagnostics, *imported.diagnostics))
-    return Version(snapshot, imported.imports), imported, tuple(found)
+    found = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
+    return Version(snapshot, imported.imports), imported, found

@@ -201,6 +201,8 @@ def run_command(config: Config, robot: RobotConfig) -> None:
         )
         words = done.stdout.decode(errors="replace").strip().splitlines()[-1:]
         reason = ": ".join([exit_cause(done.returncode), *words]) if done.returncode else ""
+        if not reason and not robot.source.is_file():
+            reason = f"it did not write {shown(robot.source)}"
     except subprocess.TimeoutExpired:
         reason = f"it takes more than {COMMAND_SECONDS:g} s"
     except OSError as error:
@@ -211,15 +213,14 @@ def run_command(config: Config, robot: RobotConfig) -> None:
         raise SourceError(Diagnostic(Severity.ERROR, "command", message, *place, hint=hint))
 
 
-def warnings(config: Config, robot: RobotConfig, known: Expansion) -> tuple[Diagnostic, ...]:
-    """Return what xacro said of a source, and the arguments that it does not have."""
+def warnings(known: Expansion, source: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
+    """Return what xacro said of a source, and the arguments that it does not have; they are given at `place`."""
     found = []
     for name in known.unused:
-        message = f"robot `{robot.name}`: the source has no argument `{name}`"
-        place = shown(config.file), robot.lines.get("arguments", 0)
+        message = f"{f'robot `{robot}`: ' if robot else ''}the source has no argument `{name}`"
         found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
     for said in known.warnings:
         severity = Severity.WARNING if said.startswith(("warning: ", "error: ")) else Severity.NOTE
         message = said.removeprefix("warning: ").removeprefix("error: ")
-        found.append(Diagnostic(severity, "xacro-said", message, shown(robot.source)))
+        found.append(Diagnostic(severity, "xacro-said", message, shown(source)))
     return tuple(found)

@@ -58,7 +58,7 @@ class Source(msgspec.Struct, frozen=True):
         if not self.places or found.file != self.name or not found.line:
             return found
         (file, line), message = self._place(found.line), self._with_places(found.message)
-        details = tuple(map(self._with_places, found.details))
+        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # a macro has the same each time
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:
@@ -116,7 +116,8 @@ def read_source(
         content = made.text.encode()
     if made is None:
         return Source(content, shown(robot.source), stale=stale)
-    told = expansion.warnings(config, robot, made)
+    place = shown(config.file), robot.lines.get("arguments", 0)
+    told = expansion.warnings(made, robot.source, place, robot.name)
     return Source(content, shown(robot.source), inputs.places(made), told, made, stale)
 
 
@@ -152,7 +153,8 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
     place = file.absolute()
     inputs = expansion.Inputs(place.parent, place, package_paths)
     known = expansion.expand(inputs, arguments)
-    return Source(known.text.encode(), shown(file), inputs.places(known))
+    told = expansion.warnings(known, file, (shown(file), 0))
+    return Source(known.text.encode(), shown(file), inputs.places(known), told)
 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:

@@ -113,6 +113,9 @@ LEFT_OUT = {
     "of a contact": ('<link name="l"><collision><geometry><sphere radius="1"/></geometry><contact_coefficients mu="1"'
         ' restitution="1"/></collision></link>' + joint("jl", "fixed", "arm", "l"),
         "1 attribute (contact_coefficients restitution)"),
+    "beside the friction of a link": ('<link name="l"><contact id="1"><lateral_friction value="1"/><rolling_friction '
+        'value="0"/></contact></link>' + joint("jl", "fixed", "arm", "l"),
+        "2 contact settings (contact id, rolling_friction)"),
     "a texture": (
         '<material name="m"><color rgba="1 1 1 1"/><texture filename="a.png"/></material>', "1 <texture> (a.png)"
     ),
@@ -172,6 +175,20 @@ def test_a_robot_of_links_and_joints_has_no_note() -> None:
     assert notes('<transmission name="t"><joint name="j"/></transmission>', "<gazebo/>") == []
     namespace = robot(*TREE).replace("<robot", '<robot xmlns="http://www.ros.org" xmlns:x="urn:x"')
     assert read_robot(namespace.encode(), "a.urdf").unmodelled == ()
+
+
+def test_an_orientation_as_quaternion_is_modelled() -> None:
+    turned = link("tip") + joint("k", "fixed", "arm", "tip", inside=['<origin quat_xyzw="0 0 1 1"/>'])
+    content = robot(*TREE, turned).replace("<robot", '<robot version="1.1"')
+    assert read_robot(content.encode(), "a.urdf").unmodelled == ()
+
+
+def test_a_prefix_that_is_declared_where_it_is_used_says_nothing_of_the_robot() -> None:
+    rotor = '<drake:rotor_inertia xmlns:drake="urn:drake" value="1e-4"/>'
+    element = (
+        f'<transmission name="t" xmlns:x="urn:x"><joint name="j"/><actuator name="m">{rotor}</actuator></transmission>'
+    )
+    assert notes(element, '<gazebo xmlns:y="urn:y"/>') == []
 
 
 @pytest.mark.parametrize(("element", "code"), [

@@ -20,7 +20,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
-from urdfsync.urdf.parse.xml import canonical
+from urdfsync.urdf.parse.xml import canonical, is_of_xml
 from urdfsync.urdf.robot import Extension, JointType, Vector
 from urdfsync.urdf.validate import Finding, diagnostic, perhaps
 
@@ -152,7 +152,8 @@ class Reader:
         for child in list(element):
             if not self._has_rest(child):
                 element.remove(child)
-        return element not in self.modelled or len(element) > 0 or bool(element.attrib.keys() - {"name"})
+        has_attributes = any(name != "name" and not is_of_xml(name) for name in element.attrib)
+        return element not in self.modelled or len(element) > 0 or has_attributes
 
     def extensions(self) -> tuple[Extension, ...]:
         """Return what is kept as text."""
@@ -161,7 +162,7 @@ class Reader:
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
         """Warn about attributes that look like misspelt ones of `attributes`; note all others that have no meaning."""
         for name in element.attrib:
-            if name in attributes or name == "xmlns" or name.startswith(("xmlns:", "xml:")):
+            if name in attributes or is_of_xml(name):
                 continue
             others = [known for known in attributes if known not in element.attrib]
             if ":" not in name and (hint := perhaps(name, others)):
@@ -212,6 +213,7 @@ class Reader:
             self.add(origin, "bad-number", f"{path}: quat_xyzw={quoted(origin.attrib['quat_xyzw'])} has no direction")
         else:
             origin.set("rpy", " ".join(map(repr, roll_pitch_yaw(quaternion))))
+            del origin.attrib["quat_xyzw"]  # else it would be told as not modelled
 
     def _value(self, element: Element, path: str, name: str, count: int, default: Any) -> Any:
         text, is_required = element.get(name), default is msgspec.NODEFAULT

@@ -11,6 +11,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf.parse.fields import Reader
+from urdfsync.urdf.parse.xml import is_of_xml
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Calibration, Joint, Limit, Robot
 from urdfsync.urdf.validate import diagnostic
 
@@ -110,6 +111,9 @@ def _parts(owner: str, element: Element, modelled: Container[Element], joints: C
             yield from _plugins(element)
         case "transmission":
             yield from _parts_of_transmission(element, modelled)
+        case "contact" if len(element):  # its friction may be modelled
+            yield from _attributes("contact setting", element)
+            yield from (_Part("contact setting", one.tag, one) for one in element)
         case tag if not is_loop(element) and (owner or tag != "inertial"):
             yield _Part(f"<{tag}>", element.get("name") or owner, element)
 
@@ -123,7 +127,7 @@ def _plugins(element: Element) -> Iterator[_Part]:
 def _attributes(kind: str, element: Element) -> Iterator[_Part]:
     """Yield the attributes of an element that are left of it."""
     for name in element.keys():  # noqa: SIM118 - else its children
-        if name not in _IDENTITY:
+        if name not in _IDENTITY and not is_of_xml(name):
             yield _Part(kind, f"{element.tag} {name}", element)
 
 
