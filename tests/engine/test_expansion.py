@@ -89,7 +89,7 @@ def test_yaml_makes_no_objects(folder: Path, text: str, line: int) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (gzip.compress(b"a: 1"), "numbers.yaml:1: error: the file is packed by gzip"),
+        (gzip.compress(b"a: 1", mtime=0), "numbers.yaml:1: error: the file is packed by gzip"),
         ("a: é".encode("latin-1"), "numbers.yaml:1: error: this is not UTF-8; save it as UTF-8 [xacro]"),
     ],
 )
@@ -145,7 +145,7 @@ def test_the_line_that_takes_too_long_is_told(folder: Path, monkeypatch: pytest.
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (gzip.compress(xacros.ARM.encode()), "packed by gzip; unpack it (`gunzip < FILE > ROBOT.urdf`)"),
+        (gzip.compress(xacros.ARM.encode(), mtime=0), "packed by gzip; unpack it (`gunzip < FILE > ROBOT.urdf`)"),
         (b"PK\x03\x04zip", "a zip archive; unpack it (`unzip FILE`)"),
         (b"launch:\n- node:\n", "a launch file of ROS, not URDF; name the URDF or xacro file that it loads"),
         (b"version https://git-lfs.github.com/spec/v1\n", "a Git LFS pointer, not the robot; run `git lfs pull`"),

@@ -112,6 +112,7 @@ _WARNINGS = {
     "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
     "unknown-actuated-joint": "correct its name, or take it out",
     "unknown-sensor-place": "correct the name of the link or joint",
+    "unknown-reference": "correct the name, or take it out; it has no effect",
     "bad-sensor": "correct the number; it is taken as 0",
     "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",

@@ -61,7 +61,8 @@ def test_the_first_number_counts_and_all_else_is_kept() -> None:
     )
     found, diagnostics, *_ = read_robot(robot('<link name="foot"/>', *elements).encode(), "a.urdf")
     assert [(one.code, one.message) for one in diagnostics if one.code != "not-modelled"] == [
-        ("duplicate-element", "<kp>: 2 contradicts 1, which counts")
+        ("duplicate-element", "link foot: <kp> says 2, which contradicts 1, and that counts"),
+        ("unknown-reference", "<gazebo> is about 'x', and there is no such link or joint"),
     ]
     assert found is not None
     assert found.links[0].contact == Contact(mu=3.0, kp=1.0)

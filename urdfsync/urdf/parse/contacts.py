@@ -7,6 +7,7 @@ from xml.etree.ElementTree import Element
 
 from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
 from urdfsync.urdf.robot import Contact
+from urdfsync.urdf.validate import perhaps
 
 _ODE = {
     "friction/ode/mu": "mu",
@@ -41,23 +42,33 @@ def take_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
     One that is faulty or negative is left out, with a warning, as is a stiffness of zero.
     """
     links = {link.get("name", ""): link for link in root.iterfind("link")}
+    joints = {joint.get("name", "") for joint in root.iterfind("joint")}
     found: dict[str, dict[str, float]] = {}
     for gazebo in root.findall("gazebo"):
         name = gazebo.get("reference", "")
-        if name in links and _take(reader, gazebo, _IN_GAZEBO, "", found.setdefault(name, {})) and not len(gazebo):
+        if name and name not in links and name not in joints and gazebo.find("sensor") is None:
+            message = f"<gazebo> is about {name!r}, and there is no such link or joint"
+            reader.add(gazebo, "unknown-reference", message, perhaps(name, links.keys() | joints))
+        numbers = found.setdefault(name, {})
+        if name in links and _take(reader, gazebo, _IN_GAZEBO, f"link {name}", "", numbers) and not len(gazebo):
             root.remove(gazebo)
     for name, link in links.items():
         if link.find("contact") is None and link.find("collision/contact_coefficients") is None:
             continue  # as nearly all; saves 5 of 580 ms with 1,000 links in the daemon
-        _take(reader, link, _IN_LINK, "", found.setdefault(name, {}))
+        _take(reader, link, _IN_LINK, f"link {name}", "", found.setdefault(name, {}))
         for rest in link.findall("contact"):
             reader.extension(rest, f"link {name}", (), f"link {name}")
             link.remove(rest)
     return {name: Contact(**numbers) for name, numbers in found.items() if numbers}
 
 
-def _take(reader: Reader, element: Element, fields: Mapping[str, str], path: str, numbers: dict[str, float]) -> bool:
-    """Move numbers from the elements below one to `numbers`; return whether there were any. What is empty then goes."""
+def _take(
+    reader: Reader, element: Element, fields: Mapping[str, str], owner: str, path: str, numbers: dict[str, float]
+) -> bool:
+    """Move numbers from the elements below one to `numbers`; return whether there were any. What is empty then goes.
+
+    `owner` is the link as messages name it, `path` leads from its element, or from that of gazebo, to this one.
+    """
     taken = False
     for child in list(element):
         place = f"{path}{child.tag}"
@@ -67,11 +78,11 @@ def _take(reader: Reader, element: Element, fields: Mapping[str, str], path: str
             if not fields[place]:
                 reader.expect(child, place, _COEFFICIENTS)
             for field, text in given.items():
-                _add(reader, child, field, text.strip(), numbers)
+                _add(reader, child, owner, field, text.strip(), numbers)
             element.remove(child)
             taken = True
         elif any(known.startswith(f"{place}/") for known in fields) and _take(
-            reader, child, fields, f"{place}/", numbers
+            reader, child, fields, owner, f"{place}/", numbers
         ):
             taken = True
             if not len(child) and (fields is _IN_GAZEBO or place != "collision"):
@@ -79,7 +90,7 @@ def _take(reader: Reader, element: Element, fields: Mapping[str, str], path: str
     return taken
 
 
-def _add(reader: Reader, element: Element, field: str, text: str, numbers: dict[str, float]) -> None:
+def _add(reader: Reader, element: Element, owner: str, field: str, text: str, numbers: dict[str, float]) -> None:
     if not text and element.tag == "contact_coefficients":
         return
     problem = ""
@@ -90,7 +101,8 @@ def _add(reader: Reader, element: Element, field: str, text: str, numbers: dict[
     if not problem and (number < 0 or (number == 0 and field == "kp")):
         problem = "is no magnitude that a contact can have"
     if problem:
-        reader.add(element, "bad-contact", f"<{element.tag}>: {field}={quoted(text)} {problem}, and is left out")
+        message = f"{owner}: {field}={quoted(text)} of <{element.tag}> {problem}, and is left out"
+        reader.add(element, "bad-contact", message)
     elif numbers.setdefault(field, number) != number:
-        message = f"<{element.tag}>: {number:g} contradicts {numbers[field]:g}, which counts"
+        message = f"{owner}: <{element.tag}> says {number:g}, which contradicts {numbers[field]:g}, and that counts"
         reader.add(element, "duplicate-element", message)
