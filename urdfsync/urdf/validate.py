@@ -6,7 +6,6 @@ A finding is an error where no right model exists, and a warning where one does.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
@@ -166,18 +165,24 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
     `complete` is false if faulty joints or links had to be left out: the number of roots means nothing then.
     """
-    for kind, names in (("link", [link.name for link in robot.links]), ("joint", [j.name for j in robot.joints])):
-        seen = set[str]()  # of one kind: a link and a joint may share a name
-        for path, name in zip(element_paths(kind, names), names, strict=True):
-            if name in seen:
-                yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {name!r} above")
-            seen.add(name)
-    yield from _check_tree(robot, complete)
-    for path, link in _numbered("link", robot.links):
+    links, joints = _with_paths("link", robot.links), _with_paths("joint", robot.joints)
+    yield from _check_names("link", links)
+    yield from _check_names("joint", joints)
+    yield from _check_tree(robot, joints, complete)
+    for path, link in links:
         yield from _check_link(path, link)
-    for path, joint in _numbered("joint", robot.joints):
+    for path, joint in joints:
         yield from _check_joint(path, joint)
-    yield from _check_mimics(robot)
+    yield from _check_mimics(joints)
+
+
+def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Iterator[Finding]:
+    """No two elements of one kind share a name; a link and a joint may."""
+    seen = set[str]()
+    for path, element in elements:
+        if element.name in seen:
+            yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {element.name!r} above")
+        seen.add(element.name)
 
 
 def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
@@ -191,17 +196,16 @@ def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
 
 def element_paths(kind: str, names: Iterable[str]) -> list[str]:
     """Return the path of each element: `joint elbow`, `joint elbow #2` for the second of that name."""
-    seen: Counter[str] = Counter()
-    paths = []
+    seen, paths = dict[str, int](), list[str]()
     for number, name in enumerate(names, start=1):
-        seen[name] += 1
+        count = seen[name] = seen.get(name, 0) + 1
         path = f"{kind} {name}" if name.strip() else f"{kind} number {number}"
-        paths.append(path if seen[name] == 1 else f"{path} #{seen[name]}")
+        paths.append(path if count == 1 else f"{path} #{count}")
     return paths
 
 
-def _numbered(kind: str, elements: Sequence[_Element]) -> Iterator[tuple[str, _Element]]:
-    return zip(element_paths(kind, (element.name for element in elements)), elements, strict=True)
+def _with_paths(kind: str, elements: Sequence[_Element]) -> list[tuple[str, _Element]]:
+    return list(zip(element_paths(kind, (element.name for element in elements)), elements, strict=True))
 
 
 def unit_vector(axis: Vector) -> Vector:
@@ -217,7 +221,7 @@ def unit_vector(axis: Vector) -> Vector:
     return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
 
 
-def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
+def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: bool) -> Iterator[Finding]:
     """The joints connect all links to one tree."""
     links = {link.name for link in robot.links}
     if not links:
@@ -225,7 +229,7 @@ def _check_tree(robot: Robot, complete: bool) -> Iterator[Finding]:
             yield Finding("no-link", "robot", "the robot has no link")
         return
     parents: dict[str, Joint] = {}
-    for path, joint in _numbered("joint", robot.joints):
+    for path, joint in joints:
         for end, name in (("parent", joint.parent), ("child", joint.child)):
             if name not in links:
                 complete = False
@@ -356,13 +360,13 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
                 yield Finding("negative-dynamics", f"{path} / dynamics", message)
 
 
-def _check_mimics(robot: Robot) -> Iterator[Finding]:
+def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:
     """Mimic relations are between joints of one degree of freedom; chains are legal, cycles are not."""
     joints: dict[str, Joint] = {}
     leaders: dict[str, str] = {}
-    for joint in robot.joints:
+    for _, joint in numbered:
         joints.setdefault(joint.name, joint)
-    for path, joint in _numbered("joint", robot.joints):
+    for path, joint in numbered:
         if joint.mimic is None or not joint.mimic.joint:  # the reader has told that it has no name
             continue
         target, place = joint.mimic.joint, f"{path} / mimic"

@@ -70,7 +70,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
         for child in others:
             reader.extension(child, place, (), owner)
-        if around is not None:
+        if around is not None and around.attrib:
             reader.expect(around, f"{place} / geometry", ())
         geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind], owner)
         if tag == "collision":

@@ -189,7 +189,8 @@ class Reader:
             place = f"{path} / {name}"
             if name in _ONE_VALUE:
                 self.expect(child, place, (_ONE_VALUE[name],))
-                self.leave(child, place, owner)
+                if len(child):
+                    self.leave(child, place, owner)
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
                 if name == "origin" and "quat_xyzw" in child.attrib:
