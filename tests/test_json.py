@@ -17,7 +17,7 @@ import pytest
 from support.commands import Execute
 
 from urdfsync import cli, config
-from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, SecondResult
 from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
@@ -249,6 +249,10 @@ def checked() -> CheckResult:
         seconds=4.25,
         megabytes=310.5,
         reference="Pinocchio 4.1.0",
+        tool="rumoca 0.10.2",
+        second=SecondResult(
+            "OpenModelica 1.27.0", (CompiledModel("Arm", 410),), (exact,), (exact,), (exact,), 31.5, 702.0
+        ),
     )
 
 
@@ -263,8 +267,8 @@ def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) 
 def simulated() -> SimulateResult:
     """An arm whose joint passes a limit."""
     place = "robot.hold"
-    position = simulation.Quantity(f"{place}.revolute.phi", "rad", 0.0, 1.25, -1.0, 1.0)
-    speed = simulation.Quantity(f"{place}.revolute.w", "rad/s", 0.0, 2.5, None, None)
+    position = simulation.Range(f"{place}.revolute.phi", "rad", 0.0, 1.25, -1.0, 1.0)
+    speed = simulation.Range(f"{place}.revolute.w", "rad/s", 0.0, 2.5, None, None)
     passed = simulation.PassedLimit("position", 1.0, 0.75, 0.25, 0.5)
     warning = Diagnostic(Severity.WARNING, "limit-passed", "joint hold: position passes its limit, 1 rad")
     joint = simulation.JointResult("joint hold", "robot", position, speed, passed=(passed,))

@@ -10,6 +10,7 @@ import msgspec
 import pytest
 
 from urdfsync import cli
+from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.results import CheckOptions, CheckResult, EditEffect
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -64,7 +65,7 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     limits = ["--jobs", "3", "--timeout", "12.5", "--memory", "4", "--wait", "7"]
     assert cli.main(["check", "ladder", "--physics", "--strict", "--tool", "omc", *limits]) == 0
-    assert checker.options == CheckOptions(True, True, "omc", 3, 12.5, 4.0, 7.0, (tmp_path,))  # noqa: FBT003 - in the order of the fields
+    assert checker.options == CheckOptions(True, True, (Tool("omc"),), 3, 12.5, 4.0, 7.0, (tmp_path,))  # noqa: FBT003 - in the order of the fields
 
 
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:

@@ -24,6 +24,7 @@ from urdfsync.check.compilers.compiler import (
     CompileTask,
     Complaint,
     Simulation,
+    Tool,
     compile_task,
 )
 from urdfsync.check.process import Limits
@@ -67,7 +68,7 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
     def done(answers: Mapping[str, str], *tasks: CompileTask, roots: tuple[str, ...] = ()) -> list[CompileResult]:
         (folder / "answers.json").write_text(json.dumps(answers))
         job = CompileJob(roots, tasks or (TASK,))
-        return run_job("omc", job, UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9))
+        return run_job(Tool("omc"), job, UserCache(tmp_path / "cache"), Limits("the check", 60, 2e9))
 
     return done
 
@@ -188,11 +189,11 @@ def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.Monk
     program = tmp_path / "bin" / "omc"
     program.parent.mkdir()
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
-    found = [installed_version("omc")]
+    found = [installed_version(Tool("omc"))]
     for version in ("1.24", "1.25"):
         program.write_text(f"#!/bin/sh\necho OpenModelica {version}\n")
         program.chmod(0o755)
-        found.append(installed_version("omc"))
+        found.append(installed_version(Tool("omc")))
     assert len(set(found)) == 3
 
 
@@ -223,13 +224,15 @@ def test_recorded_answers_are_understood(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(omc.program() is None, reason="no OpenModelica")
+@pytest.mark.skipif(omc.program("") is None, reason="no OpenModelica")
 def test_a_real_omc_compiles_and_simulates(tmp_path: Path) -> None:
     text = "model Probe_\n  Real x(start = 1, fixed = true);\nequation\n  der(x) = -x;\nend Probe_;\n"
     tasks = (
         CompileTask("Probe_", text, (Simulation(1, 0.5),), ("x",)),
         compile_task("Modelica.Blocks.Examples.PID_Controller", ["Modelica"]),
     )
-    simulated, compiled = run_job("omc", CompileJob((), tasks), UserCache(tmp_path), Limits("the check", 300, 4e9))
+    simulated, compiled = run_job(
+        Tool("omc"), CompileJob((), tasks), UserCache(tmp_path), Limits("the check", 300, 4e9)
+    )
     assert simulated.runs[0].values["x"][-1] == pytest.approx(0.36787944, abs=1e-6)
     assert (compiled.problem, compiled.unknowns > 0) == ("", True)

@@ -11,7 +11,7 @@ from support.checks import act
 
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import COMPILERS, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask
+from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask, Tool
 from urdfsync.check.process import BrokenProcessError, Limits, run
 from urdfsync.diagnostics import OutputError
 
@@ -64,7 +64,7 @@ def test_a_compiler_that_breaks_down_is_one_line(
     monkeypatch.setitem(COMPILERS, "fake", checks.Compiler())
     tasks = CompileTask("M", "", title="Plant.Good"), CompileTask("M", deed, title="Plant.Bad")
     with pytest.raises(CompilerError) as caught:
-        run_job("fake", CompileJob((), tasks), UserCache(tmp_path), limits())
+        run_job(Tool("fake"), CompileJob((), tasks), UserCache(tmp_path), limits())
     (found,) = caught.value.diagnostics
     assert found.code == code
     assert words in found.message

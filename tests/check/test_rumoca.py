@@ -9,7 +9,7 @@ import pytest
 
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import find_missing, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation, Tool
 from urdfsync.check.compilers.rumoca import METHODS
 from urdfsync.check.process import Limits
 
@@ -34,7 +34,9 @@ def decay(*runs: Simulation, values: tuple[str, ...] = ("x", "y[2,3]")) -> Compi
 
 
 def results(tmp_path: Path, *tasks: CompileTask, roots: tuple[str, ...] = ()) -> list[CompileResult]:
-    return run_job("rumoca", CompileJob(roots, tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 4e9))
+    return run_job(
+        Tool("rumoca"), CompileJob(roots, tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 4e9)
+    )
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:
@@ -139,13 +141,13 @@ def test_the_search_path_of_the_user_has_no_say(tmp_path: Path, monkeypatch: pyt
 
 def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shutil.which", lambda name, path=None: None)
-    missing = find_missing("omc")
-    assert find_missing("rumoca") is None
+    missing = find_missing(Tool("omc"))
+    assert find_missing(Tool("rumoca")) is None
     assert missing is not None
     assert "`omc` is not on the PATH" in missing.message
     monkeypatch.setattr("shutil.which", lambda name, path=None: name)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "rumoca" else name)
-    missing = find_missing("rumoca")
-    assert find_missing("omc") is None
+    missing = find_missing(Tool("rumoca"))
+    assert find_missing(Tool("omc")) is None
     assert missing is not None
     assert "rumoca is not installed" in missing.message

@@ -73,7 +73,7 @@ def test_everything_set() -> None:
         library = "../modelica/./lib"
     """)
     (arm,) = loaded.robots
-    assert loaded.library == ROOT.parent / "modelica/lib"
+    assert loaded.check.library == ROOT.parent / "modelica/lib"
     assert (arm.source, arm.source_text) == (ROOT.parent / "cad" / "arm.json", "../cad/arm.json")
     assert arm.folder == ROOT / "lib" / "Plant" / "Robots" / "Arm"
     assert arm.target == Target("Plant.Robots.Arm", "SixAxis")

@@ -9,7 +9,7 @@ import pytest
 
 from urdfsync.domain import Axis, Signal
 from urdfsync.simulate.joints import joint_results, pattern, robots
-from urdfsync.simulate.results import PassedLimit, Quantity
+from urdfsync.simulate.results import PassedLimit, Range
 
 ELBOW = Axis(
     "joint elbow",
@@ -25,8 +25,8 @@ def test_quantities_are_held_against_the_limits_of_the_model() -> None:
     series = {"time": TIMES, "elbow.phi": (0.0, 1.0, 2.0, 1.5), "elbow.w": (0.0, -3.0, 0.0, 0.0)}
     parameters = {"elbow.lower": -1.0, "elbow.upper": 1.25, "elbow.fastest": 2.0}
     (found,) = joint_results([ELBOW], series, parameters)
-    assert found.position == Quantity("elbow.phi", "rad", 0.0, 2.0, -1.0, 1.25)
-    assert found.speed == Quantity("elbow.w", "rad/s", -3.0, 0.0, -2.0, 2.0)
+    assert found.position == Range("elbow.phi", "rad", 0.0, 2.0, -1.0, 1.25)
+    assert found.speed == Range("elbow.w", "rad/s", -3.0, 0.0, -2.0, 2.0)
     assert found.effort is None, "the model has no such variable"
     assert found.passed == (
         PassedLimit("position", 1.25, 2.0, 0.75, 1.0),
@@ -37,7 +37,7 @@ def test_quantities_are_held_against_the_limits_of_the_model() -> None:
 def test_what_a_motor_gives_through_its_gear_is_a_part_of_the_effort() -> None:
     series = {"time": TIMES, "elbow.phi": [0.0] * 4, "elbowAxis.tau": [1.0] * 4, "elbowMotor.tau": (0.0, 0.1, 0.2, 0.3)}
     (found,) = joint_results([ELBOW], series, {"elbow.ratio": 50.0, "elbow.strongest": 12.0})
-    assert found.effort == Quantity("elbowAxis.tau", "N·m", 1.0, 16.0, -12.0, 12.0)
+    assert found.effort == Range("elbowAxis.tau", "N·m", 1.0, 16.0, -12.0, 12.0)
     assert [(one.quantity, one.time) for one in found.passed] == [("effort", 3.0)]
 
 
@@ -53,7 +53,7 @@ def test_rounding_passes_no_limit(value: float, passes: bool) -> None:
 def test_infinite_limits_are_none() -> None:
     series = {"time": (0.0, 1.0), "elbow.phi": (0.0, 1e6)}
     (found,) = joint_results([ELBOW], series, {"elbow.upper": 1.7976931348623157e308, "elbow.lower": -1e301})
-    assert found.position == Quantity("elbow.phi", "rad", 0.0, 1e6, None, None)
+    assert found.position == Range("elbow.phi", "rad", 0.0, 1e6, None, None)
 
 
 def test_robots_are_found_wherever_they_are() -> None:

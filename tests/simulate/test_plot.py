@@ -7,15 +7,15 @@ from typing import Any
 
 import pytest
 
-from urdfsync.simulate.results import JointResult, Quantity, SimulateResult
+from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
 pytest.importorskip("matplotlib")
 
 from urdfsync.simulate.plot import draw
 
 
-def quantity(name: str, unit: str, **limits: float) -> Quantity:
-    return Quantity(name, unit, 0.0, 1.0, limits.get("lower"), limits.get("upper"))
+def quantity(name: str, unit: str, **limits: float) -> Range:
+    return Range(name, unit, 0.0, 1.0, limits.get("lower"), limits.get("upper"))
 
 
 def result(*joints: JointResult) -> SimulateResult:

@@ -14,7 +14,7 @@ import psutil
 
 from urdfsync.check import process
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
 from urdfsync.check.process import LimitError, Limits
 from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.config import Config, RobotConfig
@@ -82,8 +82,10 @@ class Compiler:
     INSTALL = "install it"
     REPORT = "report it"
     METHODS: tuple[str, ...] = ()
+    TRIED: tuple[str, ...] = ()
+    HAS_STANDARD_LIBRARY = False
 
-    def program(self) -> str | None:
+    def program(self, named: str) -> str | None:
         """All of it is here."""
         return ""
 
@@ -111,7 +113,7 @@ class Compiling:
         """Of single models."""
 
     def __call__(
-        self, name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+        self, tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
     ) -> list[CompileResult]:
         """Return a result for each task."""
         self.roots += job.roots

@@ -14,7 +14,7 @@ from support.corpus import REPOSITORY
 from urdfsync.check import libraries as modelica_libraries
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import compiler, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation
+from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation, Tool
 from urdfsync.check.process import Limits
 
 Array = NDArray[np.float64]
@@ -108,7 +108,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
         tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values)))
     CACHE.trim()
     try:
-        results = run_job("rumoca", CompileJob(roots, tuple(tasks)), CACHE, Limits("a test", 3600, 16e9))
+        results = run_job(Tool("rumoca"), CompileJob(roots, tuple(tasks)), CACHE, Limits("a test", 3600, 16e9))
     except CompilerError as error:
         return [Outcome(str(error)) for _ in todo]
     outcomes = []

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from support import urdfs
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, SimulationResult
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
 from urdfsync.check.process import Limits
 
 ARM = urdfs.robot(
@@ -42,7 +42,7 @@ class Compiler:
         self.parameters = {f"robot.shoulder.parameters.limits.{name}": limit for name, limit in limits.items()}
 
     def __call__(
-        self, name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+        self, tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
     ) -> list[CompileResult]:
         """Return the next of the results, or the series."""
         self.jobs.append(job)

@@ -14,6 +14,7 @@ from urdfsync.check import run
 from urdfsync.check.cache import UserCache
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.results import CheckOptions, CheckResult
+from urdfsync.check.tools import chosen_tools
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, Progress
@@ -35,7 +36,11 @@ class BuildChecker:
     def __init__(self, config: Config, request: BuildOptions) -> None:
         self._config, self._cache = config, UserCache.default()
         self._options = CheckOptions(
-            jobs=request.jobs, wait=request.wait, package_paths=request.package_paths, fresh=request.full
+            tools=chosen_tools(config, trusted=request.trusted),
+            jobs=request.jobs,
+            wait=request.wait,
+            package_paths=request.package_paths,
+            fresh=request.full,
         )
 
     def key(self, robot: RobotConfig) -> str | None:

@@ -7,18 +7,18 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import registry
-from urdfsync.check import compilers, libraries, process
+from urdfsync.check import compilers, libraries
 from urdfsync.check.compilers.compiler import (
     Compiler,
     CompileResult,
     CompileTask,
     Complaint,
     Simulation,
+    Tool,
     compile_task,
 )
 from urdfsync.check.jobs import Jobs
@@ -26,7 +26,6 @@ from urdfsync.check.package import CheckedPackage, PackageTexts, UsersModels
 from urdfsync.check.process import Limits
 from urdfsync.check.results import (
     MOST_SINGLE_EDITS,
-    CheckOptions,
     CheckResult,
     CompiledModel,
     EditEffect,
@@ -48,16 +47,17 @@ _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 """The texts of a version of the package, and what is done with it."""
-_Series: TypeAlias = Mapping[str, Sequence[float]]
+Series: TypeAlias = Mapping[str, Sequence[float]]
 
 
 class Compilation:
-    """The compiling of one check: what it finds goes into the result."""
+    """The compiling of one package by one compiler: what it finds goes into the result."""
 
     def __init__(
         self,
         package: CheckedPackage,
-        options: CheckOptions,
+        tool: Tool,
+        processes: int,
         result: CheckResult,
         limits: Limits,
         folder: Path,
@@ -65,51 +65,45 @@ class Compilation:
         users: UsersModels,
         needed_by_users: libraries.Libraries,
     ) -> None:
-        """`folder` is for copies of the package; `users` are models outside of it, and need more libraries."""
-        self._package, self._options, self._result, self._limits = package, options, result, limits
-        self._jobs = Jobs(package.robot, package.around, needed, options.compiler, limits, folder)
-        self._users, tool = users, options.compiler
-        # of their own: what can't be read of the user's files would keep the package from being compiled
-        self._users_jobs = Jobs(package.robot, package.around, needed_by_users, tool, limits, folder)
-        self._compiler = compilers.COMPILERS[options.compiler]
-        self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
+        """So many `processes` may compile at a time; `folder` is for copies of the package.
 
-    def run(self, texts: Iterable[bytes]) -> None:
-        """Compile the package, and compare it if that is wanted: 20 s for a six-axis arm, minutes for a humanoid.
-
-        `texts` are all those of the package; the compiler gets what they and other libraries need of the standard one.
+        `users` are models outside of the package, and need more libraries. Raises CacheError.
         """
-        result, physics = self._result, self._options.physics
-        texts = list(texts)
-        self._jobs.copy_standard_library(texts)
-        if self._users.files:
-            self._users_jobs.copy_standard_library([*texts, *self._package.users_files.values()])
-        if physics:
-            self._compare()
-        else:
-            result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
+        self._package, self._processes, self._result = package, processes, result
+        texts = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
+        self._jobs = Jobs(package.robot, package.around, needed, texts, tool, limits, folder)
+        self._users, self._users_jobs = users, self._jobs
+        if users.files:
+            # of their own: what can't be read of the user's files would keep the package from being compiled
+            texts += package.users_files.values()
+            self._users_jobs = Jobs(package.robot, package.around, needed_by_users, texts, tool, limits, folder)
+        self._compiler = compilers.COMPILERS[tool.name]
+        result.tool = self._compiler.TITLE
+        self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
+        self.version = ""
+        """Of the compiler; empty until it has said something."""
+        self.generated: Series | None = None
+        """How the package moves as it is generated, completed for the comparison; None if it does not."""
+        self.edited: Series | None = None
+        """How the package on disk moves, if it is edited; None if it does not."""
+
+    def run(self, experiment: Experiment | None) -> None:
+        """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
+        if experiment is None:
             self._compile_all()
+        else:
+            self._compare(experiment)
         order = [*self._package.models, *self._users.files]
-        result.compiled = tuple(sorted(result.compiled, key=lambda one: order.index(one.model)))
+        self._result.compiled = tuple(sorted(self._result.compiled, key=lambda one: order.index(one.model)))
 
     def _compile_all(self) -> None:
         """Compile all models, in as many processes as may work at the same time."""
-        jobs = self._model_jobs(max(1, min(self._options.compilers, len(self._package.models))))
+        jobs = self._model_jobs(max(1, min(self._processes, len(self._package.models))))
         self._note_models(jobs, self._run_all(jobs))
 
-    def _compare(self) -> None:
+    def _compare(self, experiment: Experiment) -> None:
         """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
         package, result = self._package, self._result
-        experiment = self._experiment()
-        if experiment is None:
-            self._compile_all()
-            return
-        result.notes, result.reference = experiment.notes, experiment.reference
-        result.unchecked += experiment.unchecked
-        if package.on_disk and not package.in_step:
-            result.unchecked += (
-                "the effect of your edits was not measured: the package is not in step with its source",
-            )
         is_same = experiment.content == package.rendering.content
         completed = package.generated if is_same else package.rendering.package(experiment.content)
         probe, models = experiment.probe, self._model_jobs(1)
@@ -126,22 +120,24 @@ class Compilation:
                 jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, move
         done = self._run_all(jobs)
         self._note_models(models, done)
-        moved, said = self._series(done["completed"])
+        self.generated, said = self._series(done["completed"])
         result.add(said)
-        if moved is not None:
-            result.deviations = compare(experiment.compared, moved, experiment.expected)
+        if self.generated is not None:
+            result.deviations = compare(experiment.compared, self.generated, experiment.expected)
         if package.edits:
+            without_edits = self.generated
             if not is_same:
-                moved, said = self._series(done["generated"])
+                without_edits, said = self._series(done["generated"])
                 result.add(said)
-            edited, faults = self._series(done["edited"])
+            self.edited, faults = self._series(done["edited"])
             if faults:  # no fault of an edited package
                 result.gaps += (f"the effect of your edits was not measured: {faults[0].message}",)
-            if edited is None or moved is None:
+            if self.edited is None or without_edits is None:
                 return
             alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
-            single = {file: compare(experiment.compared, one, moved) for file, one in alone.items() if one is not None}
-            whole = compare(experiment.compared, edited, moved)
+            moved = {file: one for file, one in alone.items() if one is not None}
+            single = {file: compare(experiment.compared, one, without_edits) for file, one in moved.items()}
+            whole = compare(experiment.compared, self.edited, without_edits)
             result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
@@ -160,6 +156,7 @@ class Compilation:
         """Take note of the models that were compiled by themselves."""
         for label, (_, tasks) in jobs.items():
             for task, one in zip(tasks, done[label], strict=False):
+                self._note_version(one)
                 if one.problem:
                     file = self._users.files.get(task.title) if label == _USERS else None
                     said = explain(one.problem, self._compiler, self._package.files, task.title, file)
@@ -172,28 +169,14 @@ class Compilation:
                 if label == _USERS or task.title not in self._users_models:
                     self._result.compiled += (CompiledModel(task.title, one.unknowns, label == _USERS),)
 
-    def _experiment(self) -> Experiment | None:
-        """The experiment for the package; None if there is none, and the result says why."""
-        robot, content = self._package.robot, self._package.rendering.content
-        tell(f"{robot.name}: asking the reference")
-        try:
-            arguments = robot.domain, content, shown(robot.source), robot.target, robot.options
-            (found,) = process.run(_experiments, *arguments, limits=self._limits)
-        except UrdfsyncError as error:
-            self._result.add(error.diagnostics)
-        except process.BrokenProcessError as error:
-            message, hint = f"the reference crashed: {error}", "check without `--physics`"
-            self._result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
-        else:
-            if isinstance(found, Experiment):
-                return found
-            self._result.gaps += (f"poses, efforts and masses were not compared: {found}",)
-        return None
+    def _note_version(self, one: CompileResult) -> None:
+        if one.version:
+            self.version, self._result.tool = one.version, f"{self._compiler.TITLE} {one.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
         done: dict[str, list[CompileResult]] = {}
-        with ThreadPoolExecutor(self._options.compilers) as pool:
+        with ThreadPoolExecutor(self._processes) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
             for label, future in futures.items():
                 try:
@@ -213,11 +196,12 @@ class Compilation:
         tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
         return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
 
-    def _series(self, results: Sequence[CompileResult]) -> tuple[_Series | None, list[Diagnostic]]:
+    def _series(self, results: Sequence[CompileResult]) -> tuple[Series | None, list[Diagnostic]]:
         """The one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []
         (result,) = results
+        self._note_version(result)
         if result.problem:
             return None, explain(result.problem, self._compiler, self._package.files)
         (run,) = result.runs
@@ -227,12 +211,7 @@ class Compilation:
         return run.values, []
 
 
-def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
-    """Yield the experiment of a domain, in a process of its own."""
-    yield registry.domain(domain).experiment(*arguments)
-
-
-def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> tuple[Deviation, ...]:
+def compare(compared: Iterable[Compared], found: Series, expected: Series) -> tuple[Deviation, ...]:
     """How far values are from those expected, at the beginning and at the end; what is no number is infinitely far."""
     deviations: list[Deviation] = []
     for one in compared:
@@ -249,7 +228,7 @@ def compare(compared: Iterable[Compared], found: _Series, expected: _Series) -> 
     return tuple(msgspec.structs.replace(one, size=sizes[one.quantity, one.unit]) for one in deviations)
 
 
-def _number(series: _Series, name: str, instant: int) -> float:
+def _number(series: Series, name: str, instant: int) -> float:
     numbers = series.get(name)
     return numbers[instant] if numbers else math.nan
 

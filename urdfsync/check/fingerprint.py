@@ -29,8 +29,8 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
     except (UrdfsyncError, OSError):
         return None
     return digest(
-        *(__version__, compilers.installed_version(options.compiler, "pin", "yourdfpy"), options.physics),
-        *(options.compiler, robot.domain, robot.target, robot.options, *sources, str(needed.problem)),
+        *(__version__, *(compilers.installed_version(tool, "pin", "yourdfpy") for tool in options.tools)),
+        *(options.physics, robot.domain, robot.target, robot.options, *sources, str(needed.problem)),
         shown(robot.folder),  # findings name files as they are seen from the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
     )

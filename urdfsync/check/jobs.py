@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.check import compilers, libraries
 from urdfsync.check.cache import UserCache, cache_errors
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask
+from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
 from urdfsync.check.package import write_package
 from urdfsync.check.process import Limits
 from urdfsync.config import RobotConfig, find_own_library
@@ -25,23 +25,27 @@ class Jobs:
         robot: RobotConfig,
         around: Mapping[str, bytes],
         needed: libraries.Libraries,
-        compiler: str,
+        texts: Iterable[bytes],
+        tool: Tool,
         limits: Limits,
         folder: Path,
         progress: Callable[[], None] | None = None,
     ) -> None:
-        """`around` is as in `package.files_around`; copies go below `folder`; for `progress` see `process.run`."""
-        self._robot, self._around, self._compiler, self._progress = robot, around, compiler, progress
-        self._limits, self._folder, self._needed = limits, folder, needed
+        """Copy the part of the Modelica Standard Library that `texts` and other libraries need. Raises CacheError.
 
-    def copy_standard_library(self, texts: Iterable[bytes]) -> None:
-        """Copy what `texts`, those of the package, and other libraries need of the standard one. Raises CacheError."""
-        standard = self._needed.standard
-        others = (text for path in self._needed.others.values() for text in libraries.library_texts(path).values())
-        self._standard = libraries.standard_library_copy(standard, [*texts, *others], UserCache.default())
-        self._originals = {str(self._standard / name): path for name, path in standard.items() if path.suffix != ".mo"}
-        own = find_own_library(LIBRARY, self._robot.target.package)
-        self._libraries = {**({LIBRARY: own} if own else {}), **self._needed.others}
+        `around` is as in `package.files_around`; copies go below `folder`; for `progress` see `process.run`.
+        """
+        self._robot, self._around, self._tool, self._progress = robot, around, tool, progress
+        self._limits, self._folder = limits, folder
+        self._roots, self._originals = list[str](), dict[str, Path]()
+        if not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY:
+            others = (text for path in needed.others.values() for text in libraries.library_texts(path).values())
+            copy = libraries.standard_library_copy(needed.standard, [*texts, *others], UserCache.default())
+            self._roots = [str(copy)]
+            parts = needed.standard.items()
+            self._originals = {str(copy / name): path for name, path in parts if path.suffix != ".mo"}
+        own = find_own_library(LIBRARY, robot.target.package)
+        self._libraries = {**({LIBRARY: own} if own else {}), **needed.others}
 
     def run(
         self,
@@ -56,7 +60,7 @@ class Jobs:
         CompilerError, LimitError and CacheError.
         """
         cache, folder = UserCache.default(), self._folder / label.replace("/", "-")
-        originals, roots = dict(self._originals), [str(self._standard)]
+        originals, roots = dict(self._originals), list(self._roots)
         with cache_errors(cache.folder):
             top = write_package(folder, self._robot, texts, self._around)
             for path in self._libraries.values():
@@ -71,7 +75,7 @@ class Jobs:
             with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
         job = CompileJob((*roots, str(top)), tuple(with_imports))
         results = []
-        for one in compilers.run_job(self._compiler, job, cache, self._limits, self._progress):
+        for one in compilers.run_job(self._tool, job, cache, self._limits, self._progress):
             problem = one.problem
             for copy, original in originals.items():
                 problem = problem.replace(copy, str(original))

@@ -17,12 +17,10 @@ from urdfsync.check.cache import UserCache, cache_errors, digest
 from urdfsync.check.package import package_texts, stored_files
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.modelica.names import LIBRARY
+from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]
 
-STANDARD = ("Modelica", "ModelicaServices", "Complex")
-"""The libraries that make up the Modelica Standard Library."""
 OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
 NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
 
@@ -72,11 +70,11 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
     for place in [configured] if configured else library_folders(environment):
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
-            for name in STANDARD[1:]:  # of the same version, else the newest
+            for name in STANDARD_LIBRARIES[1:]:  # of the same version, else the newest
                 others = _versions(place, name)
                 if others:
                     parts[name] = dict(others).get(version, others[0][1])
-            if len(parts) == len(STANDARD):
+            if len(parts) == len(STANDARD_LIBRARIES):
                 found.append(StandardLibrary(version, parts))
     suitable = [library for library in found if library.version >= OLDEST]
     if suitable:
@@ -128,7 +126,7 @@ def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], w
     top, places = robot.target.package.partition(".")[0], search_path(robot)
     others = needed_libraries(texts, top, places, wanted)
     try:
-        return Libraries(find_standard_library(os.environ, config.library).parts, others)
+        return Libraries(find_standard_library(os.environ, config.check.library).parts, others)
     except LibraryError as error:
         return Libraries({}, others, error.diagnostics[0])
 
@@ -147,7 +145,7 @@ def needed_libraries(
     count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
     """
     known = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
-    known -= {top, LIBRARY, *STANDARD}
+    known -= {top, LIBRARY, *STANDARD_LIBRARIES}
     named, waiting, found = set(wanted), list(texts), dict[str, Path]()
     while named or waiting:
         for name in sorted(named & known):

@@ -17,6 +17,7 @@ from urdfsync.check.results import (
     CheckStatus,
     CompiledModel,
     EditEffect,
+    SecondResult,
     agrees,
     largest,
     listed,
@@ -44,7 +45,9 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
     said, advice = list[tuple[str, str]](), _ADVICE
-    for one, others in _by_kind([one for one in result.deviations or () if not agrees(one)]):
+    if result.second:
+        said += _two_tools(result, result.second)
+    for one, others in () if result.second else _by_kind([one for one in result.deviations or () if not agrees(one)]):
         what, amount = _amount(one)
         reference = result.reference or "the reference"
         said.append((f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"))
@@ -70,9 +73,50 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
         for one in result.deviations or ():
             what, amount = _amount(one)
             said.append((f"{one.element}: {what} differs by {amount} ({one.relative:.1e})", "dim"))
+        for one in (result.second and result.second.between) or ():
+            what, amount = _amount(one)
+            said.append((f"{one.element}: {what} differs by {amount} between the compilers", "dim"))
         for found in result.effects:
             said += [(f"{_edited(found)} {_change(one)}", "dim") for one in found.deviations]
     yield from (line(("  ", ""), sentence) for sentence in said)
+
+
+def _two_tools(result: CheckResult, second: SecondResult) -> Iterator[tuple[str, str]]:
+    """How far two compilers agree, who stands alone where they or the reference differ, and what they took."""
+    if second.between is not None:
+        reference = result.reference or "the reference"
+        found: dict[str, list[Deviation]] = {}
+        for three in zip(result.deviations or (), second.deviations or (), second.between, strict=False):
+            if not all(map(agrees, three)):
+                found.setdefault(_outlier(result.tool, second.tool, reference, *three), []).append(
+                    max(three, key=lambda one: math.inf if math.isnan(one.relative) else one.relative)
+                )
+        for name, deviations in found.items():
+            for one, others in _by_kind(deviations):
+                what, amount = _amount(one)
+                who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
+                yield f"{one.element}: {what}: {who}{others}", "bold red"
+        for one, others in _by_kind([one for one in second.edited if not agrees(one)]):
+            what, amount = _amount(one)
+            sentence = f"{one.element}: with your edits, the {what} by {second.tool} differs from that by {result.tool}"
+            yield f"{sentence} by {amount}{others}", "bold red"
+        worst = max((one.relative for one in second.between), default=0.0)
+        if worst <= TOLERANCE:
+            yield f"{result.tool} and {second.tool} agree {f'to {worst:.1e}' if worst else 'exactly'}", ""
+    if second.seconds:
+        size = f"{second.seconds:.1f} s and {_digits(second.megabytes)} MB of it are {second.tool}'s"
+        yield size, "dim"
+
+
+def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
+    """Which of three stands alone; empty if none agree.
+
+    The deviations are those of the first and of the second from the reference, then of the second from the first.
+    """
+    for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
+        if agrees(agreeing):
+            return name
+    return ""
 
 
 def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[StyledLine]:
@@ -102,9 +146,9 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         **{name: list(getattr(result, name)) for name in lists},
         "standing": result.status(strict),
         "summary": summary(result, strict),
-        "compiled": [
-            {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users} for one in result.compiled
-        ],
+        "tool": result.tool or None,
+        "second": _second_values(result.second),
+        "compiled": list(map(_model_values, result.compiled)),
         "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
         "agrees": None if result.deviations is None else not result.differs,
@@ -114,6 +158,21 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
             for one in result.effects
         ],
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }
+
+
+def _second_values(second: SecondResult | None) -> dict[str, Any] | None:
+    """What a second compiler says as plain data."""
+    if second is None:
+        return None
+    return {
+        "tool": second.tool,
+        "compiled": list(map(_model_values, second.compiled)),
+        "deviations": list(map(_deviation_values, second.deviations or ())),
+        "between": list(map(_deviation_values, second.between or ())),
+        "edited": list(map(_deviation_values, second.edited)),
+        "seconds": second.seconds,
+        "megabytes": second.megabytes,
     }
 
 
@@ -148,8 +207,9 @@ def summary(result: CheckResult, strict: bool) -> str:
             said.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
     elif not errors:
         said.append("syntax and layout")
+    deviations = [*(result.deviations or ()), *((result.second and result.second.deviations) or ())]
     for name, quantities in _KINDS:
-        if worst := largest(result.deviations, quantities):
+        if worst := largest(deviations, quantities):
             agreement = f"agree to {worst.relative:.1e}" if worst.difference else "agree exactly"
             place = "" if quantities is MASSES else f" ({worst.element})"
             said.append(f"{name} {agreement if agrees(worst) else 'differ'}{place}")

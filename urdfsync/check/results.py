@@ -9,6 +9,7 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.check.compilers.compiler import Tool
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.engine.result import Exit
@@ -31,8 +32,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """Whether poses, efforts and masses are compared with the domain's reference."""
     strict: bool = False
     """Whether a difference that comes from an edit counts as one."""
-    compiler: str = "rumoca"
-    """One of `compilers.COMPILERS`."""
+    tools: tuple[Tool, ...] = (Tool(),)
+    """The compilers, one or both."""
     jobs: int | None = None
     """How many robots may be checked at the same time; None for what cores and memory allow."""
     timeout: float = 600.0
@@ -83,6 +84,22 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The elements that the files belong to, in the domain's words."""
 
 
+class SecondResult(msgspec.Struct, frozen=True):
+    """What a second compiler makes of a package, and how far the two compilers are apart."""
+
+    tool: str
+    """Its name and version."""
+    compiled: tuple[CompiledModel, ...] = ()
+    deviations: tuple[Deviation, ...] | None = None
+    """From the reference, in the order of those of the first compiler; None if nothing was compared."""
+    between: tuple[Deviation, ...] | None = None
+    """From the first compiler, for the package as it is generated; None if one of them could not move it."""
+    edited: tuple[Deviation, ...] = ()
+    """From the first compiler, for the package with the edits of the user; none if there are none."""
+    seconds: float = 0.0
+    megabytes: float = 0.0
+
+
 class CheckResult(msgspec.Struct):
     """What was checked of one robot, and what came out. The check fills it, and nobody changes it afterwards."""
 
@@ -116,6 +133,10 @@ class CheckResult(msgspec.Struct):
     """The most memory that its processes took together, looked at ten times a second."""
     reference: str = ""
     """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
+    tool: str = ""
+    """The compiler with its version, the first one of two; empty if nothing was compiled."""
+    second: SecondResult | None = None
+    """None if one compiler was asked."""
 
     @property
     def failed(self) -> bool:
@@ -124,8 +145,11 @@ class CheckResult(msgspec.Struct):
 
     @property
     def differs(self) -> bool:
-        """Whether what is generated is not what the reference says, whoever edited what."""
-        return self.deviations is not None and not all(map(agrees, self.deviations))
+        """Whether what is generated is not what the reference says, whoever edited what, or two compilers disagree."""
+        found = list(self.deviations or ())
+        if self.second:
+            found += [*(self.second.deviations or ()), *(self.second.between or ()), *self.second.edited]
+        return not all(map(agrees, found))
 
     @property
     def is_changed_by_edits(self) -> bool:

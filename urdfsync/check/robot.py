@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import contextlib
 import time
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import psutil
 
-from urdfsync.check import compilers, libraries, texts
+from urdfsync import registry
+from urdfsync.check import compilers, libraries, process, texts
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import Compilation
+from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.package import CheckedPackage, read_package, users_models
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckOptions, CheckResult, listed
+from urdfsync.check.two_tools import compile_with_tools
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Severity, UrdfsyncError, findings_of
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.domain import Experiment
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.workers import tell
@@ -72,11 +78,13 @@ def _check(
     result.add(map(package.rendering.source.locate, found))
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in package.domain.uses(robot.options)]
-    needed, missing = libraries.find_libraries(config, robot, contents, uses), compilers.find_missing(options.compiler)
+    needed, missing = libraries.find_libraries(config, robot, contents, uses), _find_missing(options)
+    lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     if reason := _check_texts(package, needed, result):
         result.gaps = (f"nothing was compiled, since {reason}",)
-    elif problem := missing or needed.problem:
-        is_wanted = options.physics or (options.compiler != CheckOptions().compiler if missing else config.library)
+    elif problem := missing or (needed.problem if lacks_library else None):
+        default = CheckOptions().tools
+        is_wanted = options.physics or (options.tools != default if missing else config.check.library)
         if is_wanted:
             result.add([problem])
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
@@ -88,8 +96,51 @@ def _check(
                 result.gaps += (f"{files} outside of the package: nothing there was compiled",)
             every = libraries.find_libraries(config, robot, [*contents, *package.users_files.values()], uses)
             every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
-            compilation = Compilation(package, options, result, limits, place / robot.name, needed, users, every)
-            compilation.run(contents)
+            experiment = _experiment(package, options, result, limits)
+
+            def compilation(tool: Tool, part: CheckResult) -> Compilation:
+                copies, count = place / robot.name / tool.name, options.compilers
+                return Compilation(package, tool, count, part, limits, copies, needed, users, every)
+
+            compile_with_tools(options.tools, compilation, experiment, result, limits)
+
+
+def _find_missing(options: CheckOptions) -> Diagnostic | None:
+    return next(filter(None, map(compilers.find_missing, options.tools)), None)
+
+
+def _experiment(
+    package: CheckedPackage, options: CheckOptions, result: CheckResult, limits: Limits
+) -> Experiment | None:
+    """The experiment for the package; None if there is none, and the result says why."""
+    robot = package.robot
+    if not options.physics:
+        result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
+        return None
+    tell(f"{robot.name}: asking the reference")
+    try:
+        arguments = robot.domain, package.rendering.content, shown(robot.source), robot.target, robot.options
+        (found,) = process.run(_experiments, *arguments, limits=limits)
+    except UrdfsyncError as error:
+        result.add(error.diagnostics)
+        return None
+    except process.BrokenProcessError as error:
+        message, hint = f"the reference crashed: {error}", "check without `--physics`"
+        result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
+        return None
+    if not isinstance(found, Experiment):
+        result.gaps += (f"poses, efforts and masses were not compared: {found}",)
+        return None
+    result.notes, result.reference = found.notes, found.reference
+    result.unchecked += found.unchecked
+    if package.on_disk and not package.in_step:
+        result.unchecked += ("the effect of your edits was not measured: the package is not in step with its source",)
+    return found
+
+
+def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
+    """Yield the experiment of a domain, in a process of its own."""
+    yield registry.domain(domain).experiment(*arguments)
 
 
 def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:

@@ -20,7 +20,7 @@ from urdfsync.domain import brings_back
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import ClassName, StoredClasses, class_path
 from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file
-from urdfsync.modelica.names import is_identifier
+from urdfsync.modelica.names import STANDARD_LIBRARIES, is_identifier
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import StoredText, declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
@@ -200,7 +200,7 @@ def check_names(package: CheckedPackage, standard: Mapping[str, Path]) -> tuple[
     def find(name: str) -> Path | None:
         if own := find_own_library(name, robot.target.package):
             return own
-        if name in libraries.STANDARD:
+        if name in STANDARD_LIBRARIES:
             return standard.get(name)
         return libraries.find_library(name, libraries.search_path(robot))
 

@@ -103,6 +103,14 @@ def add_command(
     return parser
 
 
+def add_tool(parser: Parser, tools: Sequence[str]) -> None:
+    """Add the option that chooses a compiler, or both, and the one that trusts a program of the configuration."""
+    which = "the compiler: rumoca, or omc for OpenModelica" + (", or both" if "both" in tools else "")
+    parser.add_argument("--tool", choices=tools, help=f"{which} (default: as configured, else rumoca)")
+    trust = "start the program that `omc` in the configuration names"
+    parser.add_argument("--trust", action="store_true", help=trust)
+
+
 def configuration(args: argparse.Namespace) -> Config:
     """The configuration that the arguments name, or the nearest one. Raises ConfigError."""
     return config.load(args.config or config.find(config.working_folder()))

@@ -12,11 +12,12 @@ from urdfsync.check import run as run_checks
 from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.report import closing_lines, robot_lines, to_json
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
+from urdfsync.check.tools import BOTH, chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, has_marks
 
-_CHECK_OPTIONS = ("physics", "strict", "compiler", "jobs", "timeout", "memory", "wait", "executor")
+_CHECK_OPTIONS = ("physics", "strict", "jobs", "timeout", "memory", "wait", "executor")
 """Fields of `CheckOptions` that the user may set."""
 
 
@@ -38,8 +39,7 @@ def add(commands: arguments.Commands) -> None:
     option, default = parser.add_argument, CheckOptions()
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
-    tools, compiler = tuple(COMPILERS), "the compiler: rumoca (default), or omc for OpenModelica"
-    option("--tool", dest="compiler", choices=tools, default=default.compiler, help=compiler)
+    arguments.add_tool(parser, (*COMPILERS, BOTH))
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
     seconds = f"seconds for a robot (default: {default.timeout:g})"
@@ -57,7 +57,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
-    options = CheckOptions(package_paths=config.ros_package_path(os.environ), **chosen)
+    tools = chosen_tools(configuration, args.tool, trusted=args.trust)
+    options = CheckOptions(tools=tools, package_paths=config.ros_package_path(os.environ), **chosen)
     found = run_checks.check_robots(configuration, robots, options, console.progress)
     results = show_results(console, found, args.strict)
     code = exit_code(results, args.strict)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from urdfsync import config
 from urdfsync.check.compilers import COMPILERS
+from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
@@ -19,7 +20,7 @@ from urdfsync.simulate.report import result_lines, to_json
 from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
 from urdfsync.simulate.run import simulate
 
-_OPTIONS = ("model", "stop", "step", "tolerance", "method", "motion", "compiler", "timeout", "memory", "wait")
+_OPTIONS = ("model", "stop", "step", "tolerance", "method", "motion", "timeout", "memory", "wait")
 """Fields of `SimulateOptions` that are arguments of the same name."""
 
 
@@ -49,7 +50,7 @@ def add(commands: arguments.Commands) -> None:
     option("--step", type=arguments.amount, metavar="S", help=steps)
     tolerance = f"of the integration (default: as the model says, else {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
-    methods = ", ".join(name for one in COMPILERS.values() for name in one.METHODS)
+    methods = "; ".join(f"{', '.join(one.METHODS)} ({one.TITLE})" for one in COMPILERS.values())
     option("--method", metavar="M", default="", help=f"of the integration: {methods}")
     option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
@@ -58,7 +59,7 @@ def add(commands: arguments.Commands) -> None:
     more = "a variable for these files as well, such as 'robot.hand.*'; may be repeated"
     option("--variable", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
-    option("--tool", dest="compiler", choices=tuple(COMPILERS), default=default.compiler, help="the compiler: rumoca")
+    arguments.add_tool(parser, tuple(COMPILERS))
     seconds = f"seconds for all of it (default: {default.timeout:g})"
     option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
     option("--memory", type=arguments.amount, metavar="GB", help="memory for it (default: what is free)")
@@ -81,7 +82,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         later.daemon = True
         later.start()
     chosen = {name: getattr(args, name) for name in _OPTIONS}
+    tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trust)
     options = SimulateOptions(
+        tool=tool,
         values=tuple(args.set),
         variables=tuple(args.variable),
         package_paths=config.ros_package_path(os.environ),

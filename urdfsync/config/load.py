@@ -22,6 +22,7 @@ from urdfsync.config.settings import (
     FILE_NAME,
     OWN_KEYS,
     STATE_FOLDER,
+    CheckConfig,
     CheckKeys,
     Config,
     Keys,
@@ -75,12 +76,12 @@ def parse(text: str, file: Path, name: str) -> Config:
     reader = _Reader(text, name, file.parent)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
-    library = reader.library()
+    check = reader.check()
     reader.find_clashes(robots)
     reader.check_ignored(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
-    return Config(file, robots, library)
+    return Config(file, robots, check)
 
 
 def in_words(kind: Any) -> str:
@@ -156,12 +157,17 @@ class _Reader:
                 self._report("unknown-key", table.lines[key], message)
         self._refuse_unknown(table, known)
 
-    def library(self) -> Path | None:
-        """The folder that the table `[check]` names; None if it names none."""
+    def check(self) -> CheckConfig:
+        """The table `[check]`."""
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckKeys))
         keys = self._read(table, CheckKeys)
-        return None if keys is None or keys.library is None else _absolute(self._root / keys.library)
+        if keys is None:
+            return CheckConfig()
+        library = None if keys.library is None else _absolute(self._root / keys.library)
+        is_path = Path(keys.omc).name != keys.omc  # else a name, which is looked for on the PATH
+        omc = str(_absolute(self._root / keys.omc)) if is_path else keys.omc
+        return CheckConfig(library, keys.tool, omc, table.lines.get("omc", 0))
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a record or a package's folder, nor may one stand in the other's."""

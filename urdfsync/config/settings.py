@@ -47,6 +47,21 @@ class CheckKeys(msgspec.Struct, frozen=True):
     """The keys of the table `[check]`."""
 
     library: str | None = None
+    tool: Literal["rumoca", "omc", "both"] = "rumoca"
+    omc: str = ""
+
+
+class CheckConfig(msgspec.Struct, frozen=True):
+    """How packages are compiled and simulated."""
+
+    library: Path | None = None
+    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    tool: str = "rumoca"
+    """The compiler: `rumoca`, `omc`, or `both`."""
+    omc: str = ""
+    """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
+    omc_line: int = 0
+    """The line of the configuration that names it."""
 
 
 class RobotConfig(msgspec.Struct, frozen=True):
@@ -106,8 +121,7 @@ class Config(msgspec.Struct, frozen=True):
 
     file: Path
     robots: tuple[RobotConfig, ...]
-    library: Path | None = None
-    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    check: CheckConfig = CheckConfig()
 
     @property
     def root(self) -> Path:

@@ -39,6 +39,12 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
 
 
+def find_untrusted_compiler(config: Config) -> Diagnostic | None:
+    """An error if the configuration names a compiler, and the user has not named its folder. Raises ConfigError."""
+    message = f"`omc` was not run: {config.check.omc}"
+    return _find_untrusted(config, message, config.check.omc_line, "untrusted-command")
+
+
 def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
     """An error if a file of the user's lies outside of the configuration's folder, as for an output."""
     place = Path(os.path.realpath(path))

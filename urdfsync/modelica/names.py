@@ -16,6 +16,8 @@ KEYWORDS = frozenset(
 
 LIBRARY = "UrdfSync"
 """The library that urdfsync brings along."""
+STANDARD_LIBRARIES = ("Modelica", "ModelicaServices", "Complex")
+"""The libraries that make up the Modelica Standard Library."""
 
 RESERVED_CLASSES = frozenset(
     """

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from urdfsync.domain import Axis, Signal
-from urdfsync.simulate.results import JointResult, PassedLimit, Quantity, Series
+from urdfsync.simulate.results import JointResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
 """From here on a limit is none: compilers write infinity as the greatest number that they have."""
@@ -75,15 +75,15 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
     return values
 
 
-def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float]) -> Quantity:
+def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float]) -> Range:
     limits = [parameters.get(_below(place, one), math.inf) for one in signal.limits] or [math.inf]
     limits = [-limits[0], limits[0]] if len(limits) == 1 else limits
     lower, upper = (limit if abs(limit) < _ENDLESS else None for limit in limits)
     name = _below(place, signal.variable)
-    return Quantity(name, signal.unit, float(values.min()), float(values.max()), lower, upper)
+    return Range(name, signal.unit, float(values.min()), float(values.max()), lower, upper)
 
 
-def _passed(name: str, quantity: Quantity, times: Sequence[float], values: Any) -> Iterator[PassedLimit]:
+def _passed(name: str, quantity: Range, times: Sequence[float], values: Any) -> Iterator[PassedLimit]:
     """Yield the limits that a quantity passes by more than the models of joints allow for rounding."""
     import numpy as np  # see above
 

@@ -10,7 +10,7 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from urdfsync.simulate.results import JointResult, Quantity, SimulateResult
+from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
 _ROWS = ("position", "speed", "effort")
 _PER_COLUMN = 6
@@ -69,5 +69,5 @@ def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: Si
     panel.set_ylabel(f"{name} [{', '.join(dict.fromkeys(units))}]" if units else name)
 
 
-def _limits(quantity: Quantity | None) -> list[float]:
+def _limits(quantity: Range | None) -> list[float]:
     return [limit for limit in (quantity.lower, quantity.upper) if limit is not None] if quantity else []

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.output.console import StyledLine, line
-from urdfsync.simulate.results import JointResult, Quantity, SimulateResult
+from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _NOTHING = 5e-7
@@ -50,7 +50,7 @@ def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
     return (name, position, limits, _size(joint.speed), _size(joint.effort)), "bold yellow" if joint.passed else ""
 
 
-def _size(quantity: Quantity | None) -> str:
+def _size(quantity: Range | None) -> str:
     """The greatest absolute value, and its limit: `0.31/5 rad/s`."""
     if quantity is None:
         return "-"

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.check.compilers.compiler import Tool
 from urdfsync.diagnostics import Diagnostic
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
@@ -37,7 +38,7 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     """A CSV file with the inputs of the model."""
     variables: tuple[str, ...] = ()
     """Patterns of further variables whose series are wanted."""
-    compiler: str = "rumoca"
+    tool: Tool = Tool()
     timeout: float = 600.0
     """Seconds."""
     memory: float | None = None
@@ -47,8 +48,8 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     package_paths: tuple[Path, ...] = ()
 
 
-class Quantity(msgspec.Struct, frozen=True):
-    """A quantity of a joint over a simulation."""
+class Range(msgspec.Struct, frozen=True):
+    """From where to where a quantity of a joint goes over a simulation."""
 
     variable: str
     """Its full name."""
@@ -81,9 +82,9 @@ class JointResult(msgspec.Struct, frozen=True):
     """In the domain's words: `joint elbow`."""
     robot: str
     """The component that is the robot: `robot`, `cell.left`; empty if it is the model itself."""
-    position: Quantity | None = None
-    speed: Quantity | None = None
-    effort: Quantity | None = None
+    position: Range | None = None
+    speed: Range | None = None
+    effort: Range | None = None
     passed: tuple[PassedLimit, ...] = ()
 
 

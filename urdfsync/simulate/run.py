@@ -30,6 +30,7 @@ from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.engine.rendering import Rendering
 from urdfsync.files import shown
 from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.simulate import joints
 from urdfsync.simulate.models import Model, find_model
@@ -112,8 +113,8 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
 
 def _check_compiler(options: SimulateOptions) -> None:
     """Raise ConfigError for a compiler that can't do this, CompilerError for one that is not there."""
-    compiler = compilers.COMPILERS[options.compiler]
-    if missing := compilers.find_missing(options.compiler):
+    compiler = compilers.COMPILERS[options.tool.name]
+    if missing := compilers.find_missing(options.tool):
         raise UrdfsyncError(missing)
     if options.method and options.method not in compiler.METHODS:
         near = nearest(options.method, compiler.METHODS)
@@ -150,7 +151,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
         message = f"the package of robot `{robot.name}` has no model that {what}"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
     needed = libraries.find_libraries(config, robot, [*texts.values(), *around.values()])
-    if needed.problem:
+    if needed.problem and not compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY:
         raise UrdfsyncError(needed.problem)
     model, needed = _find_model(config, robot, name, package, needed)
     settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
@@ -210,7 +211,7 @@ def _find_model(
     decoded = {str(path): content.decode("utf-8-sig", "replace") for path, content in contents.items()}
     model = find_model(Scopes(sources), robot.target.package, name, decoded)
     library = model.name.partition(".")[0]
-    if library != top and library not in libraries.STANDARD:
+    if library != top and library not in STANDARD_LIBRARIES:
         file = Path(model.node.file)
         every = [*texts.values(), *package.around.values(), *([files[file]] if file in files else [])]
         found = libraries.needed_libraries(every, top, places, [library])
@@ -240,7 +241,7 @@ def _run(
 ) -> tuple[SimulationResult, bool]:
     """Return what a simulation gave, and whether it is that of an earlier one of the same. Raises UrdfsyncError."""
     cache, begin = UserCache.default(), time.monotonic()
-    version = __version__, compilers.installed_version(options.compiler)
+    version = __version__, compilers.installed_version(options.tool)
     files = (sorted(one.items()) for one in (work.texts, work.around, work.changed))
     key = digest(*version, work.task, robot.target, *files, work.needed.state())
     if known := cache.load(key, SimulationResult):
@@ -256,8 +257,8 @@ def _run(
         progress(f"{robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
 
     with cache.workspace() as folder:
-        jobs = Jobs(robot, work.around, work.needed, options.compiler, limits, folder, tell)
-        jobs.copy_standard_library([*work.texts.values(), *work.around.values()])
+        texts = [*work.texts.values(), *work.around.values()]
+        jobs = Jobs(robot, work.around, work.needed, texts, options.tool, limits, folder, tell)
         (result,) = jobs.run("simulation", work.texts, [work.task], work.changed)
         if result.problem and work.task.parameters:  # perhaps since there is no such parameter
             check = msgspec.structs.replace(work.plain, runs=(), parameters=work.task.parameters)
@@ -287,7 +288,7 @@ def _result(
         if errors := [one for one in faults if one.severity is Severity.ERROR]:
             raise UrdfsyncError(*errors)
         file = None if package.folder in work.file.parents else work.file
-        said = explain(result.problem, compilers.COMPILERS[options.compiler], package, file=file)
+        said = explain(result.problem, compilers.COMPILERS[options.tool.name], package, file=file)
         if names := ", ".join(work.task.parameters):
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names}"
             said = [msgspec.structs.replace(one, hint=hint) for one in said]

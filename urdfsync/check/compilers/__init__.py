@@ -9,10 +9,12 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import msgspec
+
 from urdfsync.check import process
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import omc, rumoca
-from urdfsync.check.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult
+from urdfsync.check.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
 from urdfsync.check.process import BrokenProcessError, Limits
 from urdfsync.diagnostics import Diagnostic, Severity
 
@@ -20,38 +22,51 @@ COMPILERS: Mapping[str, Compiler] = {"rumoca": rumoca, "omc": omc}
 """By the value of `--tool`, the default first."""
 
 
-def find_missing(name: str) -> Diagnostic | None:
-    """Return what a check with this compiler lacks, with what to install; None if all is there."""
-    compiler = COMPILERS[name]
+def find_missing(tool: Tool) -> Diagnostic | None:
+    """Return why a compiler can't be started, with what to do; None if all is there."""
+    compiler = COMPILERS[tool.name]
     for module in compiler.MODULES:
         if importlib.util.find_spec(module) is None:
             return _missing(compiler, f"{module} is not installed")
-    return _missing(compiler, f"`{name}` is not on the PATH") if compiler.program() is None else None
+    if tool.problem is None and compiler.program(tool.program) is None:
+        named = f"`{tool.program}`, which `omc` in the table `[check]` names, is no program"
+        return _missing(compiler, named if tool.program else f"`{tool.name}` is not on the PATH")
+    return tool.problem
 
 
-def installed_version(name: str, *others: str) -> str:
+def installed_version(tool: Tool, *others: str) -> str:
     """The versions of a compiler and of other distributions, for the keys of results; empty for what is not there."""
-    compiler, found = COMPILERS[name], []
+    compiler, found = COMPILERS[tool.name], [tool.name]
     for distribution in (*compiler.MODULES, *others):
         with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             found.append(f"{distribution} {importlib.metadata.version(distribution)}")
-    if program := compiler.program():
+    if program := compiler.program(tool.program):
         with contextlib.suppress(OSError):
             found.append(f"{Path(program).resolve()} {Path(program).stat().st_mtime_ns}")
     return "; ".join(found)
 
 
+def find_untried(tool: Tool, version: str) -> Diagnostic | None:
+    """Return a note for a version of a compiler with which urdfsync was not tried."""
+    compiler = COMPILERS[tool.name]
+    if not version or not compiler.TRIED or version.startswith(compiler.TRIED):
+        return None
+    message = f"{compiler.TITLE} {version} was not tried with urdfsync; {', '.join(compiler.TRIED)} was"
+    return Diagnostic(Severity.NOTE, "untried-compiler", message)
+
+
 def run_job(
-    name: str, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
+    tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
 ) -> list[CompileResult]:
     """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
 
     A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down, and
     LimitError.
     """
-    compiler = COMPILERS[name]
-    if missing := find_missing(name):
+    compiler = COMPILERS[tool.name]
+    if missing := find_missing(tool):
         raise CompilerError(missing)
+    job = msgspec.structs.replace(job, program=tool.program)
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         environment = compiler.environment(str(cache.compiler), folder)
         try:

@@ -7,7 +7,18 @@ from typing import Protocol
 
 import msgspec
 
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, UrdfsyncError
+
+
+class Tool(msgspec.Struct, frozen=True):
+    """A compiler that the user chose."""
+
+    name: str = "rumoca"
+    """One of `compilers.COMPILERS`."""
+    program: str = ""
+    """The program to start, as a path or a name on the PATH; empty to look for it."""
+    problem: Diagnostic | None = None
+    """Why that may not be started."""
 
 
 class Simulation(msgspec.Struct, frozen=True):
@@ -61,6 +72,8 @@ class CompileResult(msgspec.Struct, frozen=True):
     """All parameters of the model, if one that the task sets is not among them."""
     without_effect: tuple[str, ...] = ()
     """Parameters that the task sets and on which nothing in the compiled model depends."""
+    version: str = ""
+    """The version of the compiler, as it says itself."""
 
 
 class CompileJob(msgspec.Struct, frozen=True):
@@ -68,6 +81,8 @@ class CompileJob(msgspec.Struct, frozen=True):
 
     roots: tuple[str, ...]
     tasks: tuple[CompileTask, ...]
+    program: str = ""
+    """See `Tool.program`."""
 
 
 class Complaint(msgspec.Struct, frozen=True):
@@ -99,9 +114,16 @@ class Compiler(Protocol):
     """What to do when the compiler crashes, as a hint."""
     METHODS: tuple[str, ...]
     """Methods of integration."""
+    TRIED: tuple[str, ...]
+    """Beginnings of the versions with which urdfsync was tried; none if its own requirements say that."""
+    HAS_STANDARD_LIBRARY: bool
+    """Whether it finds the Modelica Standard Library by its own means."""
 
-    def program(self) -> str | None:
-        """Return the path of the program that the modules start, empty if they need none; None if it is missing."""
+    def program(self, named: str) -> str | None:
+        """Return the path of the program to start, empty if it needs none; None if it is missing.
+
+        `named` is `Tool.program`.
+        """
         ...
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:

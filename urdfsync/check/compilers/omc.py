@@ -28,15 +28,17 @@ from urdfsync.check.compilers.compiler import (
     one_line,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.processes import exit_cause
 
 TITLE = "OpenModelica"
 MODULES: tuple[str, ...] = ()
-INSTALL = "install OpenModelica, or check without `--tool omc`"
-REPORT = "check without `--tool omc`, and report it to the authors of OpenModelica"
+INSTALL = "install OpenModelica, name its program with `omc` in the table `[check]`, or use `--tool rumoca`"
+REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
+TRIED: tuple[str, ...] = ("1.27",)
+HAS_STANDARD_LIBRARY = True
 
-_STANDARD = ("Complex", "ModelicaServices", "Modelica")
 _TOLERANCE = 1e-8
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -64,10 +66,12 @@ class _Answer(NamedTuple):
     messages: str
 
 
-def program() -> str | None:
-    """See `Compiler`: below OPENMODELICAHOME, else on the PATH."""
+def program(named: str) -> str | None:
+    """See `Compiler`: as it is named, else below OPENMODELICAHOME, else on the PATH."""
+    if named:
+        return shutil.which(named)
     home = os.environ.get("OPENMODELICAHOME")
-    return shutil.which("omc", path=str(Path(home, "bin")) if home else None)
+    return (shutil.which("omc", path=str(Path(home, "bin"))) if home else None) or shutil.which("omc")
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
@@ -105,16 +109,17 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     """See `Compiler`: all in one script. What can't be loaded is the problem of each task."""
     folder = Path(tempfile.mkdtemp())
     files = _package_files(job)
-    version = _ask(folder, ["getVersion()"], "")[0].value
+    version = _ask(job, folder, ["getVersion()"])[0].value
     # the one that compiles to WebAssembly needs no C compiler, and has no other target
     options = ['setCommandLineOptions("--simCodeTarget=wasm-jit")'] if version.endswith("-rust") else []
     loads = [*options, "loadModel(Modelica)", *(f"loadFile({quoted(path.as_posix())})" for path in files)]
     calls = [_calls(task, number, folder) for number, task in enumerate(job.tasks)]
-    answers = iter(_ask(folder, [*loads, *(call for some in calls for call in some)], job.tasks[0].title))
+    answers = iter(_ask(job, folder, [*loads, *(call for some in calls for call in some)]))
     problem = "\n".join(_problem(next(answers)) for _ in loads).strip()
     for task, some in zip(job.tasks, calls, strict=True):
         given = [next(answers) for _ in some]
-        yield CompileResult(problem) if problem else _result(task, given, folder)
+        result = CompileResult(problem) if problem else _result(task, given, folder)
+        yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
 
 
 def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
@@ -137,13 +142,17 @@ def _settings(run: Simulation) -> str:
     return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="csv"{override}'
 
 
-def _ask(folder: Path, calls: Sequence[str], title: str) -> list[_Answer]:
+def _ask(job: CompileJob, folder: Path, calls: Sequence[str]) -> list[_Answer]:
     """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them."""
     script = folder / "script.mos"
     script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
     try:
         done = subprocess.run(  # noqa: S603 - the user's own program
-            [program() or "omc", script.name], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, check=False
+            [program(job.program) or "omc", script.name],
+            cwd=folder,
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            check=False,
         )
     except OSError as error:
         raise ImportError(str(error)) from error
@@ -153,7 +162,7 @@ def _ask(folder: Path, calls: Sequence[str], title: str) -> list[_Answer]:
         if len(calls) == 1:
             raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *said))))
         message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
-        hint = f"{title}: {REPORT}"
+        hint = f"{job.tasks[0].title}: {REPORT}"
         raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *said)), hint=hint))
     return answers
 
@@ -229,10 +238,10 @@ def _package_files(job: CompileJob) -> list[Path]:
     for root in map(Path, job.roots):
         whole = root if root.is_file() else root / "package.mo"
         found += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
-    return [path for path in found if _class_name(path) not in _STANDARD]
+    return [path for path in found if _library_name(path) not in STANDARD_LIBRARIES]
 
 
-def _class_name(file: Path) -> str:
+def _library_name(file: Path) -> str:
     return (file.parent.name if file.name == "package.mo" else file.stem).split(" ")[0]
 
 

@@ -28,11 +28,13 @@ from urdfsync.extras import install_command
 if TYPE_CHECKING:
     import rumoca
 
-TITLE = "the compiler"
+TITLE = "rumoca"
 MODULES: tuple[str, ...] = ("rumoca",)
 INSTALL = install_command("check")
 REPORT = "report it to the authors of rumoca"
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
+TRIED: tuple[str, ...] = ()
+HAS_STANDARD_LIBRARY = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
@@ -49,7 +51,7 @@ _PREFIXES = re.compile(
 _PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
 
 
-def program() -> str:
+def program(named: str) -> str:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`: all of it is in the module."""
     return ""
 
@@ -86,7 +88,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
 
     session = rumoca.Session(roots=list(job.roots))
     for task in job.tasks:
-        yield _compile(session, task)
+        yield msgspec.structs.replace(_compile(session, task), version=rumoca.version())
 
 
 def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:

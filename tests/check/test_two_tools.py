@@ -1,0 +1,135 @@
+"""Two compilers: what is said when they agree with each other and with the reference, and who stands alone if not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+import pytest
+
+from urdfsync.check.compilation import Compilation, compare
+from urdfsync.check.compilers.compiler import Tool
+from urdfsync.check.process import Limits
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel
+from urdfsync.check.two_tools import compile_with_tools
+from urdfsync.commands.check import show_results
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Compared, Experiment, Probe, Quantity
+from urdfsync.output.console import Console
+
+TOOLS = (Tool("rumoca"), Tool("omc"))
+TITLES = {"rumoca": "rumoca 0.10.2", "omc": "OpenModelica 1.27.0"}
+EXPERIMENT = Experiment(
+    "Pinocchio 4.1.0",
+    b"",
+    Probe("", "Probe", 1.0, 1.0, ("x", "tau")),
+    (
+        Compared(Quantity.POSITION, "link hand", "m", ("x",)),
+        Compared(Quantity.EFFORT, "joint elbow", "N·m", ("tau",)),
+    ),
+    {"x": (0.5, 0.75), "tau": (2.0, 4.0)},
+)
+LOST = Diagnostic(Severity.ERROR, "does-not-compile", "`elbo` is unknown", "Arm.mo", 7)
+
+Numbers = Mapping[str, tuple[float, float]]
+
+
+class Said:
+    """In the place of `Compilation`: a compiler that finds these numbers and says this."""
+
+    def __init__(self, tool: Tool, part: CheckResult, numbers: Numbers, edited: Numbers, *said: Diagnostic) -> None:
+        self.version, self.generated, self.edited = "1.27.0", numbers, edited or None
+        self._part, self._said = part, said
+        part.tool = TITLES[tool.name]
+
+    def run(self, experiment: Experiment | None) -> None:
+        """Fill the result."""
+        self._part.compiled = (CompiledModel("Arm", 10),)
+        self._part.add(self._said)
+        if experiment:
+            self._part.deviations = compare(experiment.compared, self.generated, experiment.expected)
+
+
+def check(
+    numbers: Mapping[str, Numbers],
+    edited: Mapping[str, Numbers] | None = None,
+    said: Mapping[str, Diagnostic] | None = None,
+) -> CheckResult:
+    result = CheckResult("arm", "Arm", reference=EXPERIMENT.reference)
+
+    def make(tool: Tool, part: CheckResult) -> Compilation:
+        found = [said[tool.name]] if said and tool.name in said else []
+        of_edited = (edited or {}).get(tool.name, {})
+        return Said(tool, part, numbers[tool.name], of_edited, *found)  # type: ignore[return-value]
+
+    compile_with_tools(TOOLS, make, EXPERIMENT, result, Limits("a test", 60, 1e9))
+    assert result.second
+    result.second = msgspec.structs.replace(result.second, seconds=0.0)
+    return result
+
+
+def lines(result: CheckResult, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    show_results(Console(), [result], strict=False)
+    return capsys.readouterr().out.splitlines()
+
+
+def test_three_that_agree_are_right(capsys: pytest.CaptureFixture[str]) -> None:
+    numbers = {"x": (0.5, 0.75), "tau": (2.0, 4.0 + 4.4e-15)}
+    result = check({"rumoca": EXPERIMENT.expected, "omc": numbers})
+    assert result.status(strict=True) is CheckStatus.RIGHT
+    assert lines(result, capsys) == [
+        "arm: right: 1 model compiles; 10 unknowns; poses agree exactly (link hand); "
+        "torques agree to 1.1e-15 (joint elbow); 0.0 s",
+        "  rumoca 0.10.2 and OpenModelica 1.27.0 agree to 1.1e-15",
+    ]
+
+
+@pytest.mark.parametrize(("rumoca", "omc", "sentence"), [
+    (4.5, 4.0, "joint elbow: torque: rumoca 0.10.2 stands alone, by 0.5 N·m"),
+    (4.0, 4.5, "joint elbow: torque: OpenModelica 1.27.0 stands alone, by 0.5 N·m"),
+    (4.5, 4.5, "joint elbow: torque: Pinocchio 4.1.0 stands alone, by 0.5 N·m"),
+    (4.5, 5.0, "joint elbow: torque: all three differ, by up to 1 N·m"),
+    (4.0, float("nan"), "joint elbow: torque: OpenModelica 1.27.0 stands alone, by more than any number"),
+])  # fmt: skip
+def test_who_stands_alone_is_named(
+    rumoca: float, omc: float, sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one, other = ({"x": (0.5, 0.75), "tau": (2.0, last)} for last in (rumoca, omc))
+    result = check({"rumoca": one, "omc": other})
+    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert lines(result, capsys)[1] == f"  {sentence}"
+
+
+def test_edits_that_two_compilers_understand_in_two_ways_are_a_difference(capsys: pytest.CaptureFixture[str]) -> None:
+    """Such as a modifier that one of them ignores: then what is simulated is not what was written."""
+    same = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
+    result = check(same, {"rumoca": EXPERIMENT.expected, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.25)}})
+    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert lines(result, capsys)[1:] == [
+        "  joint elbow: with your edits, the torque by OpenModelica 1.27.0 "
+        "differs from that by rumoca 0.10.2 by 0.25 N·m",
+        "  rumoca 0.10.2 and OpenModelica 1.27.0 agree exactly",
+    ]
+
+
+def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
+    numbers = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
+    elsewhere = msgspec.structs.replace(LOST, message="units do not fit", line=9)
+    in_its_words = msgspec.structs.replace(LOST, message="Variable elbo not found")
+    assert check(numbers, said={"rumoca": LOST, "omc": in_its_words}).diagnostics == (LOST,)
+    alone = [one.message for one in check(numbers, said={"rumoca": LOST, "omc": elsewhere}).diagnostics]
+    assert alone == ["rumoca 0.10.2 alone: `elbo` is unknown", "OpenModelica 1.27.0 alone: units do not fit"]
+
+
+def test_an_untried_version_is_noted() -> None:
+    result = CheckResult("arm", "Arm")
+
+    def make(tool: Tool, part: CheckResult) -> Compilation:
+        one = Said(tool, part, {}, {})
+        one.version = "1.14.2"
+        return one  # type: ignore[return-value]
+
+    compile_with_tools(TOOLS[1:], make, None, result, Limits("a test", 60, 1e9))
+    assert [str(one) for one in result.diagnostics] == [
+        "note: OpenModelica 1.14.2 was not tried with urdfsync; 1.27 was [untried-compiler]"
+    ]
