@@ -346,8 +346,8 @@ class Bench(msgspec.Struct, frozen=True):
     """The model that needs no input."""
     run: str
     """The model that is driven by inputs; empty if there is none."""
-    axes: tuple[Axis, ...]
-    """From the root outwards."""
+    layouts: tuple[tuple[Axis, ...], ...]
+    """For each approach, the axes by the names that they have there."""
     freedoms: int = 0
     """Degrees of freedom of the main model."""
 

@@ -84,10 +84,14 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
 
 @pytest.mark.parametrize("model", ["ToolPath", pytest.param("ToolPathPackage", marks=LONG)])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
-    """The first part of it, nearly a radius to the side."""
+    """The first part of it, nearly a radius to the side; it keeps its attitude, and no axis swings."""
     tool = [f"r_tool[{i}]" for i in (1, 2, 3)]
     errors = [f"controller.error[{i}]" for i in (1, 2, 3)]
-    series = example(modelica_library, model, 0.6, [*errors, *tool, "controller.angle"])
+    attitude = [f"R_tool[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
+    speeds = [f"w[{i}]" for i in range(1, 7)]
+    series = example(modelica_library, model, 0.6, [*errors, *tool, *attitude, *speeds, "controller.angle"])
+    assert max(np.ptp(series.values[name]) for name in attitude) < 0.08
+    assert max(np.abs(series.values[name]).max() for name in speeds) < 2
     assert 0 < np.abs([series.values[name] for name in errors]).max() < 0.004
     way = np.array([series.values[name] - series.values[name][0] for name in tool])
     angle = series.values["controller.angle"]

@@ -25,7 +25,7 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     assert found is not None
     assert (found.test, found.run) == ("ArmTest", "ArmRun")
     assert found.freedoms == 2, "the finger follows"
-    first, finger, wheel = found.axes
+    ((first, finger, wheel),) = found.layouts
     assert first == Axis(
         "joint base-joint",
         Signal("base_joint.revolute.phi", "rad", (f"{name}.lower", f"{name}.upper")),
@@ -46,7 +46,7 @@ def test_a_floating_base_has_six_degrees_of_freedom_more() -> None:
 def test_a_motor_behind_a_gear_drives_as_well() -> None:
     found = bench(ARM, TARGET, Options(drives="motor"))
     assert found is not None
-    wheel = found.axes[2].effort
+    wheel = found.layouts[0][2].effort
     assert wheel is not None
     assert wheel.added == ("wheel_joint.parameters.transmission.reduction", "wheel_jointMotor.tau")
 
@@ -55,13 +55,19 @@ def test_a_robot_in_one_record_is_told_by_the_numbers_of_its_axes() -> None:
     found = bench(ARM, TARGET, Options(approach=("record",)))
     assert found is not None
     assert (found.test, found.run) == ("ArmGeneric", "")
-    assert [axis.position.variable for axis in found.axes] == ["phi[1]", "phi[2]"]
-    assert found.axes[0].velocity == Signal("w_phi[1]", "rad/s", ("data.base_joint.limits.velocity",))
-    assert found.axes[0].effort == Signal("rotationalAxis[1].tau", "N·m", ("data.base_joint.limits.effort",))
+    assert [axis.position.variable for axis in found.layouts[0]] == ["phi[1]", "phi[2]"]
+    assert found.layouts[0][0].velocity == Signal("w_phi[1]", "rad/s", ("data.base_joint.limits.velocity",))
+    assert found.layouts[0][0].effort == Signal("rotationalAxis[1].tau", "N·m", ("data.base_joint.limits.effort",))
 
 
 @pytest.mark.parametrize("kind", ["planar", "floating"])
 def test_a_record_that_no_generic_robot_reads_has_no_bench(kind: str) -> None:
     loose = tree(Joint("loose", kind, "a", "b"))  # type: ignore[arg-type]
     assert bench(loose, TARGET, Options(approach=("record",))) is None
-    assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", (), {"planar": 3, "floating": 6}[kind])
+    assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", ((),), {"planar": 3, "floating": 6}[kind])
+
+
+def test_a_robot_of_both_approaches_is_told_either_way() -> None:
+    found = bench(ARM, TARGET, Options(approach=("package", "record")))
+    assert found is not None
+    assert [layout[0].position.variable for layout in found.layouts] == ["base_joint.revolute.phi", "phi[1]"]

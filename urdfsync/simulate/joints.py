@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from urdfsync.domain import Axis, Signal
 from urdfsync.simulate.results import JointResult, PassedLimit, Range, Series
@@ -16,17 +16,22 @@ _MARGIN, _SHARE = 1e-6, 1e-6
 """What the models of joints take for rounding: of positions in their unit, of speeds and efforts as a share as well."""
 
 
-def pattern(axes: Sequence[Axis]) -> str:
+Layouts: TypeAlias = Sequence[Sequence[Axis]]
+"""See `Bench.layouts`."""
+
+
+def pattern(layouts: Layouts) -> str:
     """Return a regular expression for all that is read of joints, wherever in a model the robot is."""
+    axes = [axis for layout in layouts for axis in layout]
     names = dict.fromkeys(name for axis in axes for signal in _signals(axis) for name in _names(signal))
     return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
 
 
-def joint_results(axes: Sequence[Axis], series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
-    """Return what each joint of each robot in a model did, in the order of `axes`."""
+def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
+    """Return what each joint of each robot in a model did, in the order of its layout."""
     found = []
-    for place in robots(axes, series):
-        for axis in axes:
+    for place, layout in robots(layouts, series):
+        for axis in layout:
             signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
             values = {name: _values(signal, place, series, parameters) for name, signal in signals.items() if signal}
             told = {
@@ -40,18 +45,20 @@ def joint_results(axes: Sequence[Axis], series: Series, parameters: Mapping[str,
     return found
 
 
-def robots(axes: Sequence[Axis], series: Series) -> list[str]:
-    """Return the components that are robots with these axes: those below which most of the positions are.
+def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
+    """Return the components that are robots, with their layouts: those below which most of the positions are.
 
     A joint may have been exchanged for another model, and parts of something else may have the name of a joint.
     """
-    found: dict[str, int] = {}
-    for axis in axes:
-        for name in series:
-            if name == axis.position.variable or name.endswith(f".{axis.position.variable}"):
-                place = name.removesuffix(axis.position.variable).removesuffix(".")
-                found[place] = found.get(place, 0) + 1
-    return sorted(place for place, count in found.items() if count == max(found.values()))
+    shares: dict[tuple[str, int], float] = {}
+    for number, layout in enumerate(layouts):
+        for axis in layout:
+            for name in series:
+                if name == axis.position.variable or name.endswith(f".{axis.position.variable}"):
+                    place = name.removesuffix(axis.position.variable).removesuffix(".")
+                    shares[place, number] = shares.get((place, number), 0.0) + 1 / len(layout)
+    most = max(shares.values(), default=0.0)
+    return [(place, layouts[number]) for (place, number), share in sorted(shares.items()) if math.isclose(share, most)]
 
 
 def _signals(axis: Axis) -> Iterator[Signal]:

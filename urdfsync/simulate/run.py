@@ -92,9 +92,9 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     work = _prepare(config, robot, options, package)
     simulation, is_known = _run(robot, options, package.texts, work, progress)
     (run,) = work.task.runs
-    found = joints.joint_results(package.bench.axes, simulation.values, simulation.parameters)
+    found = joints.joint_results(package.bench.layouts, simulation.values, simulation.parameters)
     diagnostics = [*package.warnings, *(_warning(joint, one) for joint in found for one in joint.passed)]
-    if not found and package.bench.axes:
+    if not found and any(package.bench.layouts):
         message = f"`{work.model}` has no joint of {robot.target.package}, so none is shown"
         diagnostics.append(Diagnostic(Severity.NOTE, "no-joints", message))
     return SimulateResult(
@@ -176,7 +176,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     stop = options.stop or stop
     step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
     tolerance = options.tolerance or settings.get("Tolerance", TOLERANCE)
-    wanted = [_OWN, joints.pattern(bench.axes), *(_glob(one) for one in options.variables)]
+    wanted = [_OWN, joints.pattern(bench.layouts), *(_glob(one) for one in options.variables)]
     plain = CompileTask(
         "Probe_.Probe",
         _probe(robot, model.name, functions, [], equations),

@@ -29,15 +29,17 @@ def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None
     """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
     freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in tree.joints if joint.mimic is None)
     freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
+    layouts = {"package": _axes(tree, options), "record": _generic_axes(tree)}
+    axes = tuple(tuple(found) for approach, found in layouts.items() if approach in options.approach)
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", tuple(_axes(tree, options)), freedoms)
+        return Bench(f"{target.name}Test", f"{target.name}Run", axes, freedoms)
     if has_bench(tree.joints, options):
-        return Bench(f"{target.name}Generic", "", tuple(_generic_axes(tree)), freedoms)
+        return Bench(f"{target.name}Generic", "", axes, freedoms)
     return None
 
 
 def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
-    """Yield the joints of one degree of freedom in the robot of a package."""
+    """Yield the joints of one degree of freedom in the robot of a package, from the root outwards."""
     drives = connector_names(tree, options).drives
     for joint in tree.joints:
         if motion := MOTION_KINDS.get(joint.type):
