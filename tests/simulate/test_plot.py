@@ -45,12 +45,20 @@ def count_panels(*joints: JointResult) -> int:
 
 
 @pytest.mark.slow
-def test_six_joints_of_one_unit_share_a_column_of_three_panels() -> None:
+def test_six_joints_of_one_unit_share_a_column() -> None:
     rotational = [joint(number) for number in range(7)]
-    assert count_panels(*rotational[:6]) == 3
-    assert count_panels(*rotational) == 6
-    assert count_panels(rotational[0], joint(7, "m"), joint(8, robot="other")) == 9
+    assert count_panels(*rotational[:6]) == 2
+    assert count_panels(*rotational) == 4
+    assert count_panels(rotational[0], joint(7, "m"), joint(8, robot="other")) == 6
     assert count_panels() == 3, "a model without joints"
+
+
+@pytest.mark.slow
+def test_what_no_joint_of_a_column_has_gets_no_panel() -> None:
+    """The joints of `joint` have no effort."""
+    with_effort = JointResult("joint j9", "robot", quantity("q", "m"), quantity("w", "m/s"), quantity("q", "N"))
+    assert count_panels(joint(1)) == 2
+    assert count_panels(joint(1), with_effort) == 5
 
 
 @pytest.mark.slow

@@ -30,9 +30,15 @@ def draw(result: SimulateResult, kind: str) -> bytes:
         panels: Any = figure.subplots(len(_ROWS), len(columns), sharex=True, squeeze=False)
         figure.suptitle(result.model)
         for column, joints in enumerate(columns):
+            last = panels[0][column]
             for row, name in enumerate(_ROWS):
-                _draw_panel(panels[row][column], name, joints, result)
-            panels[-1][column].set_xlabel("time [s]")
+                if joints and not any(getattr(joint, name) for joint in joints):
+                    panels[row][column].set_visible(False)  # joints that follow another one have no effort
+                    continue
+                last = panels[row][column]
+                _draw_panel(last, name, joints, result)
+            last.set_xlabel("time [s]")
+            last.tick_params(labelbottom=True)
             if joints:
                 panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
         content = io.BytesIO()
