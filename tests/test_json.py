@@ -251,7 +251,13 @@ def checked() -> CheckResult:
         reference="Pinocchio 4.1.0",
         tool="rumoca 0.10.2",
         second=SecondResult(
-            "OpenModelica 1.27.0", (CompiledModel("Arm", 410),), (exact,), (exact,), (exact,), 31.5, 702.0
+            "OpenModelica 1.27.0",
+            (CompiledModel("Arm", 410),),
+            (exact,),
+            (exact,),
+            (exact,),
+            (12.5, 31.5),
+            (870.0, 702.0),
         ),
     )
 

@@ -64,7 +64,7 @@ def check(
 
     compile_with_tools(TOOLS, make, EXPERIMENT, result, Limits("a test", 60, 1e9))
     assert result.second
-    result.second = msgspec.structs.replace(result.second, seconds=0.0)
+    result.second = msgspec.structs.replace(result.second, seconds=(12.0, 34.04))
     return result
 
 
@@ -81,6 +81,7 @@ def test_three_that_agree_are_right(capsys: pytest.CaptureFixture[str]) -> None:
         "arm: right: 1 model compiles; 10 unknowns; poses agree exactly (link hand); "
         "torques agree to 1.1e-15 (joint elbow); 0.0 s",
         "  rumoca 0.10.2 and OpenModelica 1.27.0 agree to 1.1e-15",
+        "  rumoca 0.10.2: 12.0 s, 0 MB; OpenModelica 1.27.0: 34.0 s, 0 MB",
     ]
 
 
@@ -105,7 +106,7 @@ def test_edits_that_two_compilers_understand_in_two_ways_are_a_difference(capsys
     same = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
     result = check(same, {"rumoca": EXPERIMENT.expected, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.25)}})
     assert result.status(strict=False) is CheckStatus.DIFFERS
-    assert lines(result, capsys)[1:] == [
+    assert lines(result, capsys)[1:-1] == [
         "  joint elbow: with your edits, the torque by OpenModelica 1.27.0 "
         "differs from that by rumoca 0.10.2 by 0.25 N·m",
         "  rumoca 0.10.2 and OpenModelica 1.27.0 agree exactly",

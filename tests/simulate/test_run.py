@@ -159,11 +159,32 @@ def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
         ("non-finite derivative evaluation for state 'x'", "stops before its end: non-finite"),
         ("initial variable projection did not satisfy the residual system", "does not initialise"),
         ("assert failed at t=0.000: too late", "does not initialise"),
+        ("The following assertion has been violated at time 0.500000", "stops at 0.5 s"),
     ],
 )
 def test_a_simulation_that_fails_says_when(compiler: Compiler, problem: str, words: str) -> None:
     compiler.results = [CompileResult(runs=(SimulationResult(problem=problem),))]
     assert words in refused()
+
+
+def test_results_until_a_simulation_stops_are_kept(compiler: Compiler) -> None:
+    """And it is simulated again the next time."""
+    stopped = SimulationResult(compiler.values, "Modelica assert failed at t=2.25: too late", "", compiler.parameters)
+    compiler.results = [CompileResult(runs=(stopped,))]
+    result = run()
+    assert result.series["time"] == (0.0, 1.0, 2.0)
+    assert [one.element for one in result.joints] == ["joint shoulder", "joint elbow"]
+    (error,) = (one for one in result.diagnostics if one.severity is Severity.ERROR)
+    assert "stops at 2.25 s: Modelica assert failed" in error.message
+    assert error.message.endswith("results until 2 s are kept")
+    assert not any(one.severity is Severity.ERROR for one in run().diagnostics)
+    assert len(compiler.jobs) == 2
+
+
+def test_a_model_that_ends_the_simulation_is_a_note(compiler: Compiler) -> None:
+    ended = SimulationResult(compiler.values, termination="landed", parameters=compiler.parameters)
+    compiler.results = [CompileResult(runs=(ended,))]
+    assert "`Arm.ArmTest` ends the simulation at 2 s: landed" in [one.message for one in run().diagnostics]
 
 
 def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: Compiler) -> None:
@@ -271,5 +292,8 @@ def test_a_model_of_the_user_is_told_what_is_wrong_with_it(arm: Path, modelica_l
     Path("Own.mo").write_text(OWN.replace("  Real y = k*time;", "  Real z;"))
     assert refused(model="Own") == "Own.mo: error: there is 1 equation too few [unbalanced]"
     Path("Own.mo").write_text(OWN.replace("end Own", 'equation\n  assert(time < 0.05, "too late");\nend Own'))
-    assert "the simulation of `Own` stops at 0.05 s" in (found := refused(model="Own", stop=0.1))
-    assert "too late" in found
+    result = run(model="Own", stop=0.1, step=0.02)
+    (error,) = result.diagnostics
+    assert "the simulation of `Own` stops at 0.05 s: " in error.message
+    assert error.message.endswith("too late; results until 0.04 s are kept")
+    assert result.series["time"] == pytest.approx([0, 0.02, 0.04])

@@ -74,13 +74,21 @@ class Jobs:
             imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
             with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
         job = CompileJob((*roots, str(top)), tuple(with_imports))
-        results = []
-        for one in compilers.run_job(self._tool, job, cache, self._limits, self._progress):
-            problem = one.problem
+
+        def named(text: str) -> str:
             for copy, original in originals.items():
-                problem = problem.replace(copy, str(original))
-            results.append(msgspec.structs.replace(one, problem=problem))
-        return results
+                text = text.replace(copy, str(original))
+            return text
+
+        return [
+            msgspec.structs.replace(
+                one,
+                problem=named(one.problem),
+                warnings=named(one.warnings),
+                runs=tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in one.runs),
+            )
+            for one in compilers.run_job(self._tool, job, cache, self._limits, self._progress)
+        ]
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:

@@ -103,9 +103,9 @@ def _two_tools(result: CheckResult, second: SecondResult) -> Iterator[tuple[str,
         worst = max((one.relative for one in second.between), default=0.0)
         if worst <= TOLERANCE:
             yield f"{result.tool} and {second.tool} agree {f'to {worst:.1e}' if worst else 'exactly'}", ""
-    if second.seconds:
-        size = f"{second.seconds:.1f} s and {_digits(second.megabytes)} MB of it are {second.tool}'s"
-        yield size, "dim"
+    names = result.tool, second.tool
+    took = zip(names, second.seconds, second.megabytes, strict=True)
+    yield "; ".join(f"{name}: {seconds:.1f} s, {megabytes:.0f} MB" for name, seconds, megabytes in took), "dim"
 
 
 def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
@@ -171,8 +171,8 @@ def _second_values(second: SecondResult | None) -> dict[str, Any] | None:
         "deviations": list(map(_deviation_values, second.deviations or ())),
         "between": list(map(_deviation_values, second.between or ())),
         "edited": list(map(_deviation_values, second.edited)),
-        "seconds": second.seconds,
-        "megabytes": second.megabytes,
+        "seconds": list(second.seconds),
+        "megabytes": list(second.megabytes),
     }
 
 

@@ -96,8 +96,9 @@ class SecondResult(msgspec.Struct, frozen=True):
     """From the first compiler, for the package as it is generated; None if one of them could not move it."""
     edited: tuple[Deviation, ...] = ()
     """From the first compiler, for the package with the edits of the user; none if there are none."""
-    seconds: float = 0.0
-    megabytes: float = 0.0
+    seconds: tuple[float, float] = (0.0, 0.0)
+    """That the first compiler took, and this one."""
+    megabytes: tuple[float, float] = (0.0, 0.0)
 
 
 class CheckResult(msgspec.Struct):

@@ -58,9 +58,8 @@ def compile_with_tools(
         between = compare(experiment.compared, done[1].generated, done[0].generated)
     if experiment and done[0].edited and done[1].edited:
         edited = compare(experiment.compared, done[1].edited, done[0].edited)
-    result.second = SecondResult(
-        second.tool, second.compiled, second.deviations, between, edited, second.seconds, second.megabytes
-    )
+    seconds, megabytes = (first.seconds, second.seconds), (first.megabytes, second.megabytes)
+    result.second = SecondResult(second.tool, second.compiled, second.deviations, between, edited, seconds, megabytes)
 
 
 def _findings(first: CheckResult, second: CheckResult) -> list[Diagnostic]:

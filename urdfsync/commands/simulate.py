@@ -97,5 +97,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     elif not console.quiet:
         console.print(result_lines(result, outputs.files()))
     console.findings(result.diagnostics)
-    console.end("simulate", Exit.IN_STEP)
-    return Exit.IN_STEP
+    stopped = any(one.severity is Severity.ERROR for one in result.diagnostics)
+    code = Exit.ERROR if stopped else Exit.IN_STEP
+    console.end("simulate", code)
+    return code

@@ -89,7 +89,7 @@ class JointResult(msgspec.Struct, frozen=True):
 
 
 class SimulateResult(msgspec.Struct, frozen=True):
-    """A simulation that reached its end."""
+    """A simulation, which may have stopped before its end: then an error is among the diagnostics."""
 
     robot: str
     model: str

@@ -7,7 +7,7 @@ import os
 import re
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -50,7 +50,7 @@ from urdfsync.spelling import nearest
 _LATER = 1.5
 """Seconds until the compiler is at work."""
 _LONGEST_MESSAGE = 200
-_TIME = re.compile(r"\bt ?= ?([-+.\deE]*\d)")
+_TIME = re.compile(r"\bt(?: ?= ?|ime )([-+.\deE]*\d)")
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""
 
@@ -93,7 +93,11 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     simulation, is_known = _run(robot, options, package.texts, work, progress)
     (run,) = work.task.runs
     found = joints.joint_results(package.bench.layouts, simulation.values, simulation.parameters)
-    diagnostics = [*package.warnings, *(_warning(joint, one) for joint in found for one in joint.passed)]
+    diagnostics = [
+        *package.warnings,
+        *_end(work, simulation),
+        *(_warning(joint, one) for joint in found for one in joint.passed),
+    ]
     if not found and any(package.bench.layouts):
         message = f"`{work.model}` has no joint of {robot.target.package}, so none is shown"
         diagnostics.append(Diagnostic(Severity.NOTE, "no-joints", message))
@@ -265,7 +269,7 @@ def _run(
             (plain,) = jobs.run("plain", work.texts, [check], work.changed)
             result = plain if plain.parameters else result
     simulation = _result(robot, result, options, package, work)
-    cache.save(key, simulation)
+    cache.save(key, None if simulation.problem else simulation)
     return simulation, False
 
 
@@ -293,21 +297,30 @@ def _result(
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names}"
             said = [msgspec.structs.replace(one, hint=hint) for one in said]
         found += said
-    for run in result.runs:
-        if run.problem:
-            words = " ".join(run.problem.split())[:_LONGEST_MESSAGE]
-            moment = f"at {float(when[1]):g} s" if (when := _TIME.search(words)) else "before its end"
-            begins = "initial" in words or (when is not None and float(when[1]) == 0)
-            what = "does not initialise" if begins else f"stops {moment}"
-            message, hint = (
-                f"the simulation of `{work.model}` {what}: {words}",
-                "try another `--method` or `--tolerance`",
-            )
-            found.append(Diagnostic(Severity.ERROR, "no-simulation", message, shown(work.file), hint=hint))
+    found += [one for run in result.runs if not run.values for one in _end(work, run)]
     if found:
         raise UrdfsyncError(*found)
     (run,) = result.runs
     return run
+
+
+def _end(work: _Work, run: SimulationResult) -> Iterator[Diagnostic]:
+    """Yield why a simulation did not reach its end."""
+    if run.termination:
+        message = f"`{work.model}` ends the simulation at {run.values['time'][-1]:g} s: {_shortened(run.termination)}"
+        yield Diagnostic(Severity.NOTE, "terminated", message, shown(work.file))
+    if run.problem:
+        words = _shortened(run.problem)
+        moment = f"at {float(when[1]):g} s" if (when := _TIME.search(words)) else "before its end"
+        begins = "initial" in words or (when is not None and float(when[1]) == 0)
+        what = "does not initialise" if begins else f"stops {moment}"
+        kept = f"; results until {run.values['time'][-1]:g} s are kept" if run.values else ""
+        message, hint = f"the simulation of `{work.model}` {what}: {words}", "try another `--method` or `--tolerance`"
+        yield Diagnostic(Severity.ERROR, "no-simulation", f"{message}{kept}", shown(work.file), hint=hint)
+
+
+def _shortened(text: str) -> str:
+    return " ".join(text.split())[:_LONGEST_MESSAGE]
 
 
 def _warning(joint: JointResult, passed: PassedLimit) -> Diagnostic:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Protocol
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
+
+_ROUNDING = 1e-9
+"""Of a quotient of two times."""
 
 
 class Tool(msgspec.Struct, frozen=True):
@@ -50,10 +54,13 @@ class CompileTask(msgspec.Struct, frozen=True):
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
-    """What a run gave: what went wrong, or a number per instant for `time` and for each value."""
+    """What a run gave: a number per instant for `time` and for each value, and what went wrong."""
 
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
+    """Then `values` are those until it went wrong, as far as the compiler hands them back."""
+    termination: str = ""
+    """Why the model ended the simulation itself, in its words."""
     parameters: Mapping[str, float] = {}
     """The values of parameters that `CompileTask.pattern` matches, as far as the compiler knows them."""
 
@@ -137,6 +144,12 @@ class Compiler(Protocol):
     def complaints(self, problem: str) -> list[Complaint]:
         """Return what the text of `CompileResult.problem` complains about, in its order."""
         ...
+
+
+def until(run: Simulation, moment: float) -> Simulation | None:
+    """Return a run that stops at a moment as far as its last result before that; None if that is the first."""
+    last = run.step * (math.ceil(moment / run.step - _ROUNDING) - 1)
+    return msgspec.structs.replace(run, stop=last) if last > 0 else None
 
 
 def one_line(text: str) -> str:

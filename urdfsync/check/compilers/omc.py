@@ -1,11 +1,11 @@
-"""OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files of CSV.
+"""OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files.
 
 Written for the answers that OpenModelica 1.27 gave, see docs/checking.md.
 """
 
 from __future__ import annotations
 
-import csv
+import math
 import os
 import re
 import shutil
@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import msgspec
 
@@ -26,13 +26,14 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     SimulationResult,
     one_line,
+    until,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.processes import exit_cause
 
 TITLE = "OpenModelica"
-MODULES: tuple[str, ...] = ()
+MODULES: tuple[str, ...] = ("scipy",)
 INSTALL = "install OpenModelica, name its program with `omc` in the table `[check]`, or use `--tool rumoca`"
 REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
@@ -40,6 +41,7 @@ TRIED: tuple[str, ...] = ("1.27",)
 HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
+_NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
     r'|"(?P<text>(?:[^"\\]|\\.)*)"|(?P<word>true|false))(?=\n|\Z)',
@@ -54,8 +56,16 @@ _MESSAGE = re.compile(
     re.MULTILINE,
 )
 _UNITS, _UNITS_GO_ON = "INCONSISTENT due to specified unit information", "The units of following sub-expressions"
-_FOLLOWS = re.compile(r"Failed to load package |Class \S+ not found in scope <top>", re.IGNORECASE)
+_FOLLOWS = re.compile(
+    r"Failed to load package |Class \S+ not found in scope <top>|Curl error|Failed to download", re.IGNORECASE
+)
 """What is also said where something else could not be read."""
+_ASSERTION = re.compile(
+    r"\[(?P<file>[^\n]*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n[^\n]*violated at time (?P<time>[-+.\deE]*\d)\n"
+    r"[^\n]* --> \"(?P<text>.*?)\"$",
+    re.MULTILINE | re.DOTALL,
+)
+_STOPPED = re.compile(r"failed at t=([-+.\deE]*\d)")
 _LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
 
 
@@ -76,7 +86,8 @@ def program(named: str) -> str | None:
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
-    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+    # It asks for an index of libraries on the network if there is none on disk: a proxy that nobody is leaves it alone.
+    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY)
 
 
 def complaints(problem: str) -> list[Complaint]:
@@ -119,7 +130,25 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     for task, some in zip(job.tasks, calls, strict=True):
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
+        result = _with_parts(job, folder, loads, task, result)
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
+
+
+def _with_parts(
+    job: CompileJob, folder: Path, loads: Sequence[str], task: CompileTask, result: CompileResult
+) -> CompileResult:
+    """The result with what runs that stopped gave until then, for which they are run again: OpenModelica keeps none."""
+    runs = []
+    for run, found in zip(task.runs, result.runs, strict=False):
+        moment = _STOPPED.search(found.problem)
+        if moment and (shorter := until(run, float(moment[1]))):
+            again = msgspec.structs.replace(task, runs=(shorter,))
+            calls = _calls(again, len(job.tasks), folder)
+            answers = _ask(job, folder, [*loads, *calls])[len(loads) :]
+            (part,) = _result(again, answers, folder).runs or (SimulationResult(),)
+            found = msgspec.structs.replace(part, problem=found.problem)
+        runs.append(found)
+    return msgspec.structs.replace(result, runs=tuple(runs))
 
 
 def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
@@ -139,7 +168,7 @@ def _settings(run: Simulation) -> str:
     override = f", simflags={quoted(f'-override={changed}')}" if changed else ""
     intervals, tolerance = max(1, round(run.stop / run.step)), run.tolerance or _TOLERANCE
     times = f"startTime=0, stopTime={run.stop!r}, numberOfIntervals={intervals}, tolerance={tolerance!r}"
-    return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="csv"{override}'
+    return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="mat"{override}'
 
 
 def _ask(job: CompileJob, folder: Path, calls: Sequence[str]) -> list[_Answer]:
@@ -208,25 +237,46 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
         elif log.startswith("Failed to build model"):
             return CompileResult(messages.strip() or one_line(log))
         else:
-            words = [_LOG.sub("", line) for line in log.splitlines() if not line.startswith("LOG_SUCCESS")]
-            runs.append(SimulationResult(problem=one_line("; ".join(filter(None, words)))))
+            lines = [_LOG.sub("", line) for line in log.splitlines() if not line.startswith("LOG_SUCCESS")]
+            text = "\n".join(filter(None, lines))
+            if failed := _ASSERTION.search(text):
+                text = f"assert failed at t={failed['time']}: {failed['text']} ({failed['file']}:{failed['line']})"
+            runs.append(SimulationResult(problem=one_line(text.replace("\n", "; "))))
     return CompileResult(runs=tuple(runs))
 
 
 def _read_results(file: Path, task: CompileTask) -> SimulationResult:
-    """The series of a file with a column for each variable."""
-    wanted = re.compile(task.pattern)
+    """Read a trajectory in MATLAB's format 4, which has parameters as well; one file has all, CSV lacks them.
+
+    Two tables have the numbers: `data_1` what never changes, at the beginning and at the end, `data_2` a column for
+    each instant. `dataInfo` says for each name which table, and which row of it, from 1 on; below 0 it is negated.
+    """
+    import numpy as np  # scipy brings it along
+    from scipy.io import loadmat
+
     try:
-        with file.open(encoding="utf-8", newline="") as text:
-            rows = csv.reader(text)
-            columns = {name: number for number, name in enumerate(next(rows, []))}
-            names = list(dict.fromkeys(("time", *task.values, *filter(wanted.fullmatch, columns))))
-            if missing := [name for name in names if name not in columns]:
-                return SimulationResult(problem=f"the result has no `{missing[0]}`")
-            numbers = [[float(row[columns[name]]) for name in names] for row in rows]
-    except (OSError, ValueError, IndexError) as error:
+        found: Any = loadmat(file, chars_as_strings=False)
+        letters = np.ascontiguousarray(found["name"].T)
+        places = zip(*found["dataInfo"][:2].astype(int).tolist(), strict=True)
+        texts = letters.view(f"<U{letters.shape[1]}")[:, 0].tolist()
+        rows = dict(zip(map(str.strip, texts), places, strict=True))
+        tables = {1: found["data_1"], 2: found["data_2"]}
+        times = tables[2][0]
+        wanted = re.compile(task.pattern)
+        names = dict.fromkeys(("time", *task.values, *(name for name in rows if wanted.fullmatch(name))))
+        if missing := [name for name in names if name not in rows]:
+            return SimulationResult(problem=f"the result has no `{missing[0]}`")
+        series, parameters = dict[str, tuple[float, ...]](), dict[str, float]()
+        for name in names:
+            number, row = rows[name]
+            numbers = math.copysign(1, row) * tables[number or 2][abs(row) - 1]
+            if number == 1:
+                parameters[name] = float(numbers[0])
+                numbers = np.full(len(times), numbers[0])
+            series[name] = tuple(numbers.tolist())
+    except (OSError, ValueError, IndexError, KeyError, TypeError) as error:
         return SimulationResult(problem=f"the result can't be read: {error}")
-    return SimulationResult(dict(zip(names, map(tuple, zip(*numbers, strict=True)), strict=False)))
+    return SimulationResult(series, parameters=parameters)
 
 
 def _package_files(job: CompileJob) -> list[Path]:
