@@ -31,6 +31,7 @@ _COMMANDS = (
     "watch",
     "check",
     "simulate",
+    "fmu",
     "resolve",
     "record",
     "hook",

@@ -1,8 +1,9 @@
 """The optional extras of urdfsync, as commands that install them wherever urdfsync itself was installed from."""
 
 PACKAGES = {
-    "check": "rumoca",
+    "check": "rumoca scipy",
     "cluster": "distributed",
+    "fmu": "fmpy",
     "physics": "pin",
     "plot": "matplotlib pyarrow",
     "xacro": "xacro",

@@ -83,6 +83,7 @@ class Compiler:
     REPORT = "report it"
     METHODS: tuple[str, ...] = ()
     TRIED: tuple[str, ...] = ()
+    EXPORTS: tuple[str, ...] = ()
     HAS_STANDARD_LIBRARY = False
 
     def program(self, named: str) -> str | None:

@@ -12,7 +12,7 @@ from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
@@ -123,6 +123,16 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     robots = configuration.select([*args.robots, *(args.robot or [])])
     console.warnings(warnings.find_warnings(configuration, robots))
     return robots
+
+
+def select_robot(args: argparse.Namespace, configuration: Config, console: Console) -> RobotConfig:
+    """The robot that the arguments name, or the only one. Raises ConfigError for several."""
+    robots = select_robots(args, configuration, console)
+    if len(robots) > 1:
+        names = ", ".join(robot.name for robot in robots)
+        message = f"{len(robots)} robots are meant; `{args.parser.prog}` takes one at a time"
+        raise ConfigError(Diagnostic(Severity.ERROR, "robots", message, hint=f"name one: {names}"))
+    return robots[0]
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:

@@ -12,7 +12,7 @@ from urdfsync import config
 from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 from urdfsync.simulate.files import Outputs, check_outputs, write_outputs
@@ -68,12 +68,7 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Simulate one robot, write what was asked for, and show what came out."""
     configuration = arguments.configuration(args)
-    robots = arguments.select_robots(args, configuration, console)
-    if len(robots) > 1:
-        names = ", ".join(robot.name for robot in robots)
-        message = f"{len(robots)} robots are meant; one can be simulated at a time"
-        raise ConfigError(Diagnostic(Severity.ERROR, "robots", message, hint=f"name one: {names}"))
-    (robot,) = robots
+    robot = arguments.select_robot(args, configuration, console)
     outputs = Outputs(args.csv, args.parquet, args.plot)
     inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
     check_outputs(outputs, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))

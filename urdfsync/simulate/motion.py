@@ -83,6 +83,29 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     return Motion(tuple(times), tuple((one, tuple(columns[one.name])) for one in inputs))
 
 
+def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
+    """Return a motion in which all inputs stay at 0 until `stop`."""
+    return Motion((0.0, stop), tuple((one, (0.0, 0.0)) for one in inputs))
+
+
+def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
+    """Return the value of each input at other times, as the functions of `course_functions` have it."""
+    import numpy as np
+
+    places = np.clip(np.searchsorted(motion.times, times, side="right") - 1, 0, len(motion.times) - 2)
+    known = np.array(motion.times)
+    h = known[places + 1] - known[places]
+    a, b = (known[places + 1] - times) / h, (times - known[places]) / h
+    found = {}
+    for one, given in motion.values:
+        bends = second_derivatives(motion.times, given) if one.unit in _SMOOTH else [0.0] * len(given)
+        q, m = np.array(given), np.array(bends)
+        values = a * q[places] + b * q[places + 1]
+        values += ((a**3 - a) * m[places] + (b**3 - b) * m[places + 1]) * h**2 / 6
+        found[one.name] = [float(value) for value in values]
+    return found
+
+
 def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> list[tuple[str, float]]:
     """The name of each column, and what its unit is in that of the input."""
     found: list[tuple[str, float]] = []

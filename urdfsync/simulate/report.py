@@ -8,10 +8,14 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.check.compilers.compiler import Export
 from urdfsync.output.console import StyledLine, line
+from urdfsync.simulate.export import Exported
+from urdfsync.simulate.fmu import KINDS, Trial
 from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
+_KINDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
 """Smaller numbers are shown as 0: they come from rounding."""
 
@@ -87,4 +91,39 @@ def _joint_values(joint: JointResult) -> dict[str, Any]:
         "robot": joint.robot,
         **{name: one and msgspec.structs.asdict(one) for name, one in quantities.items()},
         "passed": list(map(msgspec.structs.asdict, joint.passed)),
+    }
+
+
+def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
+    """What there is to say of an FMU but for its diagnostics."""
+    kinds = " and ".join(name for short, name in _KINDS.items() if short in kind.kind)
+    size = len(exported.content) / 1e6
+    about = (
+        f": {exported.model} by {exported.tool}, FMI {kind.version}, {kinds}; {size:.1f} MB; {exported.seconds:.1f} s"
+    )
+    yield line((robot, "bold"), (about, ""))
+    if trial:
+        if not trial.findings:
+            yield line(("  FMPy finds nothing wrong", "green"))
+        for short, difference in trial.agreement.items():
+            sentence = f"  {_KINDS[short]}: {trial.compared} variables agree with `simulate` to {difference:.1e}"
+            yield line((sentence, ""))
+    yield line(("  fmu: ", ""), (str(file), "bold"))
+
+
+def fmu_to_json(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> dict[str, Any]:
+    """An FMU as plain data."""
+    return {
+        "name": robot,
+        "model": exported.model,
+        "fmu": str(file),
+        "tool": exported.tool,
+        "fmi": kind.version,
+        "kinds": [short for short in KINDS if short in kind.kind],
+        "inputs": [one.name for one in exported.inputs],
+        "tolerance": exported.tolerance,
+        "bytes": len(exported.content),
+        "seconds": exported.seconds,
+        "trial": trial and msgspec.structs.asdict(trial),
+        "diagnostics": list(map(msgspec.structs.asdict, exported.diagnostics)),
     }

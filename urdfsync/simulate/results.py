@@ -46,6 +46,8 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = ()
+    as_exported: bool = False
+    """Whether filters of drives stay, and inputs without a motion stay at 0: as an FMU of the model is simulated."""
 
 
 class Range(msgspec.Struct, frozen=True):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import fnmatch
-import os
 import re
 import threading
 import time
@@ -19,22 +18,16 @@ from urdfsync.check.cache import UserCache, digest
 from urdfsync.check.compilation import explain
 from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult
 from urdfsync.check.jobs import Jobs
-from urdfsync.check.package import PackageTexts, files_around, package_texts, users_files
+from urdfsync.check.package import PackageTexts
 from urdfsync.check.process import Limits
 from urdfsync.check.texts import check_around, check_layout
-from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
-from urdfsync.domain import Bench
-from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions, Progress
-from urdfsync.engine.rendering import Rendering
+from urdfsync.engine.options import Progress
 from urdfsync.files import shown
-from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.names import STANDARD_LIBRARIES
-from urdfsync.modelica.scopes import Scopes
 from urdfsync.simulate import joints
-from urdfsync.simulate.models import Model, find_model
-from urdfsync.simulate.motion import course_functions, read_motion
+from urdfsync.simulate.motion import at_rest, course_functions, read_motion
+from urdfsync.simulate.package import SimulatedPackage, check_compiler, find_with_libraries, read_package
 from urdfsync.simulate.results import (
     STEPS,
     STOP,
@@ -53,15 +46,6 @@ _LONGEST_MESSAGE = 200
 _TIME = re.compile(r"\bt(?: ?= ?|ime )([-+.\deE]*\d)")
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""
-
-
-class _Package(msgspec.Struct):
-    """The package of a robot on disk, and what is around it."""
-
-    bench: Bench
-    texts: PackageTexts
-    around: Mapping[str, bytes]
-    warnings: tuple[Diagnostic, ...]
 
 
 class _Work(msgspec.Struct):
@@ -87,8 +71,8 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     read.
     """
     begin = time.monotonic()
-    _check_compiler(options)
-    package = _read_package(config, robot, options)
+    check_compiler(options)
+    package = read_package(config, robot, options)
     work = _prepare(config, robot, options, package)
     simulation, is_known = _run(robot, options, package.texts, work, progress)
     (run,) = work.task.runs
@@ -115,38 +99,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     )
 
 
-def _check_compiler(options: SimulateOptions) -> None:
-    """Raise ConfigError for a compiler that can't do this, CompilerError for one that is not there."""
-    compiler = compilers.COMPILERS[options.tool.name]
-    if missing := compilers.find_missing(options.tool):
-        raise UrdfsyncError(missing)
-    if options.method and options.method not in compiler.METHODS:
-        near = nearest(options.method, compiler.METHODS)
-        hint = f"did you mean `{near}`?" if near else f"it has {', '.join(compiler.METHODS)}"
-        message = f"{compiler.TITLE} has no method `{options.method}`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
-
-
-def _read_package(config: Config, robot: RobotConfig, options: SimulateOptions) -> _Package:
-    """Read the package of a robot. Raises UrdfsyncError if there is none."""
-    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
-    (built,) = build(config, [robot], request)
-    if built.failed:
-        raise UrdfsyncError(*built.diagnostics)
-    texts = package_texts(robot.folder)
-    if not texts:
-        message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, shown(robot.folder), hint=hint))
-    rendering = Rendering(config, robot, request)
-    bench = rendering.domain.bench(rendering.snapshot, robot.target, robot.options) or Bench("", "", ())
-    package = PackageTexts(robot.target.package, robot.folder, texts)
-    around = files_around(config, robot, texts)
-    message, hint = "the package is out of step with its source; it is simulated as it is", "run `urdfsync build`"
-    late = Diagnostic(Severity.WARNING, "out-of-step", message, shown(robot.folder), hint=hint)
-    return _Package(bench, package, around, () if built.in_step else (late,))
-
-
-def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, package: _Package) -> _Work:
+def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, package: SimulatedPackage) -> _Work:
     """Find the model and what it needs, and write the text that simulates it."""
     bench, texts, around = package.bench, package.texts.texts, package.around
     name = options.model or (bench.run if options.motion else bench.test)
@@ -154,23 +107,21 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
         what = "has inputs" if options.motion else "can be simulated"
         message = f"the package of robot `{robot.name}` has no model that {what}"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
-    needed = libraries.find_libraries(config, robot, [*texts.values(), *around.values()])
-    if needed.problem and not compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY:
-        raise UrdfsyncError(needed.problem)
-    model, needed = _find_model(config, robot, name, package, needed)
+    model, needed = find_with_libraries(config, robot, options, name, package)
     settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
     stop, changed, functions, equations = settings.get("StopTime", STOP), dict[Path, bytes](), "", list[str]()
     changes = modifiers(values)
-    if options.motion:
-        if not inputs:
-            message = f"`{model.name}` has no inputs that a motion could drive"
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
-        motion = read_motion(options.motion, inputs)
+    if options.motion and not inputs:
+        message = f"`{model.name}` has no inputs that a motion could drive"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
+    if inputs and (options.motion or options.as_exported):
+        motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, options.stop or stop)
         stop, driven = motion.times[-1], model.driven(robot.target.package)
         changed = {Path(file): text.encode() for file, text in driven.changed.items()}
         functions, equations = course_functions(motion)
-        changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
-        if options.stop and options.stop > stop:
+        if not options.as_exported:
+            changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
+        if options.motion and options.stop and options.stop > stop:
             message = f"the motion ends at {stop:g} s, before the stop time, {options.stop:g} s"
             raise ConfigError(Diagnostic(Severity.ERROR, "motion", message, shown(options.motion)))
     elif inputs:
@@ -193,36 +144,6 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     own = {path: changed.pop(robot.folder / path, content) for path, content in texts.items()}
     outside = {path: changed.pop(robot.output / path, content) for path, content in around.items()}
     return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
-
-
-def _find_model(
-    config: Config, robot: RobotConfig, name: str, package: _Package, needed: libraries.Libraries
-) -> tuple[Model, libraries.Libraries]:
-    """Return the model of a name, and the libraries that are needed with those of the model. Raises ConfigError."""
-    texts, top = package.texts.texts, robot.target.package.partition(".")[0]
-    around = {robot.output / path: content for path, content in package.around.items() if path.endswith(".mo")}
-    is_own = f"{name.replace('.', '/')}.mo" in texts or name.startswith(f"{robot.target.package}.")
-    files = {} if is_own else users_files(config, robot)
-    places = [robot.output, config.root, *robot.users, *libraries.library_folders(os.environ)]
-
-    def find(library: str) -> Path | None:
-        if own := find_own_library(library, robot.target.package):
-            return own
-        return needed.standard.get(library) or libraries.find_library(library, places)
-
-    sources = StoredClasses(robot.target.package, robot.folder, texts, {**around, **files}, find)
-    contents = {robot.folder / path: content for path, content in texts.items()} | around | files
-    decoded = {str(path): content.decode("utf-8-sig", "replace") for path, content in contents.items()}
-    model = find_model(Scopes(sources), robot.target.package, name, decoded)
-    library = model.name.partition(".")[0]
-    if library != top and library not in STANDARD_LIBRARIES:
-        file = Path(model.node.file)
-        every = [*texts.values(), *package.around.values(), *([files[file]] if file in files else [])]
-        found = libraries.needed_libraries(every, top, places, [library])
-        if library not in found and find_own_library(library, robot.target.package) is None:
-            found[library] = file  # a file of another name than its class
-        needed = msgspec.structs.replace(needed, others={**needed.others, **found})
-    return model, needed
 
 
 def _probe(robot: RobotConfig, model: str, functions: str, changes: list[str], equations: list[str]) -> str:

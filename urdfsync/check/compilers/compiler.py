@@ -37,6 +37,15 @@ class Simulation(msgspec.Struct, frozen=True):
     """One of `Compiler.METHODS`; empty leaves it to the compiler."""
 
 
+class Export(msgspec.Struct, frozen=True):
+    """An FMU of a model."""
+
+    version: str
+    """Of FMI: `2.0` or `3.0`."""
+    kind: str
+    """`me` (model exchange), `cs` (co-simulation) or `me_cs`."""
+
+
 class CompileTask(msgspec.Struct, frozen=True):
     """A model to compile, which is in the text `source`; then to simulate, if there are `runs`."""
 
@@ -51,6 +60,8 @@ class CompileTask(msgspec.Struct, frozen=True):
     """Parameters that the text sets: a task is done only if there are such, and if something depends on them."""
     title: str = ""
     """What messages call the model."""
+    export: Export | None = None
+    """Instead of a simulation; only for compilers with `EXPORTS`."""
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
@@ -81,6 +92,7 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Parameters that the task sets and on which nothing in the compiled model depends."""
     version: str = ""
     """The version of the compiler, as it says itself."""
+    fmu: bytes = b""
 
 
 class CompileJob(msgspec.Struct, frozen=True):
@@ -123,6 +135,8 @@ class Compiler(Protocol):
     """Methods of integration."""
     TRIED: tuple[str, ...]
     """Beginnings of the versions with which urdfsync was tried; none if its own requirements say that."""
+    EXPORTS: tuple[str, ...]
+    """Versions of FMI of which it makes FMUs."""
     HAS_STANDARD_LIBRARY: bool
     """Whether it finds the Modelica Standard Library by its own means."""
 

@@ -38,6 +38,7 @@ INSTALL = "install OpenModelica, name its program with `omc` in the table `[chec
 REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 TRIED: tuple[str, ...] = ("1.27",)
+EXPORTS: tuple[str, ...] = ("2.0", "3.0")
 HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
@@ -123,6 +124,9 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     version = _ask(job, folder, ["getVersion()"])[0].value
     # the one that compiles to WebAssembly needs no C compiler, and has no other target
     options = ['setCommandLineOptions("--simCodeTarget=wasm-jit")'] if version.endswith("-rust") else []
+    if any(task.export for task in job.tasks):  # else an FMU for co-simulation takes Euler's method, one step for each
+        solver = "dassl" if options else "cvode"
+        options.append(f'setCommandLineOptions("--fmiFlags=s:{solver}")')
     loads = [*options, "loadModel(Modelica)", *(f"loadFile({quoted(path.as_posix())})" for path in files)]
     calls = [_calls(task, number, folder) for number, task in enumerate(job.tasks)]
     answers = iter(_ask(job, folder, [*loads, *(call for some in calls for call in some)]))
@@ -156,6 +160,9 @@ def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
     file = folder / f"task{number}.mo"
     file.write_text(task.source, encoding="utf-8")
     found = [f"loadFile({quoted(file.as_posix())})"]
+    if export := task.export:
+        kind = f'version="{export.version}", fmuType="{export.kind}"'
+        return [*found, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
     if not task.runs:
         return [*found, f"checkModel({task.model})"]
     for each, run in enumerate(task.runs):
@@ -218,6 +225,8 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
         return CompileResult(problem)
     if task.runs:
         return _simulated(task, rest, folder)
+    if task.export:
+        return _exported(rest[0], folder)
     ((said, messages),) = rest
     counts = _COUNTS.search(said)
     if "completed successfully" not in said or counts is None:
@@ -225,6 +234,13 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
     if counts[1] != counts[2]:
         return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
     return CompileResult(unknowns=int(counts[2]), warnings=messages.strip())
+
+
+def _exported(answer: _Answer, folder: Path) -> CompileResult:
+    file = folder / answer.value
+    if not answer.value or not file.is_file():
+        return CompileResult(answer.messages.strip() or "OpenModelica makes no FMU and gives no reason")
+    return CompileResult(fmu=file.read_bytes())
 
 
 def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:

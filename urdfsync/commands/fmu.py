@@ -1,0 +1,133 @@
+"""`urdfsync fmu`: exports a model with a robot's package as FMU, by OpenModelica."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+from pathlib import Path
+
+from urdfsync import config
+from urdfsync.check.compilers.compiler import Export
+from urdfsync.check.tools import chosen_tools
+from urdfsync.commands import arguments
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.engine.result import Exit
+from urdfsync.extras import install_command
+from urdfsync.files import put, shown
+from urdfsync.output.console import Console
+from urdfsync.simulate.export import TOLERANCE, Exported, export
+from urdfsync.simulate.files import Outputs, check_outputs
+from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial, try_out
+from urdfsync.simulate.report import fmu_lines, fmu_to_json
+from urdfsync.simulate.results import STOP, SimulateOptions
+
+_OPTIONS = ("model", "stop", "step", "tolerance", "motion", "timeout", "memory", "wait")
+"""Fields of `SimulateOptions` that are arguments of the same name."""
+_VERSIONS = {"2": "2.0", "3": "3.0"}
+_KINDS = {"me": "me", "cs": "cs", "both": "me_cs"}
+
+
+def add(commands: arguments.Commands) -> None:
+    """Add the command's parser."""
+    parser = arguments.add_command(
+        commands,
+        "fmu",
+        run,
+        "--robot --wait",
+        help="export a robot as FMU, by OpenModelica",
+        description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
+        "It has the inputs and outputs of the model by their names. OpenModelica has to be there. With --check FMPy "
+        "validates the FMU, and its trajectory is compared with that of `urdfsync simulate`.",
+        epilog="examples: urdfsync fmu arm\n"
+        "          urdfsync fmu arm --fmi 3 --kind cs --output arm.fmu --check\n"
+        "          urdfsync fmu arm --input motion.csv --check\n\n"
+        "exit codes: 0 exported, 1 the check found something, 2 error, 130 interrupted",
+    )
+    option, default = parser.add_argument, SimulateOptions()
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
+    option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
+    option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
+    option(
+        "--kind", choices=tuple(_KINDS), default="both", help="model exchange, co-simulation or both (default: both)"
+    )
+    tolerance = f"of the integration inside, for co-simulation (default: {TOLERANCE:g})"
+    option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
+    stop = f"end of the simulation that the FMU proposes (default: as the model says, else {STOP:g})"
+    option("--stop", type=arguments.amount, metavar="S", help=stop)
+    option("--step", type=arguments.amount, metavar="S", help="the step that it proposes (default: likewise)")
+    option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
+    option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
+    option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
+    trust = "start the program that `omc` in the configuration names"
+    option("--trust", action="store_true", help=trust)
+    seconds = f"seconds for each step (default: {default.timeout:g})"
+    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
+    option("--memory", type=arguments.amount, metavar="GB", help="memory for it (default: what is free)")
+
+
+def run(args: argparse.Namespace, console: Console) -> Exit:
+    """Export one model, check it if that is wanted, and write it."""
+    configuration = arguments.configuration(args)
+    robot = arguments.select_robot(args, configuration, console)
+    if args.check and importlib.util.find_spec("fmpy") is None:
+        message = "`--check` needs FMPy, which is not installed"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=install_command("fmu")))
+    if args.motion and not args.check:
+        message = "`--input` is the motion for `--check`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="give both, or none"))
+    if args.output:
+        _check_output(args.output, args, {"the source of the robot": robot.source})
+    (tool,) = chosen_tools(configuration, "omc", trusted=args.trust)
+    chosen = {name: getattr(args, name) for name in _OPTIONS}
+    paths = config.ros_package_path(os.environ)
+    options = SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen)
+    kind = Export(_VERSIONS[args.fmi], _KINDS[args.kind])
+    exported = export(configuration, robot, options, kind, console.progress)
+    file = args.output or Path(f"{exported.model.rpartition('.')[2]}.fmu")
+    trial = None
+    if args.check:
+        kinds = [one for one in KINDS if one in kind.kind]
+        trial = try_out(configuration, robot, options, exported, kinds, console.progress)
+    _write(file, exported)
+    if console.json:
+        console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file))
+    elif not console.quiet:
+        console.print(fmu_lines(robot.name, exported, kind, trial, file))
+    console.findings(exported.diagnostics)
+    console.findings(_findings(trial, file) if trial else ())
+    code = Exit.OUT_OF_STEP if trial and not _is_right(trial) else Exit.IN_STEP
+    console.end("fmu", code)
+    return code
+
+
+def _is_right(trial: Trial) -> bool:
+    return not trial.findings and all(found <= AGREEMENT for found in trial.agreement.values())
+
+
+def _findings(trial: Trial, file: Path) -> list[Diagnostic]:
+    found = [Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {one}", shown(file)) for one in trial.findings]
+    for kind, difference in trial.agreement.items():
+        if not difference <= AGREEMENT:
+            message = f"{KINDS[kind]}: `{trial.worst[kind]}` differs from `simulate` by {difference:.1e} of its size"
+            hint = "try a smaller `--tolerance`"
+            found.append(Diagnostic(Severity.WARNING, "fmu-differs", message, shown(file), hint=hint))
+    return found
+
+
+def _check_output(file: Path, args: argparse.Namespace, inputs: dict[str, Path]) -> None:
+    if file.suffix.lower() != ".fmu":
+        message = "an FMU's name ends with .fmu"
+        raise OutputError(
+            Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint="name such a file")
+        )
+    check_outputs(Outputs(csv=file), inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
+
+
+def _write(file: Path, exported: Exported) -> None:
+    try:
+        put(file.resolve(), exported.content)
+    except OSError as error:
+        message, hint = f"it can't be written: {error.strerror}", "name another file with `--output`"
+        raise OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint)) from None

@@ -1,0 +1,128 @@
+"""Exports a model with the package of a robot as FMU, by OpenModelica."""
+
+from __future__ import annotations
+
+import io
+import re
+import time
+import zipfile
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+import psutil
+
+from urdfsync import __version__
+from urdfsync.check import compilers
+from urdfsync.check.cache import UserCache
+from urdfsync.check.compilation import explain
+from urdfsync.check.compilers.compiler import CompileTask, Export
+from urdfsync.check.jobs import Jobs
+from urdfsync.check.process import Limits
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import Progress
+from urdfsync.simulate.models import Input
+from urdfsync.simulate.package import check_compiler, find_with_libraries, read_package
+from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
+from urdfsync.simulate.values import modifiers, read_values
+
+TOLERANCE = 1e-8
+"""Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
+_DESCRIPTION = "modelDescription.xml"
+_SECOND_DERIVATIVE = re.compile(rb'(?<=name=")der\(der\(([^"()]*)\)\)(?=")')
+
+
+class Exported(msgspec.Struct, frozen=True):
+    """An FMU, and what it was made of."""
+
+    content: bytes
+    model: str
+    """Full name of the model."""
+    name: str
+    """The model's name in the FMU."""
+    inputs: tuple[Input, ...]
+    stop: float
+    step: float
+    tolerance: float
+    tool: str
+    """The compiler with its version."""
+    diagnostics: tuple[Diagnostic, ...]
+    seconds: float
+
+
+class _Experiment(NamedTuple):
+    stop: float
+    step: float
+    tolerance: float
+
+
+def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: Export, progress: Progress) -> Exported:
+    """Export a model as FMU. Writes nothing but the cache.
+
+    Raises UrdfsyncError for whatever is wrong with the model or the compiler, OSError for what can't be read.
+    """
+    begin = time.monotonic()
+    check_compiler(options)
+    compiler = compilers.COMPILERS[options.tool.name]
+    package = read_package(config, robot, options)
+    name = options.model or package.bench.run or package.bench.test
+    if not name:
+        message = f"the package of robot `{robot.name}` has no model that can be exported"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
+    model, needed = find_with_libraries(config, robot, options, name, package)
+    settings, values = model.settings(), read_values(options.values)
+    stop = options.stop or settings.get("StopTime", STOP)
+    step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
+    experiment = _Experiment(stop, step, options.tolerance or TOLERANCE)
+    fmu_name = model.name.replace(".", "_")
+    task = CompileTask(
+        fmu_name, _text(fmu_name, model.name, modifiers(values), experiment), title=model.name, export=kind
+    )
+    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
+    limits = Limits(f"the export of `{model.name}`", options.timeout, memory)
+
+    def tell() -> None:
+        progress(f"{robot.name}: compiling, {time.monotonic() - begin:.0f} s", 0, 1)
+
+    cache = UserCache.default()
+    cache.prepare()
+    texts = [*package.texts.texts.values(), *package.around.values()]
+    with cache.workspace() as folder:
+        jobs = Jobs(robot, package.around, needed, texts, options.tool, limits, folder, tell)
+        (result,) = jobs.run("export", package.texts.texts, [task])
+    if result.problem:
+        file = Path(model.node.file)
+        outside = None if package.texts.folder in file.parents else file
+        raise UrdfsyncError(*explain(result.problem, compiler, package.texts, file=outside))
+    note = compilers.find_untried(options.tool, result.version)
+    return Exported(
+        content=_corrected(result.fmu),
+        model=model.name,
+        name=fmu_name,
+        inputs=tuple(model.inputs()),
+        **experiment._asdict(),
+        tool=f"{compiler.TITLE} {result.version}".rstrip(),
+        diagnostics=robot.without_ignored([*package.warnings, *([note] if note else [])]),
+        seconds=time.monotonic() - begin,
+    )
+
+
+def _text(name: str, model: str, changes: list[str], experiment: _Experiment) -> str:
+    """Return a model of its own, since the tolerance inside of an FMU is that of the annotation."""
+    changed = f"({', '.join(changes)})" if changes else ""
+    times = f"StopTime = {experiment.stop!r}, Interval = {experiment.step!r}, Tolerance = {experiment.tolerance!r}"
+    return (
+        f'model {name} "{model}, exported by urdfsync {__version__}"\n'
+        f"  extends {model}{changed};\n  annotation (experiment({times}));\nend {name};\n"
+    )
+
+
+def _corrected(content: bytes) -> bytes:
+    """Write second derivatives as FMI has them, `der(x,2)`: OpenModelica 1.27 writes `der(der(x))`."""
+    corrected = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as found, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
+        for one in found.infolist():
+            data = found.read(one)
+            fmu.writestr(one, _SECOND_DERIVATIVE.sub(rb"der(\1,2)", data) if one.filename == _DESCRIPTION else data)
+    return corrected.getvalue()

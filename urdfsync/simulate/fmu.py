@@ -1,0 +1,175 @@
+"""Tries an FMU out: FMPy validates and simulates it, and the trajectory is held against that of `simulate`."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import psutil
+
+from urdfsync.check import process
+from urdfsync.check.process import Limits
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import Progress
+from urdfsync.simulate.export import Exported
+from urdfsync.simulate.motion import at_rest, read_motion, sampled
+from urdfsync.simulate.results import Series, SimulateOptions
+from urdfsync.simulate.run import simulate
+
+AGREEMENT = 1e-6
+"""The greatest difference that counts as agreement, of each variable relative to its greatest value or 1."""
+_REFERENCE_TOLERANCE = 1e-10
+_SAMPLE = 5e-4
+"""Seconds between two points of an input, which FMPy joins by straight lines: half a millionth at 10 rad/s²."""
+_LONGEST_MESSAGE = 300
+KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
+"""FMPy's words for kinds of FMUs."""
+
+
+class Trial(msgspec.Struct, frozen=True):
+    """What FMPy says of an FMU."""
+
+    findings: tuple[str, ...]
+    """Of its validation."""
+    agreement: Mapping[str, float]
+    """For each kind that was simulated, the greatest relative difference of a variable from `simulate`."""
+    worst: Mapping[str, str]
+    """The variable that has it."""
+    compared: int
+    """Number of variables."""
+
+
+class _Request(msgspec.Struct, frozen=True):
+    """What FMPy is to do."""
+
+    file: str
+    kinds: tuple[str, ...]
+    stop: float
+    step: float
+    tolerance: float
+    names: tuple[str, ...]
+    times: tuple[float, ...]
+    inputs: Mapping[str, list[float]]
+
+
+class _Answer(msgspec.Struct):
+    findings: list[str]
+    series: dict[str, dict[str, list[float]]]
+    """By kind."""
+
+
+def try_out(
+    config: Config,
+    robot: RobotConfig,
+    options: SimulateOptions,
+    exported: Exported,
+    kinds: Sequence[str],
+    progress: Progress,
+) -> Trial:
+    """Validate and simulate an FMU, with the motion of the options or with inputs that stay at 0.
+
+    An FMU for co-simulation holds its inputs for a step, so it is simulated only without a motion. Raises UrdfsyncError.
+    """
+    stop = read_motion(options.motion, exported.inputs).times[-1] if options.motion else exported.stop
+    motion = read_motion(options.motion, exported.inputs) if options.motion else at_rest(exported.inputs, stop)
+    wanted = msgspec.structs.replace(
+        options, model=exported.model, stop=stop, step=exported.step, tolerance=_REFERENCE_TOLERANCE, as_exported=True
+    )
+    reference = simulate(config, robot, wanted, progress)
+    if any(one.severity is Severity.ERROR for one in reference.diagnostics):
+        raise UrdfsyncError(*reference.diagnostics)
+    simulated = [kind for kind in kinds if kind == "me" or not options.motion]
+    times = tuple(index * _SAMPLE for index in range(round(stop / _SAMPLE) + 2)) if options.motion else (0.0, stop)
+    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
+    limits = Limits(f"the trial of `{exported.model}`", options.timeout, memory)
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        file = Path(folder) / f"{exported.name}.fmu"
+        file.write_bytes(exported.content)
+        request = _Request(
+            file=str(file),
+            kinds=tuple(simulated),
+            stop=stop,
+            step=exported.step,
+            tolerance=exported.tolerance,
+            names=tuple(reference.series),
+            times=times,
+            inputs=sampled(motion, times),
+        )
+        answer = _asked(request, limits, folder, lambda: progress(f"{robot.name}: FMPy is at work", 0, 1))
+    differences = {kind: _differences(series, reference.series) for kind, series in answer.series.items()}
+    worst = {kind: max(found, key=lambda name: found[name]) for kind, found in differences.items() if found}
+    return Trial(
+        findings=tuple(answer.findings),
+        agreement={kind: differences[kind][name] for kind, name in worst.items()},
+        worst=worst,
+        compared=max((len(found) for found in differences.values()), default=0),
+    )
+
+
+def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[], None]) -> _Answer:
+    environment = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+    try:
+        (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
+    except process.BrokenProcessError as error:
+        message = f"FMPy crashed with the FMU: {error}"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
+    if isinstance(answer, str):
+        message = f"the FMU can't be simulated: {answer}"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message))
+    return answer
+
+
+def _examine(request: _Request) -> Iterator[_Answer | str]:
+    """Yield what FMPy says, in a process of its own: an FMU is native code."""
+    import numpy as np
+    from fmpy import read_model_description, simulate_fmu
+    from fmpy.validation import validate_fmu
+
+    findings = [" ".join(str(one).split())[:_LONGEST_MESSAGE] for one in validate_fmu(request.file)]
+    description: Any = read_model_description(request.file, validate=False)
+    known = {one.name for one in description.modelVariables}
+    names = [name for name in request.names if name in known]
+    signals: Any = None
+    if request.inputs:
+        columns = [("time", float), *((name, float) for name in request.inputs)]
+        signals = np.array(list(zip(request.times, *request.inputs.values(), strict=True)), dtype=columns)
+    series = {}
+    try:
+        for kind in request.kinds:
+            result: Any = simulate_fmu(
+                request.file,
+                validate=False,
+                stop_time=request.stop,
+                output_interval=request.step,
+                relative_tolerance=request.tolerance,
+                record_events=False,
+                input=signals,
+                output=names,
+                fmi_type=KINDS[kind],
+            )
+            series[kind] = {name: result[name].tolist() for name in ("time", *names)}
+    except Exception as error:  # noqa: BLE001 - FMPy raises Exception itself
+        yield " ".join(str(error).split())[:_LONGEST_MESSAGE]
+        return
+    yield _Answer(findings, series)
+
+
+def _differences(found: Series, reference: Series) -> dict[str, float]:
+    """The greatest difference of each variable that both have, relative to its greatest value or 1."""
+    import numpy as np
+
+    times = np.array(reference["time"])
+    places = np.searchsorted(times, np.array(found["time"]) + 1e-9, side="right") - 1  # the last of several at one time
+    is_shared = np.abs(times[places] - found["time"]) < 1e-9
+    differences = {}
+    for name, values in found.items():
+        if name != "time":
+            expected = np.array(reference[name])
+            difference = np.abs(np.array(values) - expected[places])[is_shared]
+            greatest = float(difference.max()) if is_shared.any() else float("nan")
+            differences[name] = greatest / max(1.0, float(np.abs(expected).max()))
+    return differences
