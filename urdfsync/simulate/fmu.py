@@ -72,7 +72,8 @@ def try_out(
 ) -> Trial:
     """Validate and simulate an FMU, with the motion of the options or with inputs that stay at 0.
 
-    An FMU for co-simulation holds its inputs for a step, so it is simulated only without a motion. Raises UrdfsyncError.
+    An FMU for co-simulation holds its inputs for a step, so it is simulated only without a motion.
+    Raises UrdfsyncError.
     """
     stop = read_motion(options.motion, exported.inputs).times[-1] if options.motion else exported.stop
     motion = read_motion(options.motion, exported.inputs) if options.motion else at_rest(exported.inputs, stop)
