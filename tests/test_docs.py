@@ -55,7 +55,9 @@ def test_commands_install_what_there_is() -> None:
             assert wanted or file.name in ("speed.md", "extras.py"), f"{file}: pip install {command}"
 
 
-@pytest.mark.parametrize(("command", "page"), [("watch", "watch"), ("check", "checking"), ("simulate", "simulate")])
+@pytest.mark.parametrize(
+    ("command", "page"), [("watch", "watch"), ("check", "checking"), ("simulate", "simulate"), ("fmu", "fmu")]
+)
 def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}

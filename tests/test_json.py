@@ -25,13 +25,16 @@ from urdfsync.engine.actions import Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.simulate import results as simulation
+from urdfsync.simulate.export import Exported
+from urdfsync.simulate.fmu import Trial
+from urdfsync.simulate.models import Input
 from urdfsync.simulate.results import SimulateResult
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
 ONE = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
-BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, SIMULATE, RESOLVE, ADOPT, INIT, RECORD, LIBRARY = ONE
+BUILD, CHANGED, MISTAKE, DIFF, EDITS, STATUS, BUILT, CHECK, SIMULATE, FMU, RESOLVE, ADOPT, INIT, RECORD, LIBRARY = ONE
 SESSION, OTHERS = (
     [json.loads(line) for line in text.splitlines()] for text in re.findall(r"```jsonl\n(.*?)```", PAGE, re.DOTALL)
 )
@@ -289,6 +292,17 @@ def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     files = ("--csv", "arm.csv", "--parquet", "arm.parquet", "--plot", "arm.png")
     assert printed(execute, folder, "simulate", *files) == SIMULATE
+
+
+def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    cli.main(["init", "arm.urdf"])
+    inputs, tool = (Input("hold_phi", "rad"),), "OpenModelica 1.27.0"
+    exported = Exported(b"1234", "Arm.ArmRun", "Arm_ArmRun", inputs, 1.0, 0.002, 1e-8, tool, (), 12.5)
+    trial = Trial((), {"me": 2.5e-9, "cs": 4e-8}, {"me": "hold_tau", "cs": "hold_tau"}, 3)
+    monkeypatch.setattr("urdfsync.commands.fmu.export", lambda *_: exported)
+    monkeypatch.setattr("urdfsync.commands.fmu.try_out", lambda *_: trial)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    assert printed(execute, folder, "fmu", "--check") == FMU
 
 
 def test_library(folder: Path, execute: Execute) -> None:

@@ -74,6 +74,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if args.check and importlib.util.find_spec("fmpy") is None:
         message = "`--check` needs FMPy, which is not installed"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=install_command("fmu")))
+    if args.motion and args.kind == "me":
+        message = "a motion is for the check of co-simulation"
+        raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="take `--kind cs` or `both`"))
     if args.motion and not args.check:
         message = "`--input` is the motion for `--check`"
         raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="give both, or none"))

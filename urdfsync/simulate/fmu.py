@@ -23,8 +23,8 @@ from urdfsync.simulate.run import simulate
 AGREEMENT = 1e-6
 """The greatest difference that counts as agreement, of each variable relative to its greatest value or 1."""
 _REFERENCE_TOLERANCE = 1e-10
-_SAMPLE = 5e-4
-"""Seconds between two points of an input, which FMPy joins by straight lines: half a millionth at 10 rad/s²."""
+"""Of what the FMU is compared with, and of FMPy's own integration of model exchange."""
+_SAME_TIME = 1e-9
 _LONGEST_MESSAGE = 300
 KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
 """FMPy's words for kinds of FMUs."""
@@ -72,19 +72,19 @@ def try_out(
 ) -> Trial:
     """Validate and simulate an FMU, with the motion of the options or with inputs that stay at 0.
 
-    An FMU for co-simulation holds its inputs for a step, so it is simulated only without a motion.
-    Raises UrdfsyncError.
+    A motion is for co-simulation alone, where inputs change at each step: FMPy's integration of model exchange does
+    not see that they change within its own steps. Raises UrdfsyncError.
     """
-    stop = read_motion(options.motion, exported.inputs).times[-1] if options.motion else exported.stop
-    motion = read_motion(options.motion, exported.inputs) if options.motion else at_rest(exported.inputs, stop)
+    motion = read_motion(options.motion, exported.inputs) if options.motion else at_rest(exported.inputs, exported.stop)
+    stop = motion.times[-1]
     wanted = msgspec.structs.replace(
         options, model=exported.model, stop=stop, step=exported.step, tolerance=_REFERENCE_TOLERANCE, as_exported=True
     )
     reference = simulate(config, robot, wanted, progress)
     if any(one.severity is Severity.ERROR for one in reference.diagnostics):
         raise UrdfsyncError(*reference.diagnostics)
-    simulated = [kind for kind in kinds if kind == "me" or not options.motion]
-    times = tuple(index * _SAMPLE for index in range(round(stop / _SAMPLE) + 2)) if options.motion else (0.0, stop)
+    simulated = [kind for kind in kinds if kind == "cs" or not options.motion]
+    times = tuple(index * exported.step for index in range(round(stop / exported.step) + 2))
     memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
     limits = Limits(f"the trial of `{exported.model}`", options.timeout, memory)
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
@@ -146,7 +146,7 @@ def _examine(request: _Request) -> Iterator[_Answer | str]:
                 validate=False,
                 stop_time=request.stop,
                 output_interval=request.step,
-                relative_tolerance=request.tolerance,
+                relative_tolerance=_REFERENCE_TOLERANCE if kind == "me" else request.tolerance,
                 record_events=False,
                 input=signals,
                 output=names,
@@ -160,17 +160,21 @@ def _examine(request: _Request) -> Iterator[_Answer | str]:
 
 
 def _differences(found: Series, reference: Series) -> dict[str, float]:
-    """The greatest difference of each variable that both have, relative to its greatest value or 1."""
+    """The greatest difference of each variable that both have, relative to its greatest value or 1.
+
+    Where the reference has several results at one time, at an event, the nearest counts.
+    """
     import numpy as np
 
-    times = np.array(reference["time"])
-    places = np.searchsorted(times, np.array(found["time"]) + 1e-9, side="right") - 1  # the last of several at one time
-    is_shared = np.abs(times[places] - found["time"]) < 1e-9
+    times, expected_times = np.array(found["time"]), np.array(reference["time"])
+    first = np.searchsorted(expected_times, times - _SAME_TIME)
+    last = np.searchsorted(expected_times, times + _SAME_TIME, side="right")
     differences = {}
     for name, values in found.items():
         if name != "time":
             expected = np.array(reference[name])
-            difference = np.abs(np.array(values) - expected[places])[is_shared]
-            greatest = float(difference.max()) if is_shared.any() else float("nan")
+            pairs = zip(values, first, last, strict=True)
+            nearest = [np.abs(expected[begin:end] - value).min() for value, begin, end in pairs if begin < end]
+            greatest = float(max(nearest, default=float("nan")))
             differences[name] = greatest / max(1.0, float(np.abs(expected).max()))
     return differences

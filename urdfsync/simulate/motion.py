@@ -89,7 +89,7 @@ def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
-    """Return the value of each input at other times, as the functions of `course_functions` have it."""
+    """Return the value of each input at other times, as the functions of `course` have it."""
     import numpy as np
 
     places = np.clip(np.searchsorted(motion.times, times, side="right") - 1, 0, len(motion.times) - 2)
@@ -198,7 +198,27 @@ _KINDS = (
 """Value, first and second derivative of a spline through the points `times`, `q`, with second derivatives `m`."""
 
 
-def course_functions(motion: Motion) -> tuple[str, list[str]]:
+class Course(msgspec.Struct, frozen=True):
+    """A motion in Modelica."""
+
+    functions: str = ""
+    """Of a package."""
+    declarations: tuple[str, ...] = ()
+    equations: tuple[str, ...] = ()
+    """Of a model whose inputs follow the motion."""
+
+    def held(self, motion: Motion, step: float) -> Course:
+        """Return the motion as an FMU for co-simulation gets it, whose inputs change at each step alone."""
+        declarations, whens, equations = [], [], []
+        for number, (one, values) in enumerate(motion.values, 1):
+            declarations.append(f"discrete Real held{number}(start = {values[0]!r}, fixed = true);")
+            whens.append(f"held{number} = course{number}(time);")
+            equations.append(f"{one.name} = held{number};")
+        when = [f"when sample(0, {step!r}) then", *whens, "end when;"]
+        return Course(self.functions, tuple(declarations), (*when, *equations))
+
+
+def course(motion: Motion) -> Course:
     """Return functions of a package, and an equation for each input that calls them."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))
@@ -211,7 +231,7 @@ def course_functions(motion: Motion) -> tuple[str, list[str]]:
             text = _FUNCTION.format(name=name, number=number, count=count, halvings=halvings, **words)
             lines.append(text)
         equations.append(f"{one.name} = course{number}(time);")
-    return "".join(lines), equations
+    return Course("".join(lines), (), tuple(equations))
 
 
 def _constant(name: str, values: Sequence[float]) -> str:

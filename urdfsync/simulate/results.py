@@ -47,7 +47,7 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = ()
     as_exported: bool = False
-    """Whether filters of drives stay, and inputs without a motion stay at 0: as an FMU of the model is simulated."""
+    """Whether it is simulated as its FMU would be: filters of drives stay, inputs change at each step, or stay at 0."""
 
 
 class Range(msgspec.Struct, frozen=True):

@@ -26,7 +26,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncErro
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.simulate import joints
-from urdfsync.simulate.motion import at_rest, course_functions, read_motion
+from urdfsync.simulate.motion import Course, at_rest, course, read_motion
 from urdfsync.simulate.package import SimulatedPackage, check_compiler, find_with_libraries, read_package
 from urdfsync.simulate.results import (
     STEPS,
@@ -109,7 +109,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
         raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
     model, needed = find_with_libraries(config, robot, options, name, package)
     settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
-    stop, changed, functions, equations = settings.get("StopTime", STOP), dict[Path, bytes](), "", list[str]()
+    stop, changed, motion = settings.get("StopTime", STOP), dict[Path, bytes](), None
     changes = modifiers(values)
     if options.motion and not inputs:
         message = f"`{model.name}` has no inputs that a motion could drive"
@@ -118,7 +118,6 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
         motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, options.stop or stop)
         stop, driven = motion.times[-1], model.driven(robot.target.package)
         changed = {Path(file): text.encode() for file, text in driven.changed.items()}
-        functions, equations = course_functions(motion)
         if not options.as_exported:
             changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
         if options.motion and options.stop and options.stop > stop:
@@ -131,29 +130,33 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     stop = options.stop or stop
     step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
     tolerance = options.tolerance or settings.get("Tolerance", TOLERANCE)
+    followed = course(motion) if motion else Course()
+    if motion and options.motion and options.as_exported:
+        followed = followed.held(motion, step)
     wanted = [_OWN, joints.pattern(bench.layouts), *(_glob(one) for one in options.variables)]
     plain = CompileTask(
         "Probe_.Probe",
-        _probe(robot, model.name, functions, [], equations),
+        _probe(robot, model.name, followed, []),
         (Simulation(stop, step, tolerance=tolerance, method=options.method),),
         pattern="|".join(f"(?:{one})" for one in wanted if one),
         title=model.name,
     )
-    source = _probe(robot, model.name, functions, changes, equations)
+    source = _probe(robot, model.name, followed, changes)
     task = msgspec.structs.replace(plain, source=source, parameters=tuple(values))
     own = {path: changed.pop(robot.folder / path, content) for path, content in texts.items()}
     outside = {path: changed.pop(robot.output / path, content) for path, content in around.items()}
     return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
 
 
-def _probe(robot: RobotConfig, model: str, functions: str, changes: list[str], equations: list[str]) -> str:
+def _probe(robot: RobotConfig, model: str, course: Course, changes: list[str]) -> str:
     """Return a package with a model that extends another one; it names the libraries, or rumoca loads none."""
     names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
     changed = f"({', '.join(changes)})" if changes else ""
-    lines = ["  equation", *(f"    {equation}" for equation in equations)] if equations else []
+    lines = ["  equation", *(f"    {equation}" for equation in course.equations)] if course.equations else []
+    lines = [*(f"    {one}" for one in course.declarations), *lines]
     body = "\n".join(["  model Probe", f"    extends {model}{changed};", *lines, "  end Probe;"])
-    return f"package Probe_\n{imports}{functions}{body}\nend Probe_;\n"
+    return f"package Probe_\n{imports}{course.functions}{body}\nend Probe_;\n"
 
 
 def _glob(text: str) -> str:

@@ -1,0 +1,200 @@
+"""FMUs: what is exported, that FMPy's words and differences are told, and what is refused before anything is compiled.
+
+With a real OpenModelica only where there is one.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from support.simulation import Compiler
+
+from urdfsync import cli, config
+from urdfsync.check.compilers import omc
+from urdfsync.check.compilers.compiler import CompileResult, Export, Tool
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.simulate import fmu
+from urdfsync.simulate.export import Exported, export
+from urdfsync.simulate.fmu import Trial, try_out
+from urdfsync.simulate.results import SimulateOptions, SimulateResult
+
+DESCRIPTION = b'<ScalarVariable name="der(der(robot.elbow.phi))"/><ScalarVariable name="der(robot.elbow.phi)"/>'
+BOTH = Export("2.0", "me_cs")
+OPTIONS = SimulateOptions(tool=Tool("omc"))
+
+
+def archive() -> bytes:
+    """An FMU as OpenModelica writes it, but for its code."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as file:
+        file.writestr("modelDescription.xml", DESCRIPTION)
+        file.writestr("binaries/linux64/Arm_ArmRun.so", b"code")
+    return content.getvalue()
+
+
+@pytest.fixture
+def openmodelica(compiler: Compiler, monkeypatch: pytest.MonkeyPatch) -> Compiler:
+    """A stand-in for OpenModelica that makes an FMU of anything."""
+    monkeypatch.setattr("urdfsync.check.compilers.find_missing", lambda _: None)
+    compiler.results = [CompileResult(fmu=archive(), version="1.27.0")]
+    return compiler
+
+
+def exported(options: SimulateOptions = OPTIONS) -> Exported:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    return export(loaded, loaded.robots[0], options, BOTH, lambda *_: None)
+
+
+def test_run_is_exported_as_a_model_of_its_own_with_the_tolerance_inside(openmodelica: Compiler) -> None:
+    values = ("robot.elbow.parameters.dynamics.damping=4",)
+    found = exported(msgspec.structs.replace(OPTIONS, values=values, tolerance=1e-9))
+    assert (found.model, found.name, found.tolerance) == ("Arm.ArmRun", "Arm_ArmRun", 1e-9)
+    assert [one.name for one in found.inputs] == ["shoulder_phi", "elbow_phi"]
+    (task,) = openmodelica.jobs[0].tasks
+    assert task.export == BOTH
+    assert "extends Arm.ArmRun(robot(elbow(parameters(dynamics(damping = 4)))));" in task.source
+    assert "Tolerance = 1e-09" in task.source
+    assert found.tool == "OpenModelica 1.27.0"
+
+
+def test_second_derivatives_get_the_names_that_fmi_has_for_them(openmodelica: Compiler) -> None:
+    with zipfile.ZipFile(io.BytesIO(exported().content)) as file:
+        text = file.read("modelDescription.xml").decode()
+        assert file.read("binaries/linux64/Arm_ArmRun.so") == b"code"
+    assert 'name="der(robot.elbow.phi,2)"' in text
+    assert 'name="der(robot.elbow.phi)"' in text
+
+
+def test_a_model_that_can_not_be_exported_is_told_with_what_the_compiler_says(openmodelica: Compiler) -> None:
+    openmodelica.results = [CompileResult("Error: no C compiler was found: install clang.")]
+    with pytest.raises(UrdfsyncError, match="no C compiler was found: install clang"):
+        exported()
+
+
+def test_without_openmodelica_it_is_one_line(
+    arm: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(omc, "program", lambda _: None)
+    assert cli.main(["fmu"]) == 2
+    assert "error: there is no compiler: `omc` is not on the PATH; install OpenModelica" in capsys.readouterr().err
+    assert not Path("ArmRun.fmu").exists()
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (["--output", "arm.zip"], "an FMU's name ends with .fmu"),
+    (["--output", "none/arm.fmu"], "there is no such folder"),
+    (["--input", "motion.csv"], "`--input` is the motion for `--check`"),
+    (["--input", "motion.csv", "--check", "--kind", "me"], "a motion is for the check of co-simulation"),
+])  # fmt: skip
+def test_bad_arguments_are_refused_before_anything_is_compiled(
+    openmodelica: Compiler, arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["fmu", *arguments]) == 2
+    assert words in capsys.readouterr().err
+    assert openmodelica.jobs == []
+
+
+def test_the_file_is_written_where_the_user_says(openmodelica: Compiler, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["fmu", "--output", "robot.fmu"]) == 0
+    assert zipfile.is_zipfile("robot.fmu")
+    first, last = capsys.readouterr().out.splitlines()
+    assert first.startswith("arm: Arm.ArmRun by OpenModelica 1.27.0, FMI 2.0, model exchange and co-simulation; ")
+    assert last == "  fmu: robot.fmu"
+
+
+class Fmpy:
+    """In the place of `process.run`: FMPy says this, and the FMU moves like this."""
+
+    def __init__(self, findings: list[str], **series: dict[str, list[float]]) -> None:
+        self.answer: Any = fmu._Answer(findings, series)
+        self.request: Any = None
+
+    def __call__(self, function: object, request: Any, **_: object) -> list[Any]:
+        """Answer."""
+        self.request = request
+        return [self.answer]
+
+
+REFERENCE = {"time": (0.0, 0.5, 0.5, 1.0), "elbow_phi": (0.0, 0.25, 0.5, 1.0), "elbow_tau": (0.0, 1.0, 2.0, 4.0)}
+
+
+@pytest.fixture
+def reference(monkeypatch: pytest.MonkeyPatch) -> list[SimulateOptions]:
+    """The options with which `simulate` is asked for the trajectory; at 0.5 s there is an event."""
+    asked: list[SimulateOptions] = []
+
+    def simulate(_config: object, _robot: object, options: SimulateOptions, _progress: object) -> SimulateResult:
+        asked.append(options)
+        return SimulateResult("arm", "Arm.ArmRun", 1.0, 0.5, 1e-10, (), REFERENCE, (), 1.0, is_known=False)
+
+    monkeypatch.setattr(fmu, "simulate", simulate)
+    return asked
+
+
+def tried(options: SimulateOptions = OPTIONS) -> Trial:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    return try_out(loaded, loaded.robots[0], options, exported(), ("me", "cs"), lambda *_: None)
+
+
+def test_a_trajectory_is_compared_at_all_results_with_the_nearest_at_an_event(
+    openmodelica: Compiler, reference: list[SimulateOptions], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    same = {"time": [0.0, 0.5, 1.0], "elbow_phi": [0.0, 0.5, 1.0], "elbow_tau": [0.0, 2.0, 4.0]}
+    monkeypatch.setattr("urdfsync.check.process.run", Fmpy([], me=same, cs={**same, "elbow_tau": [0.0, 2.0, 4.4]}))
+    found = tried()
+    assert found.agreement == {"me": 0.0, "cs": pytest.approx(0.1)}
+    assert (found.worst["cs"], found.compared) == ("elbow_tau", 2)
+    assert reference[0].as_exported
+    assert reference[0].tolerance == 1e-10
+
+
+def test_a_motion_goes_step_by_step_and_only_to_co_simulation(
+    openmodelica: Compiler, reference: list[SimulateOptions], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("motion.csv").write_text("time,shoulder_phi,elbow_phi\n0,0,0\n1,1,1\n2,4,8\n3,9,27\n")
+    fmpy = Fmpy([])
+    monkeypatch.setattr("urdfsync.check.process.run", fmpy)
+    tried(msgspec.structs.replace(OPTIONS, motion=Path("motion.csv")))
+    assert fmpy.request.kinds == ("cs",)
+    place = fmpy.request.times.index(pytest.approx(1.5))
+    assert fmpy.request.inputs["shoulder_phi"][place] == pytest.approx(1.5**2)
+    assert fmpy.request.inputs["elbow_phi"][place] == pytest.approx(1.5**3)
+
+
+def test_findings_and_differences_are_warnings_and_the_file_is_there(
+    openmodelica: Compiler,
+    reference: list[SimulateOptions],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    far = {"time": [0.0, 0.5, 1.0], "elbow_tau": [0.0, 2.0, 5.0]}
+    monkeypatch.setattr("urdfsync.check.process.run", Fmpy(["`x` is no name"], me=far))
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    assert cli.main(["fmu", "--check", "--kind", "me"]) == 1
+    assert Path("ArmRun.fmu").is_file()
+    assert capsys.readouterr().err.splitlines() == [
+        "ArmRun.fmu: warning: FMPy: `x` is no name [fmu-not-valid]",
+        "ArmRun.fmu: warning: ModelExchange: `elbow_tau` differs from `simulate` by 2.5e-01 of its size; "
+        "try a smaller `--tolerance` [fmu-differs]",
+    ]
+
+
+@pytest.fixture
+def real(arm: Path, modelica_library: Path) -> None:
+    """OpenModelica and FMPy as they are."""
+    if omc.program("") is None:
+        pytest.skip("no OpenModelica")
+    pytest.importorskip("fmpy")
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("real")
+@pytest.mark.parametrize("version", ["2", "3"])
+def test_a_real_fmu_is_valid_and_moves_like_the_model(version: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["fmu", "--check", "--fmi", version, "--model", "ArmTest", "--stop", "0.5"]) == 0
+    assert "FMPy finds nothing wrong" in capsys.readouterr().out
