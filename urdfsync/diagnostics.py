@@ -9,7 +9,8 @@ from collections.abc import Collection
 import msgspec
 
 IGNORABLE = frozenset(
-    "byte-order-mark compiler-warning connector-changed does-not-compile does-not-fit dotted-modifier kept-save "
+    "byte-order-mark compiler-warning connector-changed does-not-compile does-not-fit dotted-modifier "
+    "fmu-differs fmu-not-simulated fmu-not-valid kept-save "
     "left-behind limit-passed names-unread nested-redeclare no-joints no-package-path no-users-path no-uses "
     "not-checked order-lacks order-twice out-of-step outdated-file outdated-package recovered rename-done rename-uses "
     "renamed-robot repeated same-but-for-case stray-state stray-template taken-back terminated units unknown-build "

@@ -98,19 +98,18 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file))
     elif not console.quiet:
         console.print(fmu_lines(robot.name, exported, kind, trial, file))
-    console.findings(exported.diagnostics)
-    console.findings(_findings(trial, file) if trial else ())
-    code = Exit.OUT_OF_STEP if trial and not _is_right(trial) else Exit.IN_STEP
+    found = robot.without_ignored(_findings(trial, file)) if trial else ()
+    console.findings((*exported.diagnostics, *found))
+    code = Exit.OUT_OF_STEP if found else Exit.IN_STEP
     console.end("fmu", code)
     return code
 
 
-def _is_right(trial: Trial) -> bool:
-    return not trial.findings and all(found <= AGREEMENT for found in trial.agreement.values())
-
-
 def _findings(trial: Trial, file: Path) -> list[Diagnostic]:
     found = [Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {one}", shown(file)) for one in trial.findings]
+    for kind, problem in trial.problems.items():
+        message = f"{KINDS[kind]}: FMPy can't simulate it: {problem}"
+        found.append(Diagnostic(Severity.WARNING, "fmu-not-simulated", message, shown(file)))
     for kind, difference in trial.agreement.items():
         if not difference <= AGREEMENT:
             message = f"{KINDS[kind]}: `{trial.worst[kind]}` differs from `simulate` by {difference:.1e} of its size"

@@ -23,7 +23,8 @@ from urdfsync.simulate.run import simulate
 AGREEMENT = 1e-6
 """The greatest difference that counts as agreement, of each variable relative to its greatest value or 1."""
 _REFERENCE_TOLERANCE = 1e-10
-"""Of what the FMU is compared with, and of FMPy's own integration of model exchange."""
+_TOLERANCES = (1e-10, 1e-8, 1e-6)
+"""Of FMPy's own integration of model exchange, the first with which it comes to the end."""
 _SAME_TIME = 1e-9
 _LONGEST_MESSAGE = 300
 KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
@@ -41,6 +42,8 @@ class Trial(msgspec.Struct, frozen=True):
     """The variable that has it."""
     compared: int
     """Number of variables."""
+    problems: Mapping[str, str] = {}
+    """For each kind that FMPy can't simulate, why."""
 
 
 class _Request(msgspec.Struct, frozen=True):
@@ -60,6 +63,7 @@ class _Answer(msgspec.Struct):
     findings: list[str]
     series: dict[str, dict[str, list[float]]]
     """By kind."""
+    problems: dict[str, str]
 
 
 def try_out(
@@ -108,6 +112,7 @@ def try_out(
         agreement={kind: differences[kind][name] for kind, name in worst.items()},
         worst=worst,
         compared=max((len(found) for found in differences.values()), default=0),
+        problems=answer.problems,
     )
 
 
@@ -118,13 +123,10 @@ def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[]
     except process.BrokenProcessError as error:
         message = f"FMPy crashed with the FMU: {error}"
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
-    if isinstance(answer, str):
-        message = f"the FMU can't be simulated: {answer}"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message))
     return answer
 
 
-def _examine(request: _Request) -> Iterator[_Answer | str]:
+def _examine(request: _Request) -> Iterator[_Answer]:
     """Yield what FMPy says, in a process of its own: an FMU is native code."""
     import numpy as np
     from fmpy import read_model_description, simulate_fmu
@@ -138,25 +140,29 @@ def _examine(request: _Request) -> Iterator[_Answer | str]:
     if request.inputs:
         columns = [("time", float), *((name, float) for name in request.inputs)]
         signals = np.array(list(zip(request.times, *request.inputs.values(), strict=True)), dtype=columns)
-    series = {}
-    try:
-        for kind in request.kinds:
-            result: Any = simulate_fmu(
-                request.file,
-                validate=False,
-                stop_time=request.stop,
-                output_interval=request.step,
-                relative_tolerance=_REFERENCE_TOLERANCE if kind == "me" else request.tolerance,
-                record_events=False,
-                input=signals,
-                output=names,
-                fmi_type=KINDS[kind],
-            )
-            series[kind] = {name: result[name].tolist() for name in ("time", *names)}
-    except Exception as error:  # noqa: BLE001 - FMPy raises Exception itself
-        yield " ".join(str(error).split())[:_LONGEST_MESSAGE]
-        return
-    yield _Answer(findings, series)
+    series, problems = {}, {}
+    for kind in request.kinds:
+        # of model exchange FMPy gives up where contacts are stiff for its solver: with a greater tolerance it goes on
+        for tolerance in _TOLERANCES if kind == "me" else (request.tolerance,):
+            try:
+                result: Any = simulate_fmu(
+                    request.file,
+                    validate=False,
+                    stop_time=request.stop,
+                    output_interval=request.step,
+                    relative_tolerance=tolerance,
+                    record_events=False,
+                    input=signals,
+                    output=names,
+                    fmi_type=KINDS[kind],
+                )
+            except Exception as error:  # noqa: BLE001 - FMPy raises Exception itself
+                problems[kind] = " ".join(str(error).split())[:_LONGEST_MESSAGE]
+            else:
+                series[kind] = {name: result[name].tolist() for name in ("time", *names)}
+                problems.pop(kind, None)
+                break
+    yield _Answer(findings, series, problems)
 
 
 def _differences(found: Series, reference: Series) -> dict[str, float]:
