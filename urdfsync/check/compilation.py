@@ -165,7 +165,10 @@ class Compilation:
                     self._result.add(said)
                     self._result.failing += (task.title,) if label == _USERS else ()
                     continue
-                self._result.add(explain_warnings(one.warnings, self._compiler, self._package.files))
+                told = {(known.file, known.line, known.code) for known in self._result.diagnostics}
+                said = explain_warnings(one.warnings, self._compiler, self._package.files)
+                # another model with the same part has it under another name
+                self._result.add(each for each in said if (each.file, each.line, each.code) not in told)
                 if label == _USERS or task.title not in self._users_models:
                     self._result.compiled += (CompiledModel(task.title, one.unknowns, label == _USERS),)
 
