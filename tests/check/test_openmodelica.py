@@ -1,4 +1,4 @@
-"""What only a real OpenModelica shows. With none on the PATH these tests are skipped; `test_omc` replays its answers."""
+"""What only a real OpenModelica shows; with none these tests are skipped, and `test_omc` replays its answers."""
 
 from __future__ import annotations
 

@@ -30,7 +30,8 @@ from urdfsync.simulate.values import modifiers, read_values
 TOLERANCE = 1e-8
 """Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
 _DESCRIPTION = "modelDescription.xml"
-_SECOND_DERIVATIVE = re.compile(rb'(?<=name=")der\(der\(([^"()]*)\)\)(?=")')
+_HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
+_MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
 
 class Exported(msgspec.Struct, frozen=True):
@@ -77,7 +78,11 @@ def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: E
     experiment = _Experiment(stop, step, options.tolerance or TOLERANCE)
     fmu_name = model.name.replace(".", "_")
     task = CompileTask(
-        fmu_name, _text(fmu_name, model.name, modifiers(values), experiment), title=model.name, export=kind
+        fmu_name,
+        _text(fmu_name, model.name, modifiers(values), experiment),
+        title=model.name,
+        # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
+        export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
     )
     memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
     limits = Limits(f"the export of `{model.name}`", options.timeout, memory)
@@ -97,7 +102,7 @@ def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: E
         raise UrdfsyncError(*explain(result.problem, compiler, package.texts, file=outside))
     note = compilers.find_untried(options.tool, result.version)
     return Exported(
-        content=_corrected(result.fmu),
+        content=_corrected(result.fmu, with_model_exchange=kind.kind != "cs"),
         model=model.name,
         name=fmu_name,
         inputs=tuple(model.inputs()),
@@ -118,11 +123,14 @@ def _text(name: str, model: str, changes: list[str], experiment: _Experiment) ->
     )
 
 
-def _corrected(content: bytes) -> bytes:
-    """Write second derivatives as FMI has them, `der(x,2)`: OpenModelica 1.27 writes `der(der(x))`."""
+def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
+    """Write higher derivatives as FMI has them, `der(x,2)`, where OpenModelica 1.27 has `der(der(x))`."""
     corrected = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as found, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
         for one in found.infolist():
             data = found.read(one)
-            fmu.writestr(one, _SECOND_DERIVATIVE.sub(rb"der(\1,2)", data) if one.filename == _DESCRIPTION else data)
+            if one.filename == _DESCRIPTION:
+                data = _HIGHER_DERIVATIVE.sub(lambda name: b"der(%b,%d)" % (name[2], name[1].count(b"(")), data)
+                data = data if with_model_exchange else _MODEL_EXCHANGE.sub(b"", data, count=1)
+            fmu.writestr(one, data)
     return corrected.getvalue()
