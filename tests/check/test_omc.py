@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.io import savemat
 from support import corpus, fake_omc
 
 from urdfsync.check.cache import UserCache
@@ -134,22 +136,47 @@ def simulated(ask: Ask, tmp_path: Path, file: str, messages: str = "", said: str
     return result
 
 
+def write_trajectory(file: Path, constants: Mapping[str, float], series: Mapping[str, Sequence[float]]) -> None:
+    """Write a result as OpenModelica does; a name that begins with - is stored negated, as an alias is."""
+    names = [*series, *constants]
+    letters = zip(*(name.removeprefix("-").ljust(20) for name in names), strict=True)  # a column for each name
+    rows = {name: (2, number) for number, name in enumerate(series, 1)}
+    rows |= {name: (1, number) for number, name in enumerate(constants, 2)}
+    info = [[table, -row if name[0] == "-" else row, 0, -1] for name, (table, row) in rows.items()]
+    ends = [series["time"][0], series["time"][-1]]
+    tables = {
+        "data_1": np.array([ends, *([value, value] for value in constants.values())]),
+        "data_2": np.array([np.negative(one) if name[0] == "-" else one for name, one in series.items()]),
+    }
+    savemat(
+        file,
+        {"name": np.array(["".join(row) for row in letters]), "dataInfo": np.array(info, dtype=np.int32).T, **tables},
+        format="4",
+    )
+
+
 def test_the_result_of_a_simulation_is_read_from_its_file(ask: Ask, tmp_path: Path) -> None:
-    (tmp_path / "x_res.csv").write_text('"time","p","q[1,2]"\n0,1,2\n0.25,1,3e-1\n')
-    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.csv").runs
+    series = {"time": (0.0, 0.25), "p": (1.0, 2.0), "-q[1,2]": (2.0, 0.3)}
+    write_trajectory(tmp_path / "x_res.mat", {"k": 7.0}, series)
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.mat").runs
     assert run.values == {"time": (0, 0.25), "q[1,2]": (2, 0.3)}
 
 
-@pytest.mark.parametrize(("content", "problem"), [
-    ('"time","p"\n0,1\n', "the result has no `q[1,2]`"),
-    ('"time","q[1,2]"\n0,one\n', "the result can't be read"),
-    ('"time","q[1,2]"\n0\n', "the result can't be read"),
-    ("", "the result has no `time`"),
-])  # fmt: skip
-def test_a_result_of_another_form_is_a_problem(ask: Ask, tmp_path: Path, content: str, problem: str) -> None:
-    (tmp_path / "x_res.csv").write_text(content)
-    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.csv").runs
-    assert run.problem.startswith(problem)
+def test_what_never_changes_is_a_series_and_a_parameter(ask: Ask, tmp_path: Path) -> None:
+    write_trajectory(tmp_path / "x_res.mat", {"q[1,2]": 7.0}, {"time": (0.0, 0.25, 1.0)})
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.mat").runs
+    assert run.values["q[1,2]"] == (7, 7, 7)
+    assert run.parameters == {"q[1,2]": 7}
+
+
+def test_a_result_of_another_form_is_a_problem(ask: Ask, tmp_path: Path) -> None:
+    write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25), "p": (1.0, 1.0)})
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.mat").runs
+    assert run.problem == "the result has no `q[1,2]`"
+    for number, content in enumerate((b"", b"time,p\n0,1\n")):
+        (tmp_path / f"{number}.mat").write_bytes(content)
+        (run,) = simulated(ask, tmp_path, f"{tmp_path}/{number}.mat").runs
+        assert run.problem.startswith("the result can't be read: ")
 
 
 def test_what_stops_a_simulation_is_told(ask: Ask, tmp_path: Path) -> None:

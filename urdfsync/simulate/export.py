@@ -27,7 +27,7 @@ from urdfsync.simulate.package import check_compiler, find_with_libraries, read_
 from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
 from urdfsync.simulate.values import modifiers, read_values
 
-TOLERANCE = 1e-8
+TOLERANCE = 1e-10
 """Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
 _DESCRIPTION = "modelDescription.xml"
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')

@@ -269,6 +269,7 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
     """
     import numpy as np  # scipy brings it along
     from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
 
     try:
         found: Any = loadmat(file, chars_as_strings=False)
@@ -290,7 +291,7 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
                 parameters[name] = float(numbers[0])
                 numbers = np.full(len(times), numbers[0])
             series[name] = tuple(numbers.tolist())
-    except (OSError, ValueError, IndexError, KeyError, TypeError) as error:
+    except (OSError, ValueError, IndexError, KeyError, TypeError, MatReadError) as error:
         return SimulationResult(problem=f"the result can't be read: {error}")
     return SimulationResult(series, parameters=parameters)
 
