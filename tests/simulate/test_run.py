@@ -160,6 +160,7 @@ def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
         ("initial variable projection did not satisfy the residual system", "does not initialise"),
         ("assert failed at t=0.000: too late", "does not initialise"),
         ("The following assertion has been violated at time 0.500000", "stops at 0.5 s"),
+        ("The corrector could not converge.; can't continue. time = 0.000000", "does not initialise"),
     ],
 )
 def test_a_simulation_that_fails_says_when(compiler: Compiler, problem: str, words: str) -> None:

@@ -43,7 +43,7 @@ from urdfsync.spelling import nearest
 _LATER = 1.5
 """Seconds until the compiler is at work."""
 _LONGEST_MESSAGE = 200
-_TIME = re.compile(r"\bt(?: ?= ?|ime )([-+.\deE]*\d)")
+_TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""
 

@@ -135,6 +135,9 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
         result = _with_parts(job, folder, loads, task, result)
+        # a fault in the text of the task is in none of the user's files
+        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
+        result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
 
 
@@ -163,6 +166,8 @@ def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
     if export := task.export:
         kind = f'version="{export.version}", fmuType="{export.kind}"'
         return [*found, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
+    if task.parameters and not task.runs:  # only a result names all parameters
+        return [*found, f'simulate({task.model}, stopTime=1e-6, outputFormat="mat", fileNamePrefix="names{number}")']
     if not task.runs:
         return [*found, f"checkModel({task.model})"]
     for each, run in enumerate(task.runs):
@@ -227,6 +232,8 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
         return _simulated(task, rest, folder)
     if task.export:
         return _exported(rest[0], folder)
+    if task.parameters:
+        return _without_parameters(task, rest, folder)
     ((said, messages),) = rest
     counts = _COUNTS.search(said)
     if "completed successfully" not in said or counts is None:
@@ -234,6 +241,15 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
     if counts[1] != counts[2]:
         return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
     return CompileResult(unknowns=int(counts[2]), warnings=messages.strip())
+
+
+def _without_parameters(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    """Name all parameters of a model if it lacks one that the task sets."""
+    everything = msgspec.structs.replace(task, runs=(Simulation(1.0, 1.0),), values=(), pattern=".*")
+    result = _simulated(everything, answers, folder)
+    names = tuple(result.runs[0].parameters) if result.runs else ()
+    lacks_one = bool(names) and not set(task.parameters).issubset(names)
+    return CompileResult(result.problem, parameters=names if lacks_one else ())
 
 
 def _exported(answer: _Answer, folder: Path) -> CompileResult:
