@@ -25,6 +25,7 @@ from urdfsync.check.compilers.compiler import (
     CompileResult,
     CompileTask,
     Complaint,
+    Export,
     Simulation,
     Tool,
     compile_task,
@@ -130,7 +131,7 @@ def simulated(ask: Ask, tmp_path: Path, file: str, messages: str = "", said: str
     run = Simulation(1, 0.25, {"robot.k": 2.0}, 1e-9)
     task = CompileTask("Good", "model Good end Good;", (run,), ("q[1,2]",), title="Lab.Good")
     (result,) = ask({"simulate": RESULT.format(file=file, messages=messages, said=said)}, task)
-    simulate = asked(tmp_path)[-1]
+    simulate = next(call for call in asked(tmp_path) if call.startswith("simulate"))
     assert "stopTime=1, numberOfIntervals=4, tolerance=1e-09" in simulate
     assert 'simflags="-override=robot.k=2.0"' in simulate
     return result
@@ -186,6 +187,76 @@ def test_what_stops_a_simulation_is_told(ask: Ask, tmp_path: Path) -> None:
     assert run.problem == (
         "Simulation execution failed for model: Good; The following assertion has been violated at time 0.500000"
     )
+
+
+BUILT = """\
+"{file}"
+"Warning: Unknown value \\"dassl\\" for flag \\"s\\".
+Notification: Building FMU for platform 'static' (1/1).
+"
+"""
+TOO_FEW = """\
+""
+"Error: Too few equations, under-determined system. The model has 1 equation(s) and 2 variable(s).
+[/ws/Arm.mo:3:3-3:9:writable] Warning: Variable y does not have any remaining equation to be solved in.
+"
+"""
+FAILED = """\
+Simulation execution failed for model: Good
+LOG_SUCCESS       | info    | The initialization finished successfully without homotopy method.
+LOG_ASSERT        | info    | [/ws/Arm/Joints/Elbow.mo:28:3-28:41:writable]
+|                 | |       | The following assertion has been violated at time 0.600000
+|                 | |       | ((time < 0.55)) --> \\"the elbow breaks\\"
+LOG_ASSERT        | error   | No event found, but assert was triggered. Throwing now!
+"""
+
+
+def test_an_fmu_comes_back_and_is_told_how_to_integrate(ask: Ask, tmp_path: Path) -> None:
+    """Without a solver its co-simulation takes Euler's method, one step for each of the importer's."""
+    (tmp_path / "Good.fmu").write_bytes(b"an archive")
+    task = CompileTask("Good", "model Good end Good;", export=Export("3.0", "cs"), title="Lab.Good")
+    (result,) = ask({"buildModelFMU": BUILT.format(file=tmp_path / "Good.fmu")}, task)
+    assert (result.problem, result.fmu) == ("", b"an archive")
+    calls = asked(tmp_path)
+    assert calls[1] == 'setCommandLineOptions("--fmiFlags=s:cvode")'
+    assert calls[-1] == 'buildModelFMU(Good, version="3.0", fmuType="cs", fileNamePrefix="Good")'
+
+
+def test_why_there_is_no_fmu_is_told(ask: Ask) -> None:
+    task = CompileTask("Good", "model Good end Good;", export=Export("2.0", "me_cs"), title="Lab.Good")
+    (result,) = ask({"buildModelFMU": TOO_FEW}, task)
+    assert result.problem.startswith("Error: Too few equations, under-determined system.")
+    (result,) = ask({"buildModelFMU": '""\n""\n'}, task)
+    assert result.problem == "OpenModelica makes no FMU and gives no reason"
+
+
+def test_an_assertion_that_fails_is_told_with_its_text_place_and_time(ask: Ask, tmp_path: Path) -> None:
+    (run,) = simulated(ask, tmp_path, "", FAILED).runs
+    assert run.problem == "assert failed at t=0.600000: the elbow breaks (/ws/Arm/Joints/Elbow.mo:28)"
+
+
+def test_a_run_that_stops_is_run_again_until_its_last_result(ask: Ask, tmp_path: Path) -> None:
+    run = Simulation(1, 0.25)
+    task = CompileTask("Good", "model Good end Good;", (run,), ("p",), title="Lab.Good")
+    write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25, 0.5), "p": (1.0, 2.0, 3.0)})
+    whole = RESULT.format(file="", messages=FAILED, said="")
+    part = RESULT.format(file=tmp_path / "x_res.mat", messages="", said="")
+    (result,) = ask({"simulate(Good, startTime=0, stopTime=0.5": part, "simulate": whole}, task)
+    (found,) = result.runs
+    assert found.problem.startswith("assert failed at t=0.600000")
+    assert found.values["p"] == (1, 2, 3)
+
+
+def test_a_place_in_our_own_text_is_left_out(ask: Ask, tmp_path: Path) -> None:
+    """A parameter that does not exist is in no file of the user's."""
+    answer = '""\n"[{folder}/task0.mo:6:57-6:67:writable] Error: Modified element dampin not found.\n"\n'
+    script = tmp_path / "bin/omc"
+    text = script.read_text().replace(
+        "sys.stdout.write(answer)", "sys.stdout.write(answer.replace('{folder}', os.getcwd()))"
+    )
+    script.write_text(text.replace("import json\n", "import json\nimport os\n"))
+    (result,) = ask({"checkModel": answer})
+    assert result.problem == "Error: Modified element dampin not found."
 
 
 def test_a_model_that_can_not_be_built_does_not_compile(ask: Ask, tmp_path: Path) -> None:
