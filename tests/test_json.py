@@ -299,7 +299,7 @@ def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) ->
     inputs, tool = (Input("hold_phi", "rad"),), "OpenModelica 1.27.0"
     exported = Exported(b"1234", "Arm.ArmRun", "Arm_ArmRun", inputs, 1.0, 0.002, 1e-10, tool, (), 12.5)
     trial = Trial((), {"me": 2.5e-9, "cs": 4e-8}, {"me": "hold_tau", "cs": "hold_tau"}, 3)
-    monkeypatch.setattr("urdfsync.commands.fmu.export", lambda *_: exported)
+    monkeypatch.setattr("urdfsync.commands.fmu.export", lambda *_, **__: exported)
     monkeypatch.setattr("urdfsync.commands.fmu.try_out", lambda *_: trial)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert printed(execute, folder, "fmu", "--check") == FMU

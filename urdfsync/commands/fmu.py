@@ -16,7 +16,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
 from urdfsync.files import put, shown
 from urdfsync.output.console import Console
-from urdfsync.simulate.export import TOLERANCE, Exported, export
+from urdfsync.simulate.export import TOLERANCE, Exported, export, is_exported
 from urdfsync.simulate.files import Outputs, check_outputs
 from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial, try_out
 from urdfsync.simulate.report import fmu_lines, fmu_to_json
@@ -87,8 +87,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     paths = config.ros_package_path(os.environ)
     options = SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen)
     kind = Export(_VERSIONS[args.fmi], _KINDS[args.kind])
-    exported = export(configuration, robot, options, kind, console.progress)
-    file = args.output or Path(f"{exported.model.rpartition('.')[2]}.fmu")
+    exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
+    file = args.output or _default_file(exported)
     trial = None
     if args.check:
         kinds = [one for one in KINDS if one in kind.kind]
@@ -125,6 +125,18 @@ def _check_output(file: Path, args: argparse.Namespace, inputs: dict[str, Path])
             Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint="name such a file")
         )
     check_outputs(Outputs(csv=file), inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
+
+
+def _default_file(exported: Exported) -> Path:
+    """Return the file that has the model's name. Raises OutputError for one that is not an FMU of urdfsync's."""
+    file = Path(f"{exported.model.rpartition('.')[2]}.fmu")
+    if file.exists() and not is_exported(file):
+        message, hint = (
+            "it is there, and urdfsync did not write it",
+            "name a file with `--output`, this one to replace it",
+        )
+        raise OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint))
+    return file
 
 
 def _write(file: Path, exported: Exported) -> None:

@@ -30,6 +30,7 @@ from urdfsync.simulate.values import modifiers, read_values
 TOLERANCE = 1e-10
 """Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
 _DESCRIPTION = "modelDescription.xml"
+_BY_URDFSYNC = "exported by urdfsync"
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
@@ -43,6 +44,7 @@ class Exported(msgspec.Struct, frozen=True):
     name: str
     """The model's name in the FMU."""
     inputs: tuple[Input, ...]
+    """Those that a trial drives; none if there will be none."""
     stop: float
     step: float
     tolerance: float
@@ -58,10 +60,19 @@ class _Experiment(NamedTuple):
     tolerance: float
 
 
-def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: Export, progress: Progress) -> Exported:
+def export(
+    config: Config,
+    robot: RobotConfig,
+    options: SimulateOptions,
+    kind: Export,
+    progress: Progress,
+    *,
+    for_trial: bool = False,
+) -> Exported:
     """Export a model as FMU. Writes nothing but the cache.
 
-    Raises UrdfsyncError for whatever is wrong with the model or the compiler, OSError for what can't be read.
+    Raises UrdfsyncError for whatever is wrong with the model or the compiler, and with `for_trial` for inputs that no
+    motion could drive; OSError for what can't be read.
     """
     begin = time.monotonic()
     check_compiler(options)
@@ -73,6 +84,7 @@ def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: E
         raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
     model, needed = find_with_libraries(config, robot, options, name, package)
     settings, values = model.settings(), read_values(options.values)
+    inputs = tuple(model.inputs()) if for_trial else ()
     stop = options.stop or settings.get("StopTime", STOP)
     step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
     experiment = _Experiment(stop, step, options.tolerance or TOLERANCE)
@@ -105,7 +117,7 @@ def export(config: Config, robot: RobotConfig, options: SimulateOptions, kind: E
         content=_corrected(result.fmu, with_model_exchange=kind.kind != "cs"),
         model=model.name,
         name=fmu_name,
-        inputs=tuple(model.inputs()),
+        inputs=inputs,
         **experiment._asdict(),
         tool=f"{compiler.TITLE} {result.version}".rstrip(),
         diagnostics=robot.without_ignored([*package.warnings, *([note] if note else [])]),
@@ -118,7 +130,7 @@ def _text(name: str, model: str, changes: list[str], experiment: _Experiment) ->
     changed = f"({', '.join(changes)})" if changes else ""
     times = f"StopTime = {experiment.stop!r}, Interval = {experiment.step!r}, Tolerance = {experiment.tolerance!r}"
     return (
-        f'model {name} "{model}, exported by urdfsync {__version__}"\n'
+        f'model {name} "{model}, {_BY_URDFSYNC} {__version__}"\n'
         f"  extends {model}{changed};\n  annotation (experiment({times}));\nend {name};\n"
     )
 
@@ -134,3 +146,12 @@ def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
                 data = data if with_model_exchange else _MODEL_EXCHANGE.sub(b"", data, count=1)
             fmu.writestr(one, data)
     return corrected.getvalue()
+
+
+def is_exported(file: Path) -> bool:
+    """Whether a file is an FMU that urdfsync exported."""
+    try:
+        with zipfile.ZipFile(file) as fmu:
+            return _BY_URDFSYNC.encode() in fmu.read(_DESCRIPTION)
+    except (OSError, KeyError, zipfile.BadZipFile):
+        return False

@@ -120,7 +120,6 @@ def fmu_to_json(robot: str, exported: Exported, kind: Export, trial: Trial | Non
         "tool": exported.tool,
         "fmi": kind.version,
         "kinds": [short for short in KINDS if short in kind.kind],
-        "inputs": [one.name for one in exported.inputs],
         "tolerance": exported.tolerance,
         "bytes": len(exported.content),
         "seconds": exported.seconds,
