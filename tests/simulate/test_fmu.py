@@ -86,8 +86,7 @@ def test_co_simulation_alone_is_cut_out_of_both(openmodelica: Compiler) -> None:
     with zipfile.ZipFile(io.BytesIO(found.content)) as file:
         text = file.read("modelDescription.xml").decode()
     assert "<ModelExchange" not in text
-    assert '
-<CoSimulation modelIdentifier="Arm_ArmRun"/>' in text
+    assert '<CoSimulation modelIdentifier="Arm_ArmRun"/>' in text
 
 
 def test_a_model_that_can_not_be_exported_is_told_with_what_the_compiler_says(openmodelica: Compiler) -> None:
