@@ -247,6 +247,14 @@ def test_a_run_that_stops_is_run_again_until_its_last_result(ask: Ask, tmp_path:
     assert found.values["p"] == (1, 2, 3)
 
 
+def test_a_model_that_ends_the_simulation_is_told_in_its_words(ask: Ask, tmp_path: Path) -> None:
+    write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25), "q[1,2]": (2.0, 0.3)})
+    log = "LOG_STDOUT        | info    | Simulation call terminate() at time 0.250000\n"
+    log += "|                 | |       | Message : the end is reached\n"
+    (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.mat", log).runs
+    assert (run.termination, run.problem) == ("the end is reached", "")
+
+
 def test_a_place_in_our_own_text_is_left_out(ask: Ask, tmp_path: Path) -> None:
     """A parameter that does not exist is in no file of the user's."""
     answer = '""\n"[{folder}/task0.mo:6:57-6:67:writable] Error: Modified element dampin not found.\n"\n'

@@ -46,7 +46,7 @@ class Said:
         """Fill the result."""
         self._part.compiled = (CompiledModel("Arm", 10),)
         self._part.add(self._said)
-        if experiment:
+        if experiment and self.generated:
             self._part.deviations = compare(experiment.compared, self.generated, experiment.expected)
 
 
@@ -117,6 +117,9 @@ def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
     numbers = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
     elsewhere = msgspec.structs.replace(LOST, message="units do not fit", line=9)
     in_its_words = msgspec.structs.replace(LOST, message="Variable elbo not found")
+    warning = msgspec.structs.replace(LOST, severity=Severity.WARNING)
+    both = check(numbers, said={"rumoca": warning, "omc": in_its_words})
+    assert [one.severity for one in both.diagnostics] == [Severity.WARNING, Severity.ERROR], "an error is never hidden"
     assert check(numbers, said={"rumoca": LOST, "omc": in_its_words}).diagnostics == (LOST,)
     alone = [one.message for one in check(numbers, said={"rumoca": LOST, "omc": elsewhere}).diagnostics]
     assert alone == ["rumoca 0.10.2 alone: `elbo` is unknown", "OpenModelica 1.27.0 alone: units do not fit"]
@@ -134,3 +137,8 @@ def test_an_untried_version_is_noted() -> None:
     assert [str(one) for one in result.diagnostics] == [
         "note: OpenModelica 1.14.2 was not tried with urdfsync; 1.27 was [untried-compiler]"
     ]
+
+
+def test_what_only_one_of_two_could_move_is_told_with_its_element(capsys: pytest.CaptureFixture[str]) -> None:
+    result = check({"rumoca": {}, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.5)}})
+    assert lines(result, capsys)[2].startswith("  joint elbow: torque differs from Pinocchio 4.1.0 by 0.5 N·m")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -241,3 +242,45 @@ def test_a_real_fmu_follows_a_motion_in_fmi_3(capsys: pytest.CaptureFixture[str]
     cli.main(["fmu", "--check", "--fmi", "3", "--kind", "cs", "--input", "motion.csv", "--json"])
     (robot,) = json.loads(capsys.readouterr().out)["robots"]
     assert robot["trial"]["agreement"]["cs"] < 1e-3, "steps of its inputs shake the filters"
+
+
+def test_a_trajectory_that_is_no_number_or_ends_early_does_not_agree(
+    openmodelica: Compiler, reference: list[SimulateOptions], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    late = {"time": [0.0, 0.5, 1.0], "elbow_tau": [0.0, float("nan"), 4.0]}
+    monkeypatch.setattr(
+        "urdfsync.check.process.run", Fmpy([], me=late, cs={"time": [0.0, 0.5], "elbow_tau": [0.0, 2.0]})
+    )
+    found = tried()
+    assert found.agreement["me"] == math.inf
+    assert found.problems == {"cs": "it ends at 0.5 s, not at 1 s"}
+    openmodelica.results = [CompileResult(fmu=archive())]
+    monkeypatch.setattr("urdfsync.check.process.run", Fmpy([], me={"time": [0.0, 0.5, 1.0]}))
+    assert tried().problems == {"me": "it has no variable of the model"}
+
+
+def test_a_model_without_a_package_gets_another_name(openmodelica: Compiler) -> None:
+    Path("Cell.mo").write_text("model Cell\n  extends Arm.ArmTest;\nend Cell;\n")
+    found = exported(msgspec.structs.replace(OPTIONS, model="Cell"))
+    assert (found.model, found.name) == ("Cell", "Cell_FMU")
+    assert openmodelica.jobs[0].tasks[0].source.startswith("model Cell_FMU ")
+
+
+def test_what_the_check_finds_is_in_the_json(
+    openmodelica: Compiler,
+    reference: list[SimulateOptions],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr("urdfsync.check.process.run", Fmpy(["`x` is no name"], me=dict(REFERENCE)))  # type: ignore[arg-type]
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    assert cli.main(["fmu", "--check", "--kind", "me", "--json"]) == 1
+    (robot,) = json.loads(capsys.readouterr().out)["robots"]
+    assert [one["code"] for one in robot["diagnostics"]] == ["fmu-not-valid", "fmu-not-simulated"]
+
+
+def test_a_link_in_the_place_of_the_file_is_not_followed(openmodelica: Compiler, tmp_path: Path) -> None:
+    (tmp_path / "elsewhere.fmu").write_bytes(archive())
+    Path("ArmRun.fmu").symlink_to(tmp_path / "elsewhere.fmu")
+    assert cli.main(["fmu", "-q"]) == 2
+    assert (tmp_path / "elsewhere.fmu").read_bytes() == archive()

@@ -83,7 +83,6 @@ class Compiler:
     REPORT = "report it"
     METHODS: tuple[str, ...] = ()
     TRIED: tuple[str, ...] = ()
-    EXPORTS: tuple[str, ...] = ()
     HAS_STANDARD_LIBRARY = False
 
     def program(self, named: str) -> str | None:

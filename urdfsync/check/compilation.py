@@ -20,6 +20,7 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     Tool,
     compile_task,
+    one_line,
 )
 from urdfsync.check.jobs import Jobs
 from urdfsync.check.package import CheckedPackage, PackageTexts, UsersModels
@@ -277,7 +278,7 @@ def explain(
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
-    said = compiler.complaints(problem)
+    said = compiler.complaints(problem) or [Complaint(one_line(problem))] * bool(problem.strip())
     complaints = [one for one in said if one.code == "does-not-compile"] or said
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]

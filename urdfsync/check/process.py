@@ -45,6 +45,11 @@ class Limits(msgspec.Struct):
         self.deadline = time.monotonic() + self.seconds
 
 
+def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
+    """Return limits that begin now; None for all memory that is free."""
+    return Limits(owner, seconds, gigabytes * 1e9 if gigabytes else psutil.virtual_memory().available)
+
+
 class LimitError(UrdfsyncError):
     """A process took more time or memory than it may; the code of the one diagnostic says which."""
 

@@ -47,7 +47,9 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     said, advice = list[tuple[str, str]](), _ADVICE
     if result.second:
         said += _two_tools(result, result.second)
-    for one, others in () if result.second else _by_kind([one for one in result.deviations or () if not agrees(one)]):
+    alone = result.deviations or (result.second.deviations if result.second else None) or ()
+    has_three = result.second is not None and result.second.between is not None
+    for one, others in () if has_three else _by_kind([one for one in alone if not agrees(one)]):
         what, amount = _amount(one)
         reference = result.reference or "the reference"
         said.append((f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"))
@@ -168,8 +170,8 @@ def _second_values(second: SecondResult | None) -> dict[str, Any] | None:
     return {
         "tool": second.tool,
         "compiled": list(map(_model_values, second.compiled)),
-        "deviations": list(map(_deviation_values, second.deviations or ())),
-        "between": list(map(_deviation_values, second.between or ())),
+        "deviations": None if second.deviations is None else list(map(_deviation_values, second.deviations)),
+        "between": None if second.between is None else list(map(_deviation_values, second.between)),
         "edited": list(map(_deviation_values, second.edited)),
         "seconds": list(second.seconds),
         "megabytes": list(second.megabytes),

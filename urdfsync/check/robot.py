@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
-import psutil
 
 from urdfsync import registry
 from urdfsync.check import compilers, libraries, process, texts
@@ -18,7 +17,7 @@ from urdfsync.check.compilation import Compilation
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.package import CheckedPackage, read_package, users_models
-from urdfsync.check.process import Limits
+from urdfsync.check.process import Limits, limits_of
 from urdfsync.check.results import CheckOptions, CheckResult, listed
 from urdfsync.check.two_tools import compile_with_tools
 from urdfsync.config import Config, RobotConfig
@@ -35,9 +34,8 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     A package in step that was right is not checked again until its fingerprint is another one.
     """
     begin, cache = time.monotonic(), UserCache.default()
-    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
     result = CheckResult(robot.name, robot.target.package)
-    limits = Limits(f"the check of robot `{robot.name}`", options.timeout, memory)
+    limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
         tell(f"{robot.name}: reading the source and the package")
         key = fingerprint(config, robot, options)

@@ -38,7 +38,7 @@ def compile_with_tools(
         part.seconds, part.megabytes = time.monotonic() - begin, limits.peak / 1e6
         limits.peak = max(peak, limits.peak)
         if note := compilers.find_untried(tool, compilation.version):
-            part.add([note])
+            result.add([note])
         done.append(compilation)
         parts.append(part)
     first, *others = parts
@@ -64,12 +64,15 @@ def compile_with_tools(
 
 def _findings(first: CheckResult, second: CheckResult) -> list[Diagnostic]:
     """The findings of two compilers: what both have at the same place once, what one has alone under its name."""
-    places = [{(one.file, one.line, one.code) for one in part.diagnostics} for part in (first, second)]
-    shared = places[0] & places[1]
+
+    def place(one: Diagnostic) -> tuple[object, ...]:
+        return one.severity, one.file, one.line, one.code, "" if one.line else one.message
+
+    shared = set(map(place, first.diagnostics)) & set(map(place, second.diagnostics))
     found = []
     for part in (first, second):
         for one in part.diagnostics:
-            if (one.file, one.line, one.code) not in shared:
+            if place(one) not in shared:
                 found.append(msgspec.structs.replace(one, message=f"{part.tool} alone: {one.message}"))
             elif part is first:
                 found.append(one)

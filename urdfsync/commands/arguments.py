@@ -74,7 +74,8 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
         "action": "store_true",
-        "help": "write to an `output` outside of the configuration's folder, and run a robot's `command`",
+        "help": "write to an `output` outside of the configuration's folder, and run a robot's `command` and, for "
+        "checks, the `omc` that the configuration names",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
     # never from the configuration: workers may do whatever they want

@@ -25,7 +25,7 @@ from urdfsync.simulate.results import STOP, SimulateOptions
 _OPTIONS = ("model", "stop", "step", "tolerance", "motion", "timeout", "memory", "wait")
 """Fields of `SimulateOptions` that are arguments of the same name."""
 _VERSIONS = {"2": "2.0", "3": "3.0"}
-_KINDS = {"me": "me", "cs": "cs", "both": "me_cs"}
+_EXPORTED = {"me": "me", "cs": "cs", "both": "me_cs"}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -50,7 +50,7 @@ def add(commands: arguments.Commands) -> None:
     option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
     option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
     option(
-        "--kind", choices=tuple(_KINDS), default="both", help="model exchange, co-simulation or both (default: both)"
+        "--kind", choices=tuple(_EXPORTED), default="both", help="model exchange, co-simulation or both (default: both)"
     )
     tolerance = f"of the integration inside, for co-simulation (default: {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
@@ -81,12 +81,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         message = "`--input` is the motion for `--check`"
         raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="give both, or none"))
     if args.output:
-        _check_output(args.output, args, {"the source of the robot": robot.source})
+        inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
+        _check_output(args.output, args, inputs)
     (tool,) = chosen_tools(configuration, "omc", trusted=args.trust)
     chosen = {name: getattr(args, name) for name in _OPTIONS}
     paths = config.ros_package_path(os.environ)
     options = SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen)
-    kind = Export(_VERSIONS[args.fmi], _KINDS[args.kind])
+    kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
     file = args.output or _default_file(exported)
     trial = None
@@ -94,12 +95,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         kinds = [one for one in KINDS if one in kind.kind]
         trial = try_out(configuration, robot, options, exported, kinds, console.progress)
     _write(file, exported)
+    found = robot.without_ignored(_findings(trial, file)) if trial else ()
+    diagnostics = (*exported.diagnostics, *found)
     if console.json:
-        console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file))
+        console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file, diagnostics))
     elif not console.quiet:
         console.print(fmu_lines(robot.name, exported, kind, trial, file))
-    found = robot.without_ignored(_findings(trial, file)) if trial else ()
-    console.findings((*exported.diagnostics, *found))
+    console.findings(diagnostics)
     code = Exit.OUT_OF_STEP if found else Exit.IN_STEP
     console.end("fmu", code)
     return code
@@ -130,7 +132,7 @@ def _check_output(file: Path, args: argparse.Namespace, inputs: dict[str, Path])
 def _default_file(exported: Exported) -> Path:
     """Return the file that has the model's name. Raises OutputError for one that is not an FMU of urdfsync's."""
     file = Path(f"{exported.model.rpartition('.')[2]}.fmu")
-    if file.exists() and not is_exported(file):
+    if file.is_symlink() or (file.exists() and not is_exported(file)):
         message, hint = (
             "it is there, and urdfsync did not write it",
             "name a file with `--output`, this one to replace it",

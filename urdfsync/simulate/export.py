@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import msgspec
-import psutil
 
 from urdfsync import __version__
 from urdfsync.check import compilers
@@ -18,13 +17,13 @@ from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import explain
 from urdfsync.check.compilers.compiler import CompileTask, Export
 from urdfsync.check.jobs import Jobs
-from urdfsync.check.process import Limits
+from urdfsync.check.process import limits_of
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import Progress
 from urdfsync.simulate.models import Input
 from urdfsync.simulate.package import check_compiler, find_with_libraries, read_package
-from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
+from urdfsync.simulate.results import STOP, SimulateOptions
 from urdfsync.simulate.values import modifiers, read_values
 
 TOLERANCE = 1e-10
@@ -86,9 +85,9 @@ def export(
     settings, values = model.settings(), read_values(options.values)
     inputs = tuple(model.inputs()) if for_trial else ()
     stop = options.stop or settings.get("StopTime", STOP)
-    step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
-    experiment = _Experiment(stop, step, options.tolerance or TOLERANCE)
-    fmu_name = model.name.replace(".", "_")
+    experiment = _Experiment(stop, model.step(stop, options.step), options.tolerance or TOLERANCE)
+    fmu_name = re.sub(r"\W", "_", model.name)
+    fmu_name = f"{fmu_name}_FMU" if fmu_name == model.name else fmu_name  # a model can't extend one of its name
     task = CompileTask(
         fmu_name,
         _text(fmu_name, model.name, modifiers(values), experiment),
@@ -96,8 +95,7 @@ def export(
         # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
         export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
     )
-    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
-    limits = Limits(f"the export of `{model.name}`", options.timeout, memory)
+    limits = limits_of(f"the export of `{model.name}`", options.timeout, options.memory)
 
     def tell() -> None:
         progress(f"{robot.name}: compiling, {time.monotonic() - begin:.0f} s", 0, 1)

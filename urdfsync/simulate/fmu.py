@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import msgspec
-import psutil
 
 from urdfsync.check import process
-from urdfsync.check.process import Limits
+from urdfsync.check.compilers.compiler import one_line
+from urdfsync.check.process import Limits, limits_of
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import Progress
+from urdfsync.extras import install_command
 from urdfsync.simulate.export import Exported
 from urdfsync.simulate.motion import at_rest, read_motion, sampled
 from urdfsync.simulate.results import Series, SimulateOptions
@@ -89,8 +91,7 @@ def try_out(
         raise UrdfsyncError(*reference.diagnostics)
     simulated = [kind for kind in kinds if kind == "cs" or not options.motion]
     times = tuple(index * exported.step for index in range(round(stop / exported.step) + 2))
-    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
-    limits = Limits(f"the trial of `{exported.model}`", options.timeout, memory)
+    limits = limits_of(f"the trial of `{exported.model}`", options.timeout, options.memory)
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         file = Path(folder) / f"{exported.name}.fmu"
         file.write_bytes(exported.content)
@@ -105,6 +106,12 @@ def try_out(
             inputs=sampled(motion, times),
         )
         answer = _asked(request, limits, folder, lambda: progress(f"{robot.name}: FMPy is at work", 0, 1))
+    end = reference.series["time"][-1]
+    for kind, series in answer.series.items():
+        if series["time"][-1] < end - _SAME_TIME:
+            answer.problems[kind] = f"it ends at {series['time'][-1]:g} s, not at {end:g} s"
+        elif len(series) == 1:
+            answer.problems[kind] = "it has no variable of the model"
     differences = {kind: _differences(series, reference.series) for kind, series in answer.series.items()}
     worst = {kind: max(found, key=lambda name: found[name]) for kind, found in differences.items() if found}
     return Trial(
@@ -120,6 +127,9 @@ def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[]
     environment = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
     try:
         (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
+    except ImportError as error:
+        message, hint = f"FMPy does not start: {error}", install_command("fmu")
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=hint)) from None
     except process.BrokenProcessError as error:
         message = f"FMPy crashed with the FMU: {error}"
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
@@ -132,7 +142,7 @@ def _examine(request: _Request) -> Iterator[_Answer]:
     from fmpy import read_model_description, simulate_fmu
     from fmpy.validation import validate_fmu
 
-    findings = [" ".join(str(one).split())[:_LONGEST_MESSAGE] for one in validate_fmu(request.file)]
+    findings = [one_line(str(one))[:_LONGEST_MESSAGE] for one in validate_fmu(request.file)]
     description: Any = read_model_description(request.file, validate=False)
     known = {one.name for one in description.modelVariables}
     names = [name for name in request.names if name in known]
@@ -157,7 +167,7 @@ def _examine(request: _Request) -> Iterator[_Answer]:
                     fmi_type=KINDS[kind],
                 )
             except Exception as error:  # noqa: BLE001 - FMPy raises Exception itself
-                problems[kind] = " ".join(str(error).split())[:_LONGEST_MESSAGE]
+                problems[kind] = one_line(str(error))[:_LONGEST_MESSAGE]
             else:
                 series[kind] = {name: result[name].tolist() for name in ("time", *names)}
                 problems.pop(kind, None)
@@ -181,6 +191,6 @@ def _differences(found: Series, reference: Series) -> dict[str, float]:
             expected = np.array(reference[name])
             pairs = zip(values, first, last, strict=True)
             nearest = [np.abs(expected[begin:end] - value).min() for value, begin, end in pairs if begin < end]
-            greatest = float(max(nearest, default=float("nan")))
-            differences[name] = greatest / max(1.0, float(np.abs(expected).max()))
+            relative = float(np.max(nearest)) / max(1.0, float(np.abs(expected).max())) if nearest else math.nan
+            differences[name] = math.inf if math.isnan(relative) else relative
     return differences

@@ -13,6 +13,7 @@ from urdfsync.files import shown
 from urdfsync.modelica.classes import OPAQUE, Node, Type
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import Component
+from urdfsync.simulate.results import STEPS
 from urdfsync.spelling import nearest
 
 _EXPERIMENT = re.compile(r"\bexperiment\s*\(((?:[^()]|\([^()]*\))*)\)")
@@ -55,7 +56,13 @@ class Model:
         """Return what the annotation `experiment` of the model says, by the names of Modelica."""
         text = self._class_text()
         found = _EXPERIMENT.search(text)
-        return {name: float(number) for name, number in _SETTING.findall(found[1])} if found else {}
+        numbers = {name: float(number) for name, number in _SETTING.findall(found[1])} if found else {}
+        return {name: number for name, number in numbers.items() if number > 0}
+
+    def step(self, stop: float, wanted: float | None) -> float:
+        """Return the interval of results of a simulation until `stop`, in s, if no other is wanted."""
+        settings = self.settings()
+        return wanted or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
 
     def inputs(self) -> list[Input]:
         """Return all inputs, those of base classes first. Raises ConfigError for one that can't be driven."""

@@ -36,7 +36,7 @@ class SimulatedPackage(msgspec.Struct):
 
 
 def check_compiler(options: SimulateOptions) -> None:
-    """Raise ConfigError for a compiler that can't do this, CompilerError for one that is not there."""
+    """Raise ConfigError for a compiler that can't do this, UrdfsyncError for one that is not there."""
     compiler = compilers.COMPILERS[options.tool.name]
     if missing := compilers.find_missing(options.tool):
         raise UrdfsyncError(missing)
@@ -61,7 +61,7 @@ def read_package(config: Config, robot: RobotConfig, options: SimulateOptions) -
     bench = rendering.domain.bench(rendering.snapshot, robot.target, robot.options) or Bench("", "", ())
     package = PackageTexts(robot.target.package, robot.folder, texts)
     around = files_around(config, robot, texts)
-    message, hint = "the package is out of step with its source; it is simulated as it is", "run `urdfsync build`"
+    message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, shown(robot.folder), hint=hint)
     return SimulatedPackage(bench, package, around, () if built.in_step else (late,))
 

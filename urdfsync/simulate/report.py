@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
 from urdfsync.check.compilers.compiler import Export
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, line
 from urdfsync.simulate.export import Exported
-from urdfsync.simulate.fmu import KINDS, Trial
+from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial
 from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
-_KINDS = {"me": "model exchange", "cs": "co-simulation"}
+_WORDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
 """Smaller numbers are shown as 0: they come from rounding."""
 
@@ -96,23 +97,30 @@ def _joint_values(joint: JointResult) -> dict[str, Any]:
 
 def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
     """What there is to say of an FMU but for its diagnostics."""
-    kinds = " and ".join(name for short, name in _KINDS.items() if short in kind.kind)
+    kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
     size = len(exported.content) / 1e6
     about = (
         f": {exported.model} by {exported.tool}, FMI {kind.version}, {kinds}; {size:.1f} MB; {exported.seconds:.1f} s"
     )
     yield line((robot, "bold"), (about, ""))
     if trial:
-        if not trial.findings:
+        if not trial.findings and not trial.problems:
             yield line(("  FMPy finds nothing wrong", "green"))
         for short, difference in trial.agreement.items():
-            sentence = f"  {_KINDS[short]}: {trial.compared} variables agree with `simulate` to {difference:.1e}"
-            yield line((sentence, ""))
+            said = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
+            yield line((f"  {_WORDS[short]}: {trial.compared} variables {said} {difference:.1e}", ""))
     yield line(("  fmu: ", ""), (str(file), "bold"))
 
 
-def fmu_to_json(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> dict[str, Any]:
-    """An FMU as plain data."""
+def fmu_to_json(
+    robot: str,
+    exported: Exported,
+    kind: Export,
+    trial: Trial | None,
+    file: Path,
+    diagnostics: Sequence[Diagnostic],
+) -> dict[str, Any]:
+    """An FMU as plain data; `diagnostics` are of the export and of the trial."""
     return {
         "name": robot,
         "model": exported.model,
@@ -124,5 +132,5 @@ def fmu_to_json(robot: str, exported: Exported, kind: Export, trial: Trial | Non
         "bytes": len(exported.content),
         "seconds": exported.seconds,
         "trial": trial and msgspec.structs.asdict(trial),
-        "diagnostics": list(map(msgspec.structs.asdict, exported.diagnostics)),
+        "diagnostics": list(map(msgspec.structs.asdict, diagnostics)),
     }

@@ -10,16 +10,15 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import msgspec
-import psutil
 
 from urdfsync import __version__
 from urdfsync.check import compilers, libraries
 from urdfsync.check.cache import UserCache, digest
 from urdfsync.check.compilation import explain
-from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult
+from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult, one_line
 from urdfsync.check.jobs import Jobs
 from urdfsync.check.package import PackageTexts
-from urdfsync.check.process import Limits
+from urdfsync.check.process import limits_of
 from urdfsync.check.texts import check_around, check_layout
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
@@ -29,7 +28,6 @@ from urdfsync.simulate import joints
 from urdfsync.simulate.motion import Course, at_rest, course, read_motion
 from urdfsync.simulate.package import SimulatedPackage, check_compiler, find_with_libraries, read_package
 from urdfsync.simulate.results import (
-    STEPS,
     STOP,
     TOLERANCE,
     JointResult,
@@ -128,7 +126,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
         hint = f"give a CSV file with `--input`; its first line is {names}"
         raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
     stop = options.stop or stop
-    step = options.step or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
+    step = model.step(stop, options.step)
     tolerance = options.tolerance or settings.get("Tolerance", TOLERANCE)
     followed = course(motion) if motion else Course()
     if motion and options.motion and options.as_exported:
@@ -178,8 +176,7 @@ def _run(
     later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
     later.daemon = True
     later.start()
-    memory = options.memory * 1e9 if options.memory else psutil.virtual_memory().available
-    limits = Limits(f"the simulation of `{work.model}`", options.timeout, memory)
+    limits = limits_of(f"the simulation of `{work.model}`", options.timeout, options.memory)
 
     def tell() -> None:
         progress(f"{robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
@@ -244,7 +241,7 @@ def _end(work: _Work, run: SimulationResult) -> Iterator[Diagnostic]:
 
 
 def _shortened(text: str) -> str:
-    return " ".join(text.split())[:_LONGEST_MESSAGE]
+    return one_line(text)[:_LONGEST_MESSAGE]
 
 
 def _warning(joint: JointResult, passed: PassedLimit) -> Diagnostic:

@@ -61,7 +61,7 @@ class CompileTask(msgspec.Struct, frozen=True):
     title: str = ""
     """What messages call the model."""
     export: Export | None = None
-    """Instead of a simulation; only for compilers with `EXPORTS`."""
+    """Instead of a simulation; by OpenModelica alone."""
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
@@ -135,8 +135,6 @@ class Compiler(Protocol):
     """Methods of integration."""
     TRIED: tuple[str, ...]
     """Beginnings of the versions with which urdfsync was tried; none if its own requirements say that."""
-    EXPORTS: tuple[str, ...]
-    """Versions of FMI of which it makes FMUs."""
     HAS_STANDARD_LIBRARY: bool
     """Whether it finds the Modelica Standard Library by its own means."""
 

@@ -1,6 +1,6 @@
 """OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files.
 
-Written for the answers that OpenModelica 1.27 gave, see docs/checking.md.
+Written for the answers that OpenModelica 1.27 gave, see docs/openmodelica.md.
 """
 
 from __future__ import annotations
@@ -38,7 +38,6 @@ INSTALL = "install OpenModelica, name its program with `omc` in the table `[chec
 REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 TRIED: tuple[str, ...] = ("1.27",)
-EXPORTS: tuple[str, ...] = ("2.0", "3.0")
 HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
@@ -66,6 +65,7 @@ _ASSERTION = re.compile(
     r"[^\n]* --> \"(?P<text>.*?)\"$",
     re.MULTILINE | re.DOTALL,
 )
+_TERMINATED = re.compile(r"call terminate\(\) at time [^\n]*\n[^\n]*Message : ([^\n]*)")
 _STOPPED = re.compile(r"failed at t=([-+.\deE]*\d)")
 _LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
 
@@ -88,7 +88,8 @@ def program(named: str) -> str | None:
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
     # It asks for an index of libraries on the network if there is none on disk: a proxy that nobody is leaves it alone.
-    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY)
+    proxies = dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY) | dict.fromkeys(("no_proxy", "NO_PROXY"), "")
+    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | proxies
 
 
 def complaints(problem: str) -> list[Complaint]:
@@ -265,7 +266,9 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
         fields = {name: _text(text) for name, text in _FIELD.findall(value)}
         log = fields.get("messages", value)
         if fields.get("resultFile"):
-            runs.append(_read_results(folder / fields["resultFile"], task))
+            ended = _TERMINATED.search(log)
+            run = _read_results(folder / fields["resultFile"], task)
+            runs.append(msgspec.structs.replace(run, termination=ended[1].strip() if ended else ""))
         elif log.startswith("Failed to build model"):
             return CompileResult(messages.strip() or one_line(log))
         else:

@@ -36,7 +36,6 @@ INSTALL = install_command("check")
 REPORT = "report it to the authors of rumoca"
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 TRIED: tuple[str, ...] = ()
-EXPORTS: tuple[str, ...] = ()
 HAS_STANDARD_LIBRARY = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
