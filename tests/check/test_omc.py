@@ -34,6 +34,7 @@ from urdfsync.check.process import Limits
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
 
+BOTH_KINDS = Export("2.0", "me_cs")
 RECORDED = corpus.FOLDER.parent / "omc"
 TASK = CompileTask("Good", 'model Good "a \\ b"\nend Good;\n', title="Lab.Good")
 BALANCED = '"Check of Good completed successfully.\nClass Good has 4 equation(s) and 4 variable(s).\n1 of these."\n'
@@ -222,8 +223,17 @@ def test_an_fmu_comes_back_and_is_told_how_to_integrate(ask: Ask, tmp_path: Path
     assert calls[-1] == 'buildModelFMU(Good, version="3.0", fmuType="cs", fileNamePrefix="Good")'
 
 
+def test_a_c_compiler_that_is_missing_is_told_with_what_to_install() -> None:
+    said = "Error: Internal error Failed to move Arm_JacA.bin file\n"
+    said += "Error: Internal error Failed to get version from cmake\n"
+    (found,) = omc.complaints(said)
+    assert found.message.endswith("from cmake; OpenModelica needs a C compiler, make, and for FMUs cmake: install them")
+    (found,) = omc.complaints("Error: Error building simulator. Build log: /bin/sh: 1: make: not found\n")
+    assert "install them" in found.message
+
+
 def test_why_there_is_no_fmu_is_told(ask: Ask) -> None:
-    task = CompileTask("Good", "model Good end Good;", export=Export("2.0", "me_cs"), title="Lab.Good")
+    task = CompileTask("Good", "model Good end Good;", export=BOTH_KINDS, title="Lab.Good")
     (result,) = ask({"buildModelFMU": TOO_FEW}, task)
     assert result.problem.startswith("Error: Too few equations, under-determined system.")
     (result,) = ask({"buildModelFMU": '""\n""\n'}, task)
@@ -327,6 +337,30 @@ def test_recorded_answers_are_understood(name: str) -> None:
     if name in expected:
         assert len(found) == expected[name]
         assert found[0].file.endswith(edit.read_text().splitlines()[0])
+
+
+def answer_of(name: str, folder: Path) -> str:
+    """What OpenModelica answered to the last call of a conversation that was recorded for these tests."""
+    text = (Path(__file__).parent / "omc" / name / "stdout").read_text(encoding="utf-8")
+    return text.replace("FOLDER", str(folder)).split('true\n""\n')[-1]
+
+
+def test_recorded_exports_are_understood(ask: Ask, tmp_path: Path) -> None:
+    (tmp_path / "P.fmu").write_bytes(b"an archive")
+    task = CompileTask("P", "model P end P;", export=BOTH_KINDS, title="P")
+    (result,) = ask({"buildModelFMU": answer_of("fmu", tmp_path)}, task)
+    assert (result.problem, result.fmu) == ("", b"an archive")
+    (result,) = ask({"buildModelFMU": answer_of("fmu-unbalanced", tmp_path)}, task)
+    assert result.problem.startswith("Error: Too few equations, under-determined system.")
+
+
+def test_recorded_ends_of_simulations_are_understood(ask: Ask, tmp_path: Path) -> None:
+    task = CompileTask("S", "model S end S;", (Simulation(1, 1),), ("x",), title="S")
+    (result,) = ask({"simulate": answer_of("assertion", tmp_path)}, task)
+    assert result.runs[0].problem == f"assert failed at t=0.600000: the elbow breaks ({tmp_path}/s.mo:5)"
+    write_trajectory(tmp_path / "T_res.mat", {}, {"time": (0.0, 0.7), "x": (1.0, 0.3)})
+    (result,) = ask({"simulate": answer_of("terminate", tmp_path)}, task)
+    assert result.runs[0].termination == "the end is reached"
 
 
 @pytest.mark.slow

@@ -57,7 +57,9 @@ _MESSAGE = re.compile(
 )
 _UNITS, _UNITS_GO_ON = "INCONSISTENT due to specified unit information", "The units of following sub-expressions"
 _FOLLOWS = re.compile(
-    r"Failed to load package |Class \S+ not found in scope <top>|Curl error|Failed to download", re.IGNORECASE
+    r"Failed to load package |Class \S+ not found in scope <top>|Curl error|Failed to download"
+    r"|Internal error Failed to move",
+    re.IGNORECASE,
 )
 """What is also said where something else could not be read."""
 _ASSERTION = re.compile(
@@ -67,6 +69,7 @@ _ASSERTION = re.compile(
 )
 _TERMINATED = re.compile(r"call terminate\(\) at time [^\n]*\n[^\n]*Message : ([^\n]*)")
 _STOPPED = re.compile(r"failed at t=([-+.\deE]*\d)")
+_BUILDS = re.compile(r"Error building simulator|Failed to get version from cmake")
 _LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
 
 
@@ -102,6 +105,8 @@ def complaints(problem: str) -> list[Complaint]:
     ends = [*(one.start() for one in messages[1:]), len(problem)]
     for one, end in zip(messages, ends, strict=bool(messages)):
         words = one_line(problem[one.end() : end])
+        if _BUILDS.search(words):
+            words = f"{words}; OpenModelica needs a C compiler, make, and for FMUs cmake: install them"
         if one["level"] == "Notification":
             if words == "From here:":
                 origin = Complaint("", one["file"] or "", int(one["line"] or 0), int(one["column"] or 0))
