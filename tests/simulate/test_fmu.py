@@ -145,7 +145,7 @@ class Fmpy:
     """In the place of `process.run`: FMPy says this, and the FMU moves like this."""
 
     def __init__(self, findings: list[str], **series: dict[str, list[float]]) -> None:
-        self.answer: Any = fmu._Answer(findings, series, {"cs": "a step failed"} if findings else {})
+        self.answer: Any = fmu._Examined(findings, series, {"cs": "a step failed"} if findings else {})
         self.request: Any = None
 
     def __call__(self, function: object, request: Any, **_: object) -> list[Any]:

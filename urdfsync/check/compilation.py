@@ -17,6 +17,7 @@ from urdfsync.check.compilers.compiler import (
     CompileResult,
     CompileTask,
     Complaint,
+    Series,
     Simulation,
     Tool,
     compile_task,
@@ -48,7 +49,6 @@ _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 """The texts of a version of the package, and what is done with it."""
-Series: TypeAlias = Mapping[str, Sequence[float]]
 
 
 class Compilation:

@@ -108,8 +108,20 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
     """Add the option that chooses a compiler, or both, and the one that trusts a program of the configuration."""
     which = "the compiler: rumoca, or omc for OpenModelica" + (", or both" if "both" in tools else "")
     parser.add_argument("--tool", choices=tools, help=f"{which} (default: as configured, else rumoca)")
+    add_program_trust(parser)
+
+
+def add_program_trust(parser: Parser) -> None:
+    """Add the option that trusts a program of the configuration."""
     trust = "start the program that `omc` in the configuration names"
     parser.add_argument("--trust", action="store_true", help=trust)
+
+
+def add_limits(parser: Parser, what: str, seconds: float) -> None:
+    """Add the options that limit the time and memory of a simulation or an export."""
+    text = f"seconds for {what} (default: {seconds:g})"
+    parser.add_argument("--timeout", type=amount, metavar="S", default=seconds, help=text)
+    parser.add_argument("--memory", type=amount, metavar="GB", help="memory for it (default: what is free)")
 
 
 def configuration(args: argparse.Namespace) -> Config:

@@ -11,13 +11,13 @@ from urdfsync import config
 from urdfsync.check.compilers.compiler import Export
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
-from urdfsync.files import put, shown
+from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.simulate.export import TOLERANCE, Exported, export, is_exported
-from urdfsync.simulate.files import Outputs, check_outputs
+from urdfsync.simulate.files import check_file, not_writable, write_file
 from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial, try_out
 from urdfsync.simulate.report import fmu_lines, fmu_to_json
 from urdfsync.simulate.results import STOP, SimulateOptions
@@ -44,7 +44,7 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync fmu arm --input motion.csv --check\n\n"
         "exit codes: 0 exported, 1 the check found something, 2 error, 130 interrupted",
     )
-    option, default = parser.add_argument, SimulateOptions()
+    option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
     option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
     option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
@@ -60,11 +60,8 @@ def add(commands: arguments.Commands) -> None:
     option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
     option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
-    trust = "start the program that `omc` in the configuration names"
-    option("--trust", action="store_true", help=trust)
-    seconds = f"seconds for each step (default: {default.timeout:g})"
-    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
-    option("--memory", type=arguments.amount, metavar="GB", help="memory for it (default: what is free)")
+    arguments.add_program_trust(parser)
+    arguments.add_limits(parser, "each step", SimulateOptions().timeout)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -94,7 +91,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if args.check:
         kinds = [one for one in KINDS if one in kind.kind]
         trial = try_out(configuration, robot, options, exported, kinds, console.progress)
-    _write(file, exported)
+    write_file(file, exported.content)
     found = robot.without_ignored(_findings(trial, file)) if trial else ()
     diagnostics = (*exported.diagnostics, *found)
     if console.json:
@@ -122,28 +119,14 @@ def _findings(trial: Trial, file: Path) -> list[Diagnostic]:
 
 def _check_output(file: Path, args: argparse.Namespace, inputs: dict[str, Path]) -> None:
     if file.suffix.lower() != ".fmu":
-        message = "an FMU's name ends with .fmu"
-        raise OutputError(
-            Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint="name such a file")
-        )
-    check_outputs(Outputs(csv=file), inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
+        raise not_writable(file, "an FMU's name ends with .fmu", "name such a file")
+    check_file(file, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
 
 
 def _default_file(exported: Exported) -> Path:
     """Return the file that has the model's name. Raises OutputError for one that is not an FMU of urdfsync's."""
     file = Path(f"{exported.model.rpartition('.')[2]}.fmu")
     if file.is_symlink() or (file.exists() and not is_exported(file)):
-        message, hint = (
-            "it is there, and urdfsync did not write it",
-            "name a file with `--output`, this one to replace it",
-        )
-        raise OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint))
+        hint = "name a file with `--output`, this one to replace it"
+        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
     return file
-
-
-def _write(file: Path, exported: Exported) -> None:
-    try:
-        put(file.resolve(), exported.content)
-    except OSError as error:
-        message, hint = f"it can't be written: {error.strerror}", "name another file with `--output`"
-        raise OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint)) from None

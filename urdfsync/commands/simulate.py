@@ -41,7 +41,7 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync simulate arm --input motion.csv\n\n"
         "exit codes: 0 simulated, also where limits are passed; 2 error, 130 interrupted",
     )
-    option, default = parser.add_argument, SimulateOptions()
+    option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
     option("--model", metavar="NAME", default="", help="the model (default: Test of the robot; with --input, Run)")
     stop = f"end of the simulation (default: as the model says, else {STOP:g})"
@@ -60,9 +60,7 @@ def add(commands: arguments.Commands) -> None:
     option("--variable", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     arguments.add_tool(parser, tuple(COMPILERS))
-    seconds = f"seconds for all of it (default: {default.timeout:g})"
-    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
-    option("--memory", type=arguments.amount, metavar="GB", help="memory for it (default: what is free)")
+    arguments.add_limits(parser, "all of it", SimulateOptions().timeout)
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:

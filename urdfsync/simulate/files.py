@@ -45,30 +45,39 @@ def check_outputs(outputs: Outputs, inputs: Mapping[str, Path]) -> None:
             message = f"`--{kind}` needs {module}, which is not installed"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-plot", message, hint=install_command("plot")))
         if kind == "plot" and file.suffix.lower() not in PLOTS:
-            raise _problem(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
-        if file.exists() and not file.is_file():
-            raise _problem(file, f"{kind_of(file.stat().st_mode)} is in its place", "name a file")
-        if not file.resolve().parent.is_dir():
-            raise _problem(file, "there is no such folder", "make it first")
-        target = file if file.exists() else file.resolve().parent
-        if not os.access(target, os.W_OK) or not os.access(file.resolve().parent, os.W_OK):
-            raise _problem(file, "it can't be written: no permission", "name a file elsewhere")
-        for what, other in inputs.items():
-            if file.exists() and file.samefile(other):
-                raise _problem(file, f"it is {what}", "name another file")
+            raise not_writable(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
+        check_file(file, inputs)
     if len({file.resolve() for file in files.values()}) < len(files):
-        raise _problem(next(iter(files.values())), "two outputs have this name", "name two files")
+        raise not_writable(next(iter(files.values())), "two outputs have this name", "name two files")
+
+
+def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
+    """Raise OutputError for a file that can't be written, or is one of `inputs`."""
+    if file.exists() and not file.is_file():
+        raise not_writable(file, f"{kind_of(file.stat().st_mode)} is in its place", "name a file")
+    if not file.resolve().parent.is_dir():
+        raise not_writable(file, "there is no such folder", "make it first")
+    target = file if file.exists() else file.resolve().parent
+    if not os.access(target, os.W_OK) or not os.access(file.resolve().parent, os.W_OK):
+        raise not_writable(file, "it can't be written: no permission", "name a file elsewhere")
+    for what, other in inputs.items():
+        if file.exists() and file.samefile(other):
+            raise not_writable(file, f"it is {what}", "name another file")
+
+
+def write_file(file: Path, content: bytes) -> None:
+    """Write a file. Raises OutputError."""
+    try:
+        put(file.resolve(), content)
+    except OSError as error:
+        hint = "check that its folder may be written to, and that there is space on the disk"
+        raise not_writable(file, f"it can't be written: {error.strerror}", hint) from None
 
 
 def write_outputs(outputs: Outputs, result: SimulateResult) -> None:
     """Write the files. Raises OutputError."""
     for kind, file in outputs.files().items():
-        content = _content(kind, file, result)
-        try:
-            put(file.resolve(), content)
-        except OSError as error:
-            hint = "check that its folder may be written to, and that there is space on the disk"
-            raise _problem(file, f"it can't be written: {error.strerror}", hint) from None
+        write_file(file, _content(kind, file, result))
 
 
 def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
@@ -98,5 +107,6 @@ def _parquet(series: Series) -> bytes:
     return content.getvalue()
 
 
-def _problem(file: Path, message: str, hint: str) -> OutputError:
+def not_writable(file: Path, message: str, hint: str) -> OutputError:
+    """Return the error for a file that can't be written."""
     return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint))

@@ -61,7 +61,7 @@ class _Request(msgspec.Struct, frozen=True):
     inputs: Mapping[str, list[float]]
 
 
-class _Answer(msgspec.Struct):
+class _Examined(msgspec.Struct):
     findings: list[str]
     series: dict[str, dict[str, list[float]]]
     """By kind."""
@@ -123,7 +123,7 @@ def try_out(
     )
 
 
-def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[], None]) -> _Answer:
+def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[], None]) -> _Examined:
     environment = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
     try:
         (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
@@ -136,7 +136,7 @@ def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[]
     return answer
 
 
-def _examine(request: _Request) -> Iterator[_Answer]:
+def _examine(request: _Request) -> Iterator[_Examined]:
     """Yield what FMPy says, in a process of its own: an FMU is native code."""
     import numpy as np
     from fmpy import read_model_description, simulate_fmu
@@ -172,7 +172,7 @@ def _examine(request: _Request) -> Iterator[_Answer]:
                 series[kind] = {name: result[name].tolist() for name in ("time", *names)}
                 problems.pop(kind, None)
                 break
-    yield _Answer(findings, series, problems)
+    yield _Examined(findings, series, problems)
 
 
 def _differences(found: Series, reference: Series) -> dict[str, float]:

@@ -198,7 +198,7 @@ _KINDS = (
 """Value, first and second derivative of a spline through the points `times`, `q`, with second derivatives `m`."""
 
 
-class Course(msgspec.Struct, frozen=True):
+class ModelicaMotion(msgspec.Struct, frozen=True):
     """A motion in Modelica."""
 
     functions: str = ""
@@ -207,7 +207,7 @@ class Course(msgspec.Struct, frozen=True):
     equations: tuple[str, ...] = ()
     """Of a model whose inputs follow the motion."""
 
-    def held(self, motion: Motion, step: float) -> Course:
+    def held(self, motion: Motion, step: float) -> ModelicaMotion:
         """Return the motion as an FMU for co-simulation gets it, whose inputs change at each step alone."""
         declarations, whens, equations = [], [], []
         for number, (one, values) in enumerate(motion.values, 1):
@@ -215,10 +215,10 @@ class Course(msgspec.Struct, frozen=True):
             whens.append(f"held{number} = course{number}(time);")
             equations.append(f"{one.name} = held{number};")
         when = [f"when sample(0, {step!r}) then", *whens, "end when;"]
-        return Course(self.functions, tuple(declarations), (*when, *equations))
+        return ModelicaMotion(self.functions, tuple(declarations), (*when, *equations))
 
 
-def course(motion: Motion) -> Course:
+def course(motion: Motion) -> ModelicaMotion:
     """Return functions of a package, and an equation for each input that calls them."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))
@@ -231,7 +231,7 @@ def course(motion: Motion) -> Course:
             text = _FUNCTION.format(name=name, number=number, count=count, halvings=halvings, **words)
             lines.append(text)
         equations.append(f"{one.name} = course{number}(time);")
-    return Course("".join(lines), (), tuple(equations))
+    return ModelicaMotion("".join(lines), (), tuple(equations))
 
 
 def _constant(name: str, values: Sequence[float]) -> str:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.check.compilers.compiler import Series as Series
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.diagnostics import Diagnostic
-
-Series: TypeAlias = Mapping[str, Sequence[float]]
-"""Numbers by variable; `time` is one of them."""
 
 STOP = 1.0
 """End of a simulation whose model has no `experiment` annotation with one, in s."""

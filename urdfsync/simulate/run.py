@@ -25,7 +25,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncErro
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.simulate import joints
-from urdfsync.simulate.motion import Course, at_rest, course, read_motion
+from urdfsync.simulate.motion import ModelicaMotion, at_rest, course, read_motion
 from urdfsync.simulate.package import SimulatedPackage, check_compiler, find_with_libraries, read_package
 from urdfsync.simulate.results import (
     STOP,
@@ -128,7 +128,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     stop = options.stop or stop
     step = model.step(stop, options.step)
     tolerance = options.tolerance or settings.get("Tolerance", TOLERANCE)
-    followed = course(motion) if motion else Course()
+    followed = course(motion) if motion else ModelicaMotion()
     if motion and options.motion and options.as_exported:
         followed = followed.held(motion, step)
     wanted = [_OWN, joints.pattern(bench.layouts), *(_glob(one) for one in options.variables)]
@@ -146,7 +146,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
 
 
-def _probe(robot: RobotConfig, model: str, course: Course, changes: list[str]) -> str:
+def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
     """Return a package with a model that extends another one; it names the libraries, or rumoca loads none."""
     names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 
+Series: TypeAlias = Mapping[str, Sequence[float]]
+"""Numbers by variable; `time` is one of them."""
 _ROUNDING = 1e-9
 """Of a quotient of two times."""
 
