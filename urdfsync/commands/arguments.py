@@ -17,7 +17,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
 CODES = (
-    "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
+    "exit codes: 0 in step, 1 out of step (status, diff, build --check), 2 error, 3 conflict, "
     "4 another build is running, 130 interrupted"
 )
 DRIVER_ERROR = 255
