@@ -102,6 +102,16 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
 
 
+def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
+    """Each version of the libraries of the Modelica Standard Library: a compiler with means of its own may take any."""
+    return [
+        path
+        for place in library_folders(environment)
+        for name in STANDARD_LIBRARIES
+        for _, path in _versions(place, name)
+    ]
+
+
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
     """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
@@ -115,10 +125,6 @@ class Libraries(msgspec.Struct, frozen=True):
     others: Mapping[str, Path]
     problem: Diagnostic | None = None
     """Why there is no Modelica Standard Library."""
-
-    def state(self) -> list[tuple[str, str, str]]:
-        """What changes whenever one of them does."""
-        return [(name, str(path), library_state(path)) for name, path in {**self.others, **self.standard}.items()]
 
 
 def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], wanted: Iterable[str] = ()) -> Libraries:

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import __version__
 from urdfsync.check import compilers, libraries
-from urdfsync.check.cache import UserCache, digest
+from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import explain
 from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult, one_line
+from urdfsync.check.fingerprint import result_key
 from urdfsync.check.jobs import Jobs
 from urdfsync.check.package import PackageTexts
 from urdfsync.check.process import limits_of
@@ -167,10 +167,9 @@ def _run(
 ) -> tuple[SimulationResult, bool]:
     """Return what a simulation gave, and whether it is that of an earlier one of the same. Raises UrdfsyncError."""
     cache, begin = UserCache.default(), time.monotonic()
-    version = __version__, compilers.installed_version(options.tool)
-    files = (sorted(one.items()) for one in (work.texts, work.around, work.changed))
-    key = digest(*version, work.task, robot.target, *files, work.needed.state())
-    if known := cache.load(key, SimulationResult):
+    facts = work.task, *(sorted(one.items()) for one in (work.texts, work.around, work.changed))
+    key = result_key(robot, [options.tool], work.needed, *facts)
+    if key and (known := cache.load(key, SimulationResult)):
         return known, True
     cache.prepare()
     later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
@@ -190,7 +189,9 @@ def _run(
             (plain,) = jobs.run("plain", work.texts, [check], work.changed)
             result = plain if plain.parameters else result
     simulation = _result(robot, result, options, package, work)
-    cache.save(key, None if simulation.problem else simulation)
+    is_same = key == result_key(robot, [options.tool], work.needed, *facts)  # else somebody has saved meanwhile
+    if key and is_same:
+        cache.save(key, None if simulation.problem else simulation)
     return simulation, False
 
 
