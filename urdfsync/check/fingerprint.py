@@ -33,7 +33,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
     Modelica libraries. None if some of it can't be known: then the result must not be remembered.
     """
     own = find_own_library(LIBRARY, robot.target.package)
-    places = {**needed.standard, **needed.others, **({LIBRARY: own} if own else {})}
+    places = {**needed.others, **({LIBRARY: own} if own else {})}
     if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
         places |= {str(path): path for path in libraries.standard_libraries(os.environ)}
     try:
@@ -41,6 +41,8 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
             *(sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(robot.domain)),
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
+            # of these a copy is used, without resources
+            [(str(path), content_hash(path, [libraries.RESOURCES])) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
         )
