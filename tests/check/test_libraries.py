@@ -222,7 +222,8 @@ def test_a_link_in_a_library_that_could_fill_the_disk_is_refused(link: str, tmp_
     library = put(tmp_path, "Pumps") / "Pumps"
     (library / "Resources").mkdir()
     (tmp_path / "outside.txt").write_text("a secret")
-    targets = {"all": "/", "folder": library, "file": tmp_path / "outside.txt", "device": "/dev/zero"}
+    outside = str(tmp_path / "outside.txt")
+    targets = {"all": "/", "folder": str(library), "file": outside, "device": "/dev/zero"}
     (library / "Resources/link").symlink_to(targets[link])
     said = refused(library, tmp_path / "copy")
     assert said.startswith(f"{library}/Resources/link: the link leads ")
