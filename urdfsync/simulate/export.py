@@ -6,6 +6,7 @@ import io
 import re
 import time
 import zipfile
+import zlib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +23,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import Progress
 from urdfsync.simulate.models import Input
+from urdfsync.simulate.motion import read_motion
 from urdfsync.simulate.package import check_compiler, find_with_libraries, read_package
 from urdfsync.simulate.results import STOP, SimulateOptions
 from urdfsync.simulate.values import modifiers, read_values
@@ -30,6 +32,10 @@ TOLERANCE = 1e-10
 """Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
+_BEGINNING = 2**16
+"""Bytes of a description that have the attributes of its root element, where that stands."""
+_MOST_BYTES = 2**28
+"""Of an FMU whose list of contents is read; such a list may be nearly all of a file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
@@ -84,6 +90,8 @@ def export(
     model, needed = find_with_libraries(config, robot, options, name, package)
     settings, values = model.settings(), read_values(options.values)
     inputs = tuple(model.inputs()) if for_trial else ()
+    if for_trial and options.motion:
+        read_motion(options.motion, inputs)  # what is wrong with it is said before the export, which takes minutes
     stop = options.stop or settings.get("StopTime", STOP)
     experiment = _Experiment(stop, model.step(stop, options.step), options.tolerance or TOLERANCE)
     fmu_name = re.sub(r"\W", "_", model.name)
@@ -147,9 +155,17 @@ def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
 
 
 def is_exported(file: Path) -> bool:
-    """Whether a file is an FMU that urdfsync exported."""
+    """Whether a file is an FMU that urdfsync exported.
+
+    It may be a stranger's: no more is read than the beginning of its description, whatever that unpacks to.
+    """
     try:
+        if not file.is_file() or file.stat().st_size > _MOST_BYTES:
+            return False
         with zipfile.ZipFile(file) as fmu:
-            return _BY_URDFSYNC.encode() in fmu.read(_DESCRIPTION)
-    except (OSError, KeyError, zipfile.BadZipFile):
+            if fmu.getinfo(_DESCRIPTION).compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                return False  # as others unpack whole blocks
+            with fmu.open(_DESCRIPTION) as description:
+                return _BY_URDFSYNC.encode() in description.read(_BEGINNING)
+    except (OSError, KeyError, ValueError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):
         return False

@@ -60,6 +60,8 @@ class _Work(msgspec.Struct):
     needed: libraries.Libraries
     file: Path
     """The file of the model."""
+    is_reference: bool
+    """Whether an FMU is compared with it, by a command that chooses no method."""
 
 
 def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
@@ -109,10 +111,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
     stop, changed, motion = settings.get("StopTime", STOP), dict[Path, bytes](), None
     changes = modifiers(values)
-    if options.motion and not inputs:
-        message = f"`{model.name}` has no inputs that a motion could drive"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
-    if inputs and (options.motion or options.as_exported):
+    if options.motion or (inputs and options.as_exported):
         motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, options.stop or stop)
         stop, driven = motion.times[-1], model.driven(robot.target.package)
         changed = {Path(file): text.encode() for file, text in driven.changed.items()}
@@ -143,7 +142,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     task = msgspec.structs.replace(plain, source=source, parameters=tuple(values))
     own = {path: changed.pop(robot.folder / path, content) for path, content in texts.items()}
     outside = {path: changed.pop(robot.output / path, content) for path, content in around.items()}
-    return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
+    return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file), options.as_exported)
 
 
 def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
@@ -237,7 +236,9 @@ def _end(work: _Work, run: SimulationResult) -> Iterator[Diagnostic]:
         begins = "initial" in words or (when is not None and float(when[1]) == 0)
         what = "does not initialise" if begins else f"stops {moment}"
         kept = f"; results until {run.values['time'][-1]:g} s are kept" if run.values else ""
-        message, hint = f"the simulation of `{work.model}` {what}: {words}", "try another `--method` or `--tolerance`"
+        message, hint = f"the simulation of `{work.model}` {what}: {words}", ""
+        if not work.is_reference:
+            hint = "try another `--method` or `--tolerance`"
         yield Diagnostic(Severity.ERROR, "no-simulation", f"{message}{kept}", shown(work.file), hint=hint)
 
 

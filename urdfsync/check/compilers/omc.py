@@ -34,8 +34,8 @@ from urdfsync.processes import exit_cause
 
 TITLE = "OpenModelica"
 MODULES: tuple[str, ...] = ("scipy",)
-INSTALL = "install OpenModelica, name its program with `omc` in the table `[check]`, or use `--tool rumoca`"
-REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
+INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
+REPORT = "report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 TRIED: tuple[str, ...] = ("1.27",)
 HAS_STANDARD_LIBRARY = True
