@@ -35,8 +35,7 @@ from urdfsync.simulate.results import (
     SimulateOptions,
     SimulateResult,
 )
-from urdfsync.simulate.values import modifiers, read_values
-from urdfsync.spelling import nearest
+from urdfsync.simulate.values import modifiers, nearest_parameter, read_values
 
 _LATER = 1.5
 """Seconds until the compiler is at work."""
@@ -201,7 +200,7 @@ def _result(
     found = []
     for name in work.task.parameters if result.parameters else ():
         if name not in result.parameters:
-            near = nearest(name, result.parameters, 0.8)
+            near = nearest_parameter(name, result.parameters)
             hint = f"did you mean `{near}`?" if near else ""
             found.append(Diagnostic(Severity.ERROR, "set", f"`{work.model}` has no parameter `{name}`", hint=hint))
     for name in result.without_effect:
