@@ -193,6 +193,16 @@ def test_bad_motions_and_missing_programs_are_told_before_the_export(
     assert openmodelica.jobs == []
 
 
+def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(openmodelica: Compiler, execute: Execute) -> None:
+    known = CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))
+    openmodelica.results = [CompileResult("Error: Modified element dampin not found."), known]
+    said = execute("fmu", "--set", "robot.elbow.dampin=1", code=2).words
+    assert "`Arm.ArmRun` has no parameter `robot.elbow.dampin`" in said
+    assert "did you mean `robot.elbow.parameters.dynamics.damping`?" in said
+    openmodelica.results = [CompileResult("Error: Too few equations."), CompileResult()]
+    assert "Too few equations" in execute("fmu", "--set", "robot.elbow.dampin=1", code=2).words
+
+
 def test_no_other_compiler_is_proposed_for_what_only_openmodelica_can(
     arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -35,7 +35,7 @@ from urdfsync.simulate.results import (
     SimulateOptions,
     SimulateResult,
 )
-from urdfsync.simulate.values import modifiers, nearest_parameter, read_values
+from urdfsync.simulate.values import find_unknown, modifiers, read_values
 
 _LATER = 1.5
 """Seconds until the compiler is at work."""
@@ -197,12 +197,7 @@ def _result(
     robot: RobotConfig, result: CompileResult, options: SimulateOptions, package: PackageTexts, work: _Work
 ) -> SimulationResult:
     """Return the simulation of a result. Raises UrdfsyncError if there is none."""
-    found = []
-    for name in work.task.parameters if result.parameters else ():
-        if name not in result.parameters:
-            near = nearest_parameter(name, result.parameters)
-            hint = f"did you mean `{near}`?" if near else ""
-            found.append(Diagnostic(Severity.ERROR, "set", f"`{work.model}` has no parameter `{name}`", hint=hint))
+    found = find_unknown(work.model, work.task.parameters, result.parameters)
     for name in result.without_effect:
         message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
         found.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, NoReturn
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
@@ -29,6 +29,17 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
         if name in found:
             _refuse(f"`{name}` gets two values", "give one of them")
         found[name] = value
+    return found
+
+
+def find_unknown(model: str, names: Iterable[str], known: Collection[str]) -> list[Diagnostic]:
+    """Return an error for each of some names that is none of the parameters of a model; none if these are not known."""
+    found = []
+    for name in names if known else ():
+        if name not in known:
+            near = nearest_parameter(name, known)
+            hint = f"did you mean `{near}`?" if near else ""
+            found.append(Diagnostic(Severity.ERROR, "set", f"`{model}` has no parameter `{name}`", hint=hint))
     return found
 
 
