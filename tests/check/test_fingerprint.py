@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.networks import edit
+from support.networks import RC_FOLDER, edit
 
 from urdfsync import config
 from urdfsync.check.fingerprint import fingerprint
@@ -77,6 +77,15 @@ def test_so_do_another_tool_another_distribution_and_another_wish(
     monkeypatch.setattr("urdfsync.check.compilers.state", lambda _: ["99"])
     found.append(now())
     assert len(set(found)) == 4
+
+
+def test_so_does_another_line_of_a_domain(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which is no part of urdfsync, and says no version."""
+    before = now()
+    copy = tmp_path / "rc_domain.py"
+    copy.write_text((RC_FOLDER / "rc_domain.py").read_text() + "# a line\n")
+    monkeypatch.setattr("rc_domain.__file__", str(copy))
+    assert now() not in (before, None)
 
 
 def test_contents_count_and_neither_sizes_nor_times(project: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import msgspec
@@ -85,9 +85,9 @@ def _code(file: str) -> str:
 
 
 def _domain_code(name: str) -> list[str]:
-    """Hash the code of a domain: of the top-level package or module that it comes from. Raises OSError."""
-    module = sys.modules[type(registry.domain(name)).__module__.partition(".")[0]]
-    files: Iterable[str] = [module.__file__] if module.__file__ else (f"{path}/__init__.py" for path in module.__path__)
+    """Hash the code of a domain, which is loaded: of the top-level package or module that it comes from."""
+    module = sys.modules[registry.top_level(name)]
+    files = [module.__file__] if module.__file__ else [f"{path}/__init__.py" for path in module.__path__]
     return [_code(file) for file in files]
 
 
