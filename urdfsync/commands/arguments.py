@@ -113,7 +113,7 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
 
 def add_program_trust(parser: Parser) -> None:
     """Add the option that trusts a program of the configuration."""
-    trust = "start the program that `omc` in the configuration names"
+    trust = "start OpenModelica though the configuration chooses it, or names its program with `omc`"
     parser.add_argument("--trust", action="store_true", help=trust)
 
 
