@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import msgspec
@@ -305,6 +306,21 @@ def test_an_expansion_of_a_stranger_is_only_compared(built: Path, execute: Execu
         said = execute("status", "-v").out
     assert said.startswith(f"arm: {CHANGED}")
     assert "\x1b" not in said
+    execute("build")
+    assert EXPANDED.read_bytes() == dumps(own)
+
+
+def test_a_pattern_of_a_stranger_is_none_of_folders(built: Path, execute: Execute) -> None:
+    own = loads(EXPANDED.read_bytes())
+    assert own is not None
+    for name in ("a", "b"):
+        (built / name).symlink_to(".")
+    patterns = ["*/" * 30 + "x", "/*/*/*/*/*/*", "**/*", "a\0b/*", "/dev/zero/*", "/proc/self/fd/*"]
+    EXPANDED.write_bytes(dumps(msgspec.structs.replace(own, patterns=dict.fromkeys(patterns, "1"))))
+    begin = time.monotonic()
+    execute("status")
+    execute("build", "--check", code=None)
+    assert time.monotonic() - begin < 30
     execute("build")
     assert EXPANDED.read_bytes() == dumps(own)
 

@@ -6,7 +6,6 @@ has changed.
 
 from __future__ import annotations
 
-import glob
 import os
 import re
 import shlex
@@ -17,10 +16,10 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import depend_on, mark_incomplete, read_file, read_variable
+from urdfsync.dependencies import read_file, read_variable
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine import ros_packages
-from urdfsync.engine.xacro_worker import Answer, Problem, Request
+from urdfsync.engine.xacro_worker import Answer, Problem, Request, find_matches
 from urdfsync.extras import install_command
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.processes import exit_cause, importable, python_module
@@ -126,11 +125,8 @@ def file_hash(path: Path) -> str | None:
 
 def names_hash(pattern: Path) -> str:
     """Return a hash of the names of files that match a pattern."""
-    if glob.has_magic(str(pattern.parent)):
-        mark_incomplete()  # which folders are looked through is not recorded
-    depend_on(pattern.parent)
-    names = sorted(Path(path).name for path in glob.glob(str(pattern)))  # noqa: PTH207 - as xacro does
-    return digest("\0".join(names).encode(errors="surrogateescape"))
+    names = "\0".join(os.path.basename(path) for path in find_matches(str(pattern)))  # noqa: PTH119
+    return digest(names.encode(errors="surrogateescape"))
 
 
 def variable_hash(name: str) -> str | None:
