@@ -48,16 +48,14 @@ class Inputs:
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
         self.root, self.source, self.package_paths = root, source, tuple(package_paths)
-        self._packages: dict[str, Path | None] = {}
+        self._packages = ros_packages.Packages(self.package_paths, source)
 
     def path(self, name: str) -> Path | None:
         """Return the path of a file by its name; None if its package is not on this machine."""
         if not name.startswith(_PACKAGE):
             return Path(os.path.normpath(self.root / name))
         package, _, rest = name.removeprefix(_PACKAGE).partition("/")
-        if package not in self._packages:
-            self._packages[package] = ros_packages.find_package(package, self.package_paths, self.source)
-        folder = self._packages[package]
+        folder = self._packages.folder(package)
         return folder / rest if folder else None
 
     def name(self, path: str | Path, packages: Mapping[str, str]) -> str:

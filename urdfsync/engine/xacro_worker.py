@@ -39,6 +39,8 @@ if sys.platform != "win32":
 _GRACE = 2
 """Seconds of CPU time after which native code that does not return is ended."""
 _PLACE = "place"
+_LONGEST = 500
+"""Characters of a message, which quotes the expression, and that may be a stranger's."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """How lines begin by which xacro says where it is."""
 
@@ -220,12 +222,11 @@ def expand(request: Request) -> Answer:
     except ImportError as error:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
     files, packages, said = _Files(), dict[str, str](), io.StringIO()
-    folders = [Path(folder) for folder in request.package_paths]
+    known = ros_packages.Packages([Path(folder) for folder in request.package_paths], Path(request.source))
 
     def find(name: str) -> str:
-        source = Path(request.source)
-        if (folder := ros_packages.find_package(name, folders, source)) is None:
-            places = (str(place / name / "package.xml") for place in (*folders, *source.parents))
+        if (folder := known.folder(name)) is None:
+            places = (str(place / name / "package.xml") for place in (*known.folders, *known.source.parents))
             files.hashes.update(dict.fromkeys(places))
             raise PackageNotFoundError(name)
         packages[name] = str(folder)
@@ -336,7 +337,7 @@ def _problem(error: BaseException, current: str) -> Problem:
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)
-    return Problem("xacro", message or type(cause).__name__, file, line)
+    return Problem("xacro", message[:_LONGEST] or type(cause).__name__, file, line)
 
 
 def _kind(content: bytes) -> FileKind | None:
