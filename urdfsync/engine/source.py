@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
-_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
 _XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """Lines that a message names."""
