@@ -15,7 +15,7 @@ from urdfsync.output.outline import change_row, outline
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
-NOT_EXPANDED = "inputs changed, not expanded"
+NOT_EXPANDED = "inputs changed since the last build"
 """What is said of a source that xacro, or a command, would have to make again."""
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
 _SETTLES = (Kind.ADOPT, Kind.CONFLICT, Kind.UNOWNED)
