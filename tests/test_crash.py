@@ -28,7 +28,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 from urdfsync.state.planned import is_interrupted
-from urdfsync.state.record import Choice
 
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
 REMOVED = f"{LADDER}/Elements/R2.mo"
