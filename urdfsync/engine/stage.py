@@ -65,7 +65,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     aside = {path: encode(text) for version in versions for path, text in version}
     changes = store.fill(CONFLICTS, robot.name, aside, former)
     changes += store.fill(BASE, robot.name, _bases(generation, decision, record) if record else {}, former)
-    before = put_aside(generation, decision.actions, decision.texts) if record else {}
+    before = put_aside(generation, decision.actions, decision.texts, decision.moved) if record else {}
     changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
 
     drawing = None
