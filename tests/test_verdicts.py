@@ -19,7 +19,9 @@ pytestmark = NEEDS_GIT
 ROBOT = """\
 <robot name="arm">
   <link name="base"/>
-  <link name="fore"><inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="fore">
+    <inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+  </link>
   <joint name="elbow" type="revolute">
     <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>
   </joint>
@@ -64,7 +66,7 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
 
     def ask() -> Verdict:
         repository.commit()
-        codes, said = [], []
+        codes, said = list[int](), []
         for command in (["status", "--json"], ["build", "--check", "--json"]):
             capsys.readouterr()
             codes.append(cli.main(command))
@@ -75,14 +77,14 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
         assert repository.git("status", "--porcelain") == "", "nothing of this writes"
         build = cli.main(["build"])
         wrote = repository.git("status", "--porcelain") != ""
-        return Verdict(*codes, hook, build, said[0], wrote)
+        return Verdict(codes[0], codes[1], hook, build, said[0], wrote)
 
     return ask
 
 
-GREEN = Verdict(0, 0, 0, 0, True, False)
+GREEN = Verdict(0, 0, 0, 0, in_step=True, wrote=False)
 """In step: nothing to write."""
-LATE = Verdict(1, 1, 1, 0, False, True)
+LATE = Verdict(1, 1, 1, 0, in_step=False, wrote=True)
 """Out of step: a build brings it in step."""
 
 

@@ -147,7 +147,8 @@ class RobotFiles:
         self._commit, self.config, self.robot, self.planned = commit, config, robot, planned
         state = config.root / STATE_FOLDER
         store = Store(config.root)
-        kept = [store.path(robot.name), store.expansion(robot.name), state / ".gitignore", state / ".gitattributes"]
+        recorded = [store.path(robot.name), store.expansion(robot.name), *store.base_files(robot.name)]
+        kept = [*recorded, state / ".gitignore", state / ".gitattributes"]
         self.outputs = commit.paths([*kept, *parents.files(robot)])
         """Files that a commit has to have if they exist."""
         read = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
@@ -158,7 +159,7 @@ class RobotFiles:
         )
         """These, and files that could have been there."""
         self.note(planned)
-        self.states = f"{commit.path(state / 'robots')}/"
+        self.states = f"{commit.path(state / 'robots')}/", f"{commit.path(state / 'bases')}/"
         self._others = {one.name for one in config.robots} - {robot.name}
         folders = [robot.folder, *([robot.templates] if robot.templates else [])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
@@ -172,9 +173,11 @@ class RobotFiles:
 
     def select(self, paths: Iterable[str]) -> set[str]:
         """Return those of the paths that are the robot's, or a state of a robot that is no more."""
-        found = {path for path in paths if path in self.known or path.startswith((*self.folders, self.states))}
+        found = {path for path in paths if path in self.known or path.startswith((*self.folders, *self.states))}
         others = {path for path in found - self.known if path.startswith(self.states)}
-        return found - {path for path in others if PurePosixPath(path).stem in self._others}
+        bases = self.states[1]
+        robots = {path: path.removeprefix(bases).partition("/")[0] for path in others if path.startswith(bases)}
+        return found - {path for path in others if robots.get(path, PurePosixPath(path).stem) in self._others}
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""
@@ -194,7 +197,7 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(config.file), hint=hint))
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
     if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
-        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, one.states)}
+        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, *one.states)}
         uptodate.save_answer(file, key, sorted(needed), everything)
         return []
     faults, to_build = [], []
