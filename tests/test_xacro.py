@@ -139,7 +139,7 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert "mass = 1.5" in Path(RECORD).read_text()
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
-        assert execute("status").lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
         assert execute("status", "--json").json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
@@ -244,7 +244,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
-    assert execute("status").lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+    assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 

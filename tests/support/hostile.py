@@ -151,7 +151,8 @@ class Stranger:
         text, name = b"\xff\xfe", Path(RECORD).relative_to("modelica/Arm")
         manifest = (self.project / MANIFEST).read_text()
         self.write(MANIFEST, re.sub(rf"file \w+  {name}", f"file {_digest(text)}  {name}", manifest))
-        self.write(f".urdfsync/base/arm/{_digest(text)}", text)
+        line = f'{_digest(text)} "'.encode() + text + b'"\n'
+        self.write(f".urdfsync/bases/arm/{_digest(text)[0]}", line)
 
     def entities(self) -> None:
         declared = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(12))
@@ -240,7 +241,7 @@ COMMITTED: Mapping[str, Attack] = {
     "temporary planned hashes that are a link": lambda one: one.link(
         ".urdfsync/.planned.json.urdfsync-tmp", "victim.mo"
     ),
-    "bases that are a link": lambda one: one.link(".urdfsync/base/arm", "folder"),
+    "bases that are a link": lambda one: one.link(".urdfsync/bases/arm", "folder"),
     "an answer that is a link": lambda one: one.link(".urdfsync/stamp", "victim.mo"),
     "a lock that is a link": lambda one: one.link(".urdfsync/lock", "victim.mo"),
     "conflicts that are a link": lambda one: one.link(".urdfsync/conflicts", "folder"),

@@ -18,7 +18,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
 CODES = (
-    "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
+    "exit codes: 0 in step, 1 out of step (status, diff, build --check), 2 error, 3 conflict, "
     "4 another build is running, 130 interrupted"
 )
 DRIVER_ERROR = 255
@@ -114,7 +114,7 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
 
 def add_program_trust(parser: Parser) -> None:
     """Add the option that trusts a program of the configuration."""
-    trust = "start the program that `omc` in the configuration names"
+    trust = "start OpenModelica though the configuration chooses it, or names its program with `omc`"
     parser.add_argument("--trust", action="store_true", help=trust)
 
 

@@ -60,8 +60,8 @@ class CheckConfig(msgspec.Struct, frozen=True):
     """The compiler: `rumoca`, `omc`, or `both`."""
     omc: str = ""
     """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
-    omc_line: int = 0
-    """The line of the configuration that names it."""
+    lines: Mapping[str, int] = {}
+    """Line of every key in the configuration."""
 
 
 class RobotConfig(msgspec.Struct, frozen=True):
