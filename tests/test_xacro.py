@@ -206,7 +206,7 @@ def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, mon
     text = xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')
     xacros.write(project, {"arm.urdf.xacro": text}, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
     execute("build")
-    assert "boxSize" not in execute("status", code=1).out
+    assert "boxSize" not in execute("status").out
     monkeypatch.setenv("LONG", "3")
     assert execute("status", code=1).lines[1:] == ["  $LONG"]
     execute("build")
@@ -301,7 +301,7 @@ def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execu
 
 def test_status_before_the_first_build(project: Path, execute: Execute) -> None:
     with unchanged(project):
-        assert execute("status", code=1).lines == [
+        assert execute("status", code=1).lines[:2] == [
             "arm: not expanded, so its files were not compared",
             "  no expansion is recorded",
         ]
@@ -626,7 +626,7 @@ def test_a_command_is_run_only_with_the_users_word(
 ) -> None:
     with unchanged(commanded):
         assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
-        assert execute("status", code=1).lines == [
+        assert execute("status", code=1).lines[:2] == [
             "arm: not expanded, so its files were not compared",
             "  no expansion is recorded",
         ]
