@@ -800,7 +800,8 @@ def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
 def test_a_text_that_is_not_taken_is_named(contradictory: Path, execute: Execute, editor: Editor) -> None:
     edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
     edit("ladder.json", '"R1"', '"R8"')
-    editor("if file.name == 'Ladder.mo': sys.exit(1)\n")
+    generated = "re.sub('<<<<<<<.*?=======\\n|>>>>>>>.*?\\n', '', file.read_text(), flags=re.S)"
+    editor(f"import re\nif file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text({generated})")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", "--all", "--edit", code=2).err
     assert "the editor ended with exit code 1" in error
