@@ -16,7 +16,6 @@ from support.files import unchanged
 from support.networks import (
     C1,
     LADDER,
-    MANIFEST,
     R1,
     R2,
     RECORD,
@@ -267,7 +266,7 @@ def test_a_clone_reaches_the_same_result(
     if built:
         run()
         run()
-    local = ("base", "conflicts", "lock")
+    local = ("conflicts", "lock")
     other = shutil.copytree(project, tmp_path / "clone", ignore=shutil.ignore_patterns(*local))
     first = run()
     run(choices={RECORD: Choice.MERGE})
@@ -278,38 +277,11 @@ def test_a_clone_reaches_the_same_result(
     assert "150" in (other / RECORD).read_text()
 
 
-def test_a_clone_keeps_bases_before_they_can_be_rendered_no_more(project: Path) -> None:
-    run()
-    edit(R1, "equation", SENSOR)
-    run()
-    shutil.rmtree(project / ".urdfsync/base")
-    assert run().in_step
-    assert len(list((project / ".urdfsync/base/ladder").iterdir())) == 1
-    configure('templates = "own"\n')
-    own = project / "own/element"
-    own.mkdir(parents=True)
-    text = (Path(__file__).parent / "rcnetwork/templates/element/model.mo.jinja").read_text()
-    (own / "model.mo.jinja").write_text(text.replace("end <<", "  annotation (Icon);\nend <<"))
-    (found,) = [s for s in run().conflict_texts if s.path == R1]
-    assert found.merge is not None
-    assert found.merge.text is not None
-
-
-def test_a_lost_base_is_rendered_by_the_options_that_it_was_written_with(project: Path) -> None:
-    run()
-    edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
-    configure('prefix = "pin"\n')
-    (found,) = run().conflict_texts
-    assert found.base is not None
-    assert found.merge is not None
-
-
 def test_without_its_base_a_conflict_has_no_merge(project: Path) -> None:
     run()
     edit(RECORD, "end R1", MAY)
     resistor(150)
-    lines = Path(MANIFEST).read_text().splitlines(keepends=True)
-    Path(MANIFEST).write_text("".join(line for line in lines if not line.startswith("model ")))
+    shutil.rmtree(".urdfsync/bases")
     (found,) = run().conflict_texts
     assert found.base is None
     assert found.merge is None

@@ -188,16 +188,16 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     files were replaced.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = {".urdfsync/lock", ".urdfsync/base", ".urdfsync/replaced"}
+    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/replaced"}
     names = [name for name in found if left_out.isdisjoint((name, *map(str, PurePosixPath(name).parents)))]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
-    return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
+    return contents | {f".urdfsync/bases/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
 
 def _needed(project: Path, robot: str) -> bytes:
     """The bases that a record needs, by their hashes."""
     store = Store(project)
-    state, bases = store.load(robot), store.bases(robot)
+    state = store.load(robot)
     assert state is not None
     needed = {sha256 for file in state.files.values() for sha256 in file.hashes}
-    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()
+    return repr([(digest, store.base(robot, digest)) for digest in sorted(needed)]).encode()

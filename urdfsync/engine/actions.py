@@ -39,8 +39,6 @@ DELETES = frozenset({Kind.DELETE, Kind.LEAVE})
 """Actions that take a file away."""
 CONFLICTS = frozenset({Kind.CONFLICT, Kind.UNOWNED})
 """Actions that leave a file alone although other content is wanted."""
-IN_STEP = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET})
-"""Actions on files that are as they should be, edits apart."""
 DISPUTED = CONFLICTS | {Kind.MOVE}
 """Actions that the texts, or the user, decide on."""
 USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.CONFLICT, Kind.ORPHAN})

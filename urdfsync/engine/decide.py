@@ -134,7 +134,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     mine, generated = files.text(key), generation.content(action.path).decode()
     record = generation.inputs.recorded_files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
+    bases = [base for one in hashes if one and (base := generation.inputs.base(one)) is not None]
     if mine is not None:
         found = find_conflict(action, bases, mine, generated, names)
         return msgspec.structs.replace(found, edited=_edited_text(generation.inputs, action))

@@ -43,7 +43,7 @@ def find_edited(generation: Generation) -> Iterator[EditedFile]:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.kind is not Kind.LEAVE
         if is_text and action.mine not in (None, action.base, action.generated):
-            base = generation.base(key, action.base) if action.base else None
+            base = generation.inputs.base(action.base) if action.base else None
             yield EditedFile(key, action.owner, base, files.any_text(key))
 
 

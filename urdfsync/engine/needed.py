@@ -35,7 +35,7 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     not: he is told the new name. What a file that he keeps mentions stays whatever it is, and so does what is mentioned
     or shown by what stays.
     """
-    inputs, files, before = generation.inputs, generation.inputs.files, generation.last_package
+    inputs, files, before = generation.inputs, generation.inputs.files, generation.inputs.last_package
     leaving = {one.path: one for one in actions if one.kind is Kind.DELETE}
     texts = inputs.users_classes([one for one in actions if one.kind in USERS], actions, merged)
     all_words = {word for text in texts.values() for word in code_words(text)}

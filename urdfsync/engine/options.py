@@ -32,8 +32,6 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
     expansions: dict[str, Expansion] = msgspec.field(default_factory=dict)
     """Sources that this command, or the daemon, has expanded, by robot: the daemon judges a source, then builds it."""
-    compares_state: bool = False
-    """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False

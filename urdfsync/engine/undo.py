@@ -130,7 +130,7 @@ def _written_over(
             before = files.text(action.path) or ""
             base = before if action.mine == action.base else None
             if base is None and action.base:
-                base = generation.base(action.path, action.base)
+                base = inputs.base(action.base)
             yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
         elif action.writes and action.path in moved:
             one, after = moved[action.path], texts.get(action.path)

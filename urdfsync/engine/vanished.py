@@ -222,7 +222,7 @@ def _recorded(generation: Generation) -> dict[str, str]:
     """Return the texts of the last complete build by their keys."""
     records = generation.inputs.recorded_files
     return {
-        key: generation.base(key, record.generated) or ""
+        key: generation.inputs.base(record.generated) or ""
         for key, record in records.items()
         if record.hashes and key.endswith(".mo")
     }

@@ -3,9 +3,9 @@
 1. The planned hashes are put aside under a temporary name.
 2. All new files are written beside their targets under temporary names, and brought to the disk.
 3. The planned hashes take their place. Until then nothing has changed, and an error leaves no trace.
-4. Each target is exchanged with its new file, deletions last. The old file stands under the temporary name then, where
-   its hash shows whether it is the one that was planned with. If it is not, somebody has saved the target in between:
-   the two are exchanged back, and the target is *overtaken*.
+4. Each target is exchanged with its new file, bases first, deletions last. The old file stands under the temporary
+   name then, where its hash shows whether it is the one that was planned with. If it is not, somebody has saved the
+   target in between: the two are exchanged back, and the target is *overtaken*.
 5. The recorded state takes its place, unless a target was overtaken.
 6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken: those
    stand until a build of this robot is complete.
@@ -178,7 +178,9 @@ class Transactions:
         state_folder = str(self._state_folder / "robots")
         state = [target for target in targets if target.folder == state_folder]
         others = [target for target in targets if target.folder != state_folder]
-        others.sort(key=lambda target: target.new is None)
+        bases = f"{self._state_folder / 'bases'}{os.sep}"
+        # a base is there before the file that was generated with it, and goes after it
+        others.sort(key=lambda one: (one.new is None, one.folder.startswith(bases) == (one.new is None)))
         changed = [(target, target.change()) for target in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
