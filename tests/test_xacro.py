@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import msgspec
@@ -22,7 +23,7 @@ from support.xacros import EXPANDED, RECORD
 from urdfsync import dependencies
 from urdfsync.state.expansion import dumps, loads
 
-CHANGED = "inputs changed, not expanded"
+CHANGED = "inputs changed since the last build"
 
 
 @pytest.fixture
@@ -138,7 +139,7 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert "mass = 1.5" in Path(RECORD).read_text()
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
-        assert execute("status").lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
         assert execute("status", "--json").json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
@@ -174,6 +175,25 @@ def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute
         file.write("# a comment\n")
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
+
+
+def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, execute: Execute) -> None:
+    package, before = outputs(built), EXPANDED.read_bytes()
+    (built / "urdf/parts/other.xacro").write_text("nobody reads this")
+    (built / "urdf/masses.yaml").write_text("upper: 1.5\r\n", newline="")
+    (built / "urdf/arm.urdf.xacro").touch()
+    for command in (["build"], ["build", "--full"]):
+        execute(*command)
+        assert EXPANDED.read_bytes() == before
+    (built / "urdf/masses.yaml").write_text("upper: 1.50\n")
+    assert execute("status").lines[1:] == ["  urdf/masses.yaml"]
+    execute("build")
+    after = EXPANDED.read_bytes()
+    assert after != before
+    assert after.partition(b"<?xml")[2] == before.partition(b"<?xml")[2]
+    assert outputs(built) == package
+    execute("build")
+    assert EXPANDED.read_bytes() == after
 
 
 def test_line_ends_are_no_change(built: Path, execute: Execute) -> None:
@@ -224,7 +244,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
-    assert execute("status").lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+    assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 
@@ -298,13 +318,35 @@ def test_a_damaged_expansion_is_none(built: Path, execute: Execute, damage: str)
 def test_an_expansion_of_a_stranger_is_only_compared(built: Path, execute: Execute) -> None:
     own = loads(EXPANDED.read_bytes())
     assert own is not None
-    files = {"a\0b": "1", "/dev/zero": "1", "package://../../etc/passwd": "1", "a" * 9999: "1", "\x1b[31mred": "1"}
+    files = {
+        "a\0b": "1",
+        "/dev/zero": "1",
+        "package://../../etc/passwd": "1",
+        "package://a\0b/c": "1",
+        "a" * 9999: "1",
+        "\x1b[31mred": "1",
+    }
     odd = msgspec.structs.replace(own, files={**own.files, **files}, places="x=1:2 7", variables={"a=b": "1", "": "1"})
     EXPANDED.write_bytes(dumps(odd))
     with unchanged(built):
         said = execute("status", "-v").out
     assert said.startswith(f"arm: {CHANGED}")
     assert "\x1b" not in said
+    execute("build")
+    assert EXPANDED.read_bytes() == dumps(own)
+
+
+def test_a_pattern_of_a_stranger_is_none_of_folders(built: Path, execute: Execute) -> None:
+    own = loads(EXPANDED.read_bytes())
+    assert own is not None
+    for name in ("a", "b"):
+        (built / name).symlink_to(".")
+    patterns = ["*/" * 30 + "x", "/*/*/*/*/*/*", "**/*", "a\0b/*", "/dev/zero/*", "/proc/self/fd/*"]
+    EXPANDED.write_bytes(dumps(msgspec.structs.replace(own, patterns=dict.fromkeys(patterns, "1"))))
+    begin = time.monotonic()
+    execute("status")
+    execute("build", "--check", code=None)
+    assert time.monotonic() - begin < 30
     execute("build")
     assert EXPANDED.read_bytes() == dumps(own)
 
@@ -425,6 +467,38 @@ def test_a_robot_of_another_name_takes_its_expansion_along(
     assert execute("status").lines == ["leg: in step, 15 files"]
 
 
+def test_xacro_is_noticed_whatever_its_name(project: Path, execute: Execute) -> None:
+    (project / "urdf/arm.urdf.xacro").rename(project / "urdf/arm.urdf")
+    (project / "urdfsync.toml").unlink()
+    execute("init", "urdf/arm.urdf", "length:=0.75")
+    assert 'arguments = { length = "0.75" }' in (project / "urdfsync.toml").read_text()
+    shutil.copy("urdf/arm.urdf", "urdf/second.urdf")
+    execute("add", "urdf/second.urdf")
+    execute("build")
+    assert "0.75" in EXPANDED.read_text()
+    assert "0.5" in EXPANDED.with_name("second.expanded").read_text()
+    assert "nothing changed" in execute("diff", "urdf/second.urdf", "--against", "urdf/arm.urdf").out
+    assert "0.25" in execute("record", "urdf/arm.urdf", "length:=0.25").out
+    (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
+    assert execute("status", "second").lines == [f"second: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "<!-- <xacro:macro name='leg'/> ${mass} -->",
+        '<xacro:include filename="$(find gone)/colors.xacro"/>',
+        '<gazebo reference="base"><xacro:grey/></gazebo>',
+    ],
+)
+def test_an_expanded_urdf_may_have_leftovers_of_xacro(folder: Path, execute: Execute, line: str) -> None:
+    (folder / "arm.urdf").write_text(f'{xacros.HEAD.format("arm")}{line}\n<link name="base"/>\n</robot>')
+    execute("init", "arm.urdf")
+    execute("build")
+    assert not EXPANDED.exists()
+    assert "no source is xacro" in execute("record", "arm.urdf", "a:=1", code=2).err
+
+
 def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:
     (built / "urdf/arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
     (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
@@ -442,7 +516,9 @@ def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
     execute("add", "urdf/second.urdf.xacro", "name:=second")
     execute("build")
     assert "0.75" in execute("record", "urdf/arm.urdf.xacro", "length:=0.75").out
-    assert "is an argument of xacro" in execute("record", "urdf/arm.urdf", "length:=0.75", code=2).err
+    (project / "urdf/plain.urdf").write_text('<robot name="plain"><link name="base"/></robot>')
+    assert "is an argument of xacro" in execute("record", "urdf/plain.urdf", "length:=0.75", code=2).err
+    assert "can't be read" in execute("record", "urdf/gone.urdf", "length:=0.75", code=2).err
 
 
 @pytest.mark.slow

@@ -257,7 +257,7 @@ def test_mistakes_with_a_configuration(project: Path, execute: Execute, argument
 def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
     (built / "ladder.json").unlink()
     assert "the source ladder.json does not exist" in refused(execute, "ladder.json")
-    assert "the source can't be read" in refused(execute, "ladder.json", "--against", "step.csv")
+    assert "the source ladder.json does not exist" in refused(execute, "ladder.json", "--against", "step.csv")
 
 
 def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:

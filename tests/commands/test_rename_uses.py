@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import support.urdfs as urdfs
 from support.commands import Execute
+from support.crashes import Operation, before_each
 from support.files import unchanged
 
 CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\nusers = ["../plant"]\n'
@@ -320,3 +321,21 @@ def test_a_name_that_another_element_has_now_is_told(user: Path, execute: Execut
     ]
     assert "--rename-uses" not in printed.err
     assert Path("Swap.mo").read_text() == model
+
+
+def test_a_model_that_is_saved_while_others_are_written_stays(user: Path, execute: Execute) -> None:
+    """The others are written; nothing is built before all are."""
+    saved = f"// saved\n{CELL}"
+    once = iter([saved])
+
+    def save(found: Operation) -> None:
+        if found.name == "exchange" and user / "Cell.mo" in found.paths and (text := next(once, "")):
+            Path("Cell.mo").write_bytes(text.encode())
+
+    with before_each(save):
+        error = execute(*COMMAND, "--yes", code=2).err
+    assert "Cell.mo: error: it has changed meanwhile, and stays as it is now; run the command again" in error
+    assert "2 other files written, nothing built" in error
+    assert texts() == {**RENAMED, "Cell.mo": saved}
+    execute(*COMMAND, "--yes")
+    assert texts() == {**RENAMED, "Cell.mo": f"// saved\n{RENAMED['Cell.mo']}"}

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 from support.commands import Execute
+from support.crashes import Operation, before_each
 from support.files import unchanged
-from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
+from support.networks import LADDER, MANIFEST, RC_FOLDER, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
+from urdfsync.commands.build import build_and_check
+from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 
 MODEL = f"{LADDER}/Ladder.mo"
@@ -355,10 +359,43 @@ def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute)
     assert (
         "it is no longer generated: there is nothing to merge" in execute("resolve", str(orphan), "--merge", code=2).err
     )
-    execute("resolve", str(orphan), "--take")
+    assert f"  accepted   {orphan.relative_to(Path.cwd())}  deleted" in execute("resolve", str(orphan), "--take").lines
     assert not orphan.exists()
     assert not orphan.with_name("R2Parameters.mo").exists()
     assert classes() == set()
+
+
+def test_an_orphan_that_was_deleted_can_be_given_back(orphan: Path, execute: Execute) -> None:
+    mine = orphan.read_text()
+    execute("resolve", str(orphan), "--take")
+    assert classes() == set()
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    execute("resolve", str(orphan), "--undo")
+    for _ in range(2):
+        assert orphan.read_text() == mine
+        assert classes() == {"R2"}
+        execute("build", "--check")
+    execute("resolve", str(orphan), "--undo", code=2)
+
+
+def test_a_file_that_took_the_place_of_a_deleted_one_stays(orphan: Path, execute: Execute) -> None:
+    execute("resolve", str(orphan), "--take")
+    orphan.write_text("model R2\nend R2;\n")
+    execute("resolve", str(orphan), "--undo", code=2)
+    assert orphan.read_text() == "model R2\nend R2;\n"
+
+
+def test_what_was_not_taken_along_by_a_rename_can_be_given_back(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(f"{LADDER}/Elements/R1.mo", "equation", "  Real mine;\nequation")
+    edit("ladder.json", '"R1"', '"R8"')
+    renamed = Path(f"{LADDER}/Elements/R8.mo")
+    execute("resolve", f"{LADDER}/Elements/R1.mo", "--take")
+    assert "Real mine;" not in renamed.read_text()
+    execute("resolve", str(renamed), "--undo")
+    assert "Real mine;" in renamed.read_text()
+    assert "end R8;" in renamed.read_text()
     execute("build", "--check")
 
 
@@ -413,7 +450,7 @@ def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: 
     for command in (["build"], ["build", "--merge"], ["build", "--full", "--merge"]):
         assert execute(*command).lines[0] == "ladder: in step, 16 files, 1 kept because you edited it"
     error = execute("resolve", MODEL, "--undo", code=2).err
-    assert "there is nothing to give back" in error
+    assert "nothing to undo" in error
     execute("resolve", MODEL, "--merge")
     assert Path(MODEL).read_text() == both
 
@@ -457,7 +494,7 @@ def test_the_next_export_merges_what_was_undone_too(merged: Path, execute: Execu
 def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     with unchanged(merged, but=".urdfsync/lock"):
-        assert "or the file was saved since" in execute("resolve", MODEL, "--undo", code=2).err
+        assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
 
 
 def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
@@ -480,7 +517,7 @@ def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -
     execute("build")
     more("R3")
     execute("build")
-    assert "there is nothing to give back" in execute("resolve", MODEL, "--undo", code=2).err
+    assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
 
 
 def test_a_save_that_takes_back_a_merge_is_told(merged: Path, execute: Execute) -> None:
@@ -527,6 +564,102 @@ def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: E
         (merged / ".urdfsync/replaced/ladder" / name).write_text("model X end X;")
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     execute("build")
+
+
+# What is saved meanwhile
+
+
+def save_before(monkeypatch: pytest.MonkeyPatch, path: Path, old: str, new: str) -> None:
+    """Let somebody save a file after `resolve` has looked at it, and before it builds."""
+
+    def save_and_build(*arguments: Any) -> Iterator[Result]:
+        edit(path, old, new)
+        return build_and_check(*arguments)
+
+    monkeypatch.setattr("urdfsync.commands.resolve.build_and_check", save_and_build)
+
+
+CHANGED = "it has changed since it was looked at, so your choice does not count for it; look at it, then choose again"
+
+
+@pytest.mark.parametrize("choice", ["--take", "--keep", "--edit", "--merge --prefer generated"])
+@pytest.mark.parametrize("named", [MODEL, "--all"])
+def test_a_file_that_is_saved_after_the_look_stays_in_conflict(
+    contradictory: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, choice: str, named: str, editor: Editor
+) -> None:
+    editor(SETTLE)
+    save_before(monkeypatch, Path(MODEL), MINE, '"Element R2, 2 %"')
+    printed = execute("resolve", named, *choice.split(), code=3)
+    assert CHANGED in printed.err
+    assert "accepted" not in printed.out
+    assert '"Element R2, 2 %"' in Path(MODEL).read_text()
+    assert conflicts(execute) == ["Ladder.mo"]
+
+
+def test_a_merge_is_not_taken_of_a_text_that_nobody_has_seen(
+    clean: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_before(monkeypatch, Path(MODEL), "Real mine = 1", "Real mine = 2")
+    assert CHANGED in execute("resolve", MODEL, "--merge", code=3).err
+    assert FRESH not in Path(MODEL).read_text()
+
+
+def test_an_export_after_the_look_is_not_taken(clean: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    save_before(monkeypatch, Path("ladder.json"), '"R3"', '"R4"')
+    assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert "Real mine" in Path(MODEL).read_text()
+
+
+def test_an_orphan_that_is_saved_after_the_look_is_not_deleted(
+    orphan: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_before(monkeypatch, orphan, "Real mine;", "Real mine, yours;")
+    assert CHANGED in execute("resolve", str(orphan), "--take", code=3).err
+    assert "Real mine, yours;" in orphan.read_text()
+
+
+def test_an_edit_without_conflict_that_is_saved_after_the_look_stays(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    execute("build")
+    edit(MODEL, "equation", "  Real mine;\n\nequation")
+    save_before(monkeypatch, Path(MODEL), "Real mine;", "Real mine, yours;")
+    assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert "Real mine, yours;" in Path(MODEL).read_text()
+
+
+@pytest.mark.parametrize("operation", ["write", "exchange", "sync"])
+def test_a_save_while_the_choice_is_carried_out_stays(contradictory: Path, execute: Execute, operation: str) -> None:
+    saved = Path(MODEL).read_text().replace("1 %", "2 %")
+
+    def save(found: Operation) -> None:
+        if found.name == operation:
+            Path(MODEL).write_text(saved)
+
+    with before_each(save):
+        assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert Path(MODEL).read_text() == saved
+    assert conflicts(execute) == ["Ladder.mo"]
+
+
+@pytest.mark.slow
+def test_a_save_while_another_process_carries_out_the_choice_stays(contradictory: Path, rc_site: Path) -> None:
+    """Real processes: `resolve` has shown what goes, and waits for the build lock when the file is saved."""
+    saved = Path(MODEL).read_text().replace("1 %", "2 %")
+    command = [sys.executable, "-u", "-m", "urdfsync", "resolve", MODEL, "--take"]
+    program: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    program["env"] = {**os.environ, "PYTHONPATH": f"{rc_site}{os.pathsep}{RC_FOLDER}"}
+    with build_lock(contradictory / ".urdfsync", 0) as lock:
+        lock.acquire()
+        with subprocess.Popen(command, **program) as process:
+            assert process.stdout
+            assert process.stdout.readline() == "your edits go:\n"
+            Path(MODEL).write_text(saved)
+            lock.release()
+            error = process.communicate(timeout=60)[1]
+    assert process.returncode == 3
+    assert CHANGED in error
+    assert Path(MODEL).read_text() == saved
 
 
 # The user's editor

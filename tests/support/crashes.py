@@ -17,10 +17,10 @@ from random import Random
 from typing import Any
 
 from support import edits
+from support.choices import options
 from support.urdfs import joint, limit, link, robot
 from urdfsync import config
 from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 from urdfsync.state.store import Store
@@ -79,7 +79,7 @@ def before_each(hook: Hook) -> Iterator[None]:
 def run(project: Path, **request: Any) -> Result:
     """Build the only robot of a project, wherever it is built to."""
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, BuildOptions(trusted=True, **request))
+    (result,) = build(loaded, loaded.robots, options(loaded, trusted=True, **request))
     return result
 
 

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from support.choices import options
 from urdfsync import config
 from urdfsync.engine.actions import Kind
 from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -63,7 +63,7 @@ def own_model(declarations: str) -> None:
 def run_all(**request: Any) -> list[Result]:
     """Build all robots."""
     loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, BuildOptions(**request)))
+    return list(build(loaded, loaded.robots, options(loaded, **request)))
 
 
 def run(**request: Any) -> Result:

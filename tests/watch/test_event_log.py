@@ -44,6 +44,7 @@ def action(kind: Kind, name: str = "Elbow", generated: str = "generated", held: 
 
 def built(*actions: Action, recovered: bool = False, **more: Any) -> events.Built:
     files = tuple(Path(action.path).absolute() for action in actions if action.writes)
+    more.setdefault("writes", bool(files or more.get("changes")))
     return events.Built(Result("arm", "Arm", Path("Arm"), Path(), Actions(actions), **more), files, recovered)
 
 

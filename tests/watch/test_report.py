@@ -78,7 +78,8 @@ def started(*robots: str) -> events.Started:
 def built(robot: str, *kinds: Kind, **more: Any) -> events.Built:
     actions = Actions(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
     return events.Built(
-        Result(robot, "Arm", Path("Arm"), Path(), actions, **more), (Path("x"),) * (Kind.UPDATE in kinds)
+        Result(robot, "Arm", Path("Arm"), Path(), actions, writes=Kind.UPDATE in kinds, **more),
+        (Path("x"),) * (Kind.UPDATE in kinds),
     )
 
 

@@ -185,11 +185,6 @@ class RobotFiles:
         untracked = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
         return self.select(index.unstaged) | untracked | (self.inputs & index.untracked)
 
-    @property
-    def needs_build(self) -> bool:
-        """Whether a build would change files, or what is recorded of them."""
-        return not self.planned.in_step or self.planned.renews_state
-
 
 def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[CommitFault]:
     """Return the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
@@ -201,7 +196,7 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(config.file), hint=hint))
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
-    if not any(one.needs_build or one.find_unstaged() or one.select(index.hidden) for one in robots):
+    if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
         needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, *one.states)}
         uptodate.save_answer(file, key, sorted(needed), everything)
         return []
@@ -216,9 +211,9 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
         elif partly := one.select(commit.files & index.unstaged):
             message = f"staged in part only: {', '.join(sorted(partly))}"
             faults.append(CommitFault(one, "partly-staged", message, _ADD_REST, partly))
-        elif one.needs_build and writing:
+        elif not one.planned.in_step and writing:
             to_build.append(one)
-        elif one.needs_build:
+        elif not one.planned.in_step:
             faults.append(_fault_of_build(one, one.planned, _BUILD))
         elif unstaged := one.find_unstaged():
             message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
@@ -249,7 +244,7 @@ def _plan(
     commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions, everything: Dependencies
 ) -> RobotFiles:
     """Plan a build of one robot in the working tree, and find its files; add what was read to `everything`."""
-    dry = msgspec.structs.replace(options, dry=True, compares_state=True, trusted=True)
+    dry = msgspec.structs.replace(options, dry=True, trusted=True)
     with Dependencies() as dependencies:
         (result,) = build(config, [robot], dry)
     for (check, path), found in dependencies.entries.items():
@@ -261,8 +256,7 @@ def _plan(
 def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
     if result.failed or result.conflicts:
         return CommitFault(files, "out-of-step", summary(result), result=result)
-    what = "its recorded state is out of date" if result.in_step else summary(result)
-    return CommitFault(files, "out-of-step", f"out of step: {what}", step, paths, result)
+    return CommitFault(files, "out-of-step", f"out of step: {summary(result)}", step, paths, result)
 
 
 def _show(

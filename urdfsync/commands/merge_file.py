@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
-from urdfsync.files import rewrite, shown
+from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.output.phrases import counted
 
@@ -80,7 +80,7 @@ def _merge(args: argparse.Namespace) -> int:
     if args.stdout:
         sys.stdout.write(merged)
     elif merged != mine:
-        rewrite(args.mine, merged.encode())
+        args.mine.write_bytes(merged.encode())
     return conflicts
 
 

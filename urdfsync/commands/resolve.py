@@ -14,23 +14,35 @@ from urdfsync.commands.build import build_and_check
 from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, Action, Kind
 from urdfsync.engine.build import build
 from urdfsync.engine.conflicts import BOTH_SIDES, MERGES, Conflict
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import encode
+from urdfsync.engine.package_files import encode, key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, line
-from urdfsync.output.results import show_result, show_results
-from urdfsync.state.record import Choice, sides_hash
+from urdfsync.output.console import Console, first_lines, line
+from urdfsync.output.results import file_line, show_result, show_results
+from urdfsync.state.record import Choice
 
+_LINES = 20
+"""So many files are listed at most, without --verbose."""
+_MEANINGS = {
+    Choice.KEEP: "stays as you have it",
+    Choice.TAKE: "replaced by the generated file",
+    Choice.MERGE: "has the changes of both sides",
+    Choice.MERGE_MINE: "has the changes of both sides, yours where they contradict each other",
+    Choice.MERGE_GENERATED: "has the changes of both sides, the generated ones where they contradict each other",
+    Choice.EDIT: "as you edited it",
+    Choice.UNDO: "as you had it before",
+}
 _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""
 
@@ -91,7 +103,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if args.all:
         concerned |= {result.robot for result in found if result.failed or result.conflicts}
     robots = [robot for robot in loaded.robots if robot.name in concerned]
-    choices = {target.action.path: choice for target in targets}
+    choices = {(target.action.path, target.action.sides): choice for target in targets}
     planned = arguments.request(args, console, dry=True, choices=choices)
     if choice is Choice.TAKE and not console.json and not console.quiet:
         _show_losses(loaded, robots, targets, planned, console)
@@ -101,19 +113,36 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     texts = {sides: file.read_bytes().decode(errors="surrogateescape") for sides, file in edited.items()}
     request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=texts)
     results = show_results(console, build_and_check(loaded, robots, request))
-    in_conflict = {target.action.path for target in find_conflicts(results)}
-    failed = {target.action.path for target in targets if target.result.robot in _failed(results)}
-    left = [file for (path, _), file in edited.items() if path in in_conflict | failed]
-    for file in edited.values() if not args.dry_run else ():
-        if file not in left:
-            shutil.rmtree(file.parent)
+    actions = {one.path: one for result in results for one in result.actions if not result.failed}
+    now = [(target, actions[target.action.path]) for target in targets if target.action.path in actions]
+    accepted = [one for target, one in now if one.sides == target.action.sides and one.kind not in CONFLICTS]
+    changed = [_changed(target) for target, one in now if one.sides != target.action.sides]
+    taken = set() if args.dry_run else {action.path for action in accepted}
+    left = [file for (path, _), file in edited.items() if path not in taken]
+    for file in set(edited.values()).difference(left):
+        shutil.rmtree(file.parent)
+    if not (args.dry_run or console.json or console.quiet):
+        lines = [file_line(shown(loaded.root / one.path), "accepted", "green", _meaning(one)) for one in accepted]
+        console.print(first_lines(lines, _LINES, "file", verbose=console.verbose))
     code = exit_code(results)
-    console.end("resolve", code, list(map(_left, left)))
+    code = Exit.CONFLICT if changed and code is Exit.IN_STEP else code
+    console.end("resolve", code, [*changed, *map(_left, left)])
     return code
 
 
-def _failed(results: Iterable[Result]) -> set[str]:
-    return {result.robot for result in results if result.failed}
+def _changed(target: DisputedFile) -> Diagnostic:
+    """A file that was saved, or generated anew, after the choice was made."""
+    message = "it has changed since it was looked at, so your choice does not count for it"
+    hint = "look at it, then choose again"
+    return Diagnostic(Severity.WARNING, "changed-meanwhile", message, target.shown, hint=hint)
+
+
+def _meaning(action: Action) -> str:
+    """What a choice makes of a file."""
+    words = _MEANINGS[action.choice] if action.choice else "has what is new already"
+    if action.generated is None and action.choice is not Choice.UNDO:
+        words = "deleted" if action.kind is Kind.DELETE else "yours from now on"
+    return f"{words}, once the other conflicts are resolved" if action.held else words
 
 
 def _choice(args: argparse.Namespace, conflicts: Sequence[DisputedFile]) -> Choice:
@@ -165,8 +194,8 @@ def _refuse(console: Console, found: Sequence[Result], unknown: Sequence[str]) -
 def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> None:
     """Raise UrdfsyncError for files of which nothing can be given back."""
     undone = {one.path for result in planned for one in result.actions if one.kind is Kind.UNDO}
-    message = "there is nothing to give back: no build replaced what you had, or the file was saved since"
-    hint = "--keep, --take and --merge are for conflicts"
+    message = "nothing to undo: no build has merged, replaced or deleted your text here, or you saved the file since"
+    hint = "--keep, --take and --merge settle conflicts"
     found = [
         Diagnostic(Severity.ERROR, "no-undo", message, target.shown, hint=hint)
         for target in targets
@@ -177,17 +206,16 @@ def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> 
 
 
 def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
-    """Let the user edit each file; where its text is then, by key and `sides_hash`.
+    """Let the user edit each file; where its text is then, by key and `Action.sides`.
 
     Raises UrdfsyncError if one can't be used; it names those that could, too.
     """
     texts = {one.path: one for result in planned for one in result.conflict_texts}
-    sides = {one.path: sides_hash(one.mine, one.generated) for result in planned for one in result.actions}
     edited = dict[tuple[str, str], Path]()
     try:
         for target in targets:
             path = target.action.path
-            edited[path, sides[path]] = _edit_one(texts[path], target.shown, loaded.root)
+            edited[path, target.action.sides] = _edit_one(texts[path], target.shown, loaded.root)
     except UrdfsyncError as error:
         raise UrdfsyncError(*error.diagnostics, *map(_left, edited.values())) from error
     return edited
@@ -255,15 +283,22 @@ def _find_targets(
                 by_place.setdefault(file, []).append(target)
     chosen: dict[str, DisputedFile] = {}
     unknown = []
+    robots = results if choice is Choice.UNDO else ()
     for text in typed:
         path = Path(os.path.normpath(config.working_folder() / text))
         real, real_root = Path(os.path.realpath(path)), Path(os.path.realpath(root))
         # links may lead to a file of the configuration's folder
         places = [path, *([root / real.relative_to(real_root)] if real.is_relative_to(real_root) else [])]
-        found = [target for place in places if text for target in by_place.get(place, ())]
+        found = [target for place in places if text for target in by_place.get(place) or _deleted_files(robots, place)]
         chosen |= {target.action.path: target for target in found}
         unknown += [] if found else [text]
     return list(chosen.values()), unknown
+
+
+def _deleted_files(results: Sequence[Result], place: Path) -> list[DisputedFile]:
+    """Return a file that is not there, and that a build may have deleted."""
+    robots = (one for one in results if place.is_relative_to(one.folder) and not os.path.lexists(place))
+    return [DisputedFile(one, Action(key_of(place, one.root), Kind.FORGET, Role.MODEL)) for one in robots]
 
 
 def _places(action: Action, root: Path) -> set[Path]:

@@ -85,7 +85,7 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 no conflict, in step or not; 2 error, 3 conflict, 4 another build is running, 130 interrupted",
+        "exit codes: 0 in step, 1 out of step, 2 error, 3 conflict, 4 another build is running, 130 interrupted",
     )
 
 
@@ -108,7 +108,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.stop_progress()
         if not console.quiet or result.conflicts:
             console.print(lines(result, console.verbose), error=result.failed)
-    code = exit_code(results)
+    code = exit_code(results, check=True)
     console.end("status", code)
     return code
 
@@ -119,16 +119,8 @@ def file_status(action: Action) -> FileStatus | None:
 
 
 def is_built(result: Result) -> bool:
-    """Whether a build has written any file of the package."""
-    return any(action.base is not None for action in result.actions)
-
-
-def is_in_step(result: Result) -> bool:
-    """Whether a build would write nothing, and no file is in conflict; edits and orphans are in order."""
-    if result.stale:
-        return False
-    off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
-    return not result.failed and off.isdisjoint(map(file_status, result.actions))
+    """Whether a build has written any file of the package, its record lost or not."""
+    return any(action.base is not None or action.kind is Kind.ADOPT for action in result.actions)
 
 
 def _path(action: Action) -> str:
@@ -137,7 +129,7 @@ def _path(action: Action) -> str:
 
 
 def _reason(action: Action, result: Result) -> str:
-    return "" if action.kind in _QUIET and not action.held else reason_of(action, result.changes)
+    return "" if action.kind in _QUIET and not action.held else reason_of(action, result.effective_changes)
 
 
 def _values(result: Result) -> dict[str, Any]:
@@ -146,7 +138,7 @@ def _values(result: Result) -> dict[str, Any]:
     actions = sorted((action for action in result.actions if file_status(action)), key=_path)
     extra = {
         "built": is_built(result),
-        "in_step": is_in_step(result),
+        "in_step": result.in_step,
         "summary": summary(result),
         "not_expanded": list(result.stale),
         "files": [
@@ -168,15 +160,15 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
     Stale files come last. New files of a robot that was never built are not named.
     """
-    yield headline(result, summary(result), is_fine=is_in_step(result))
+    yield headline(result, summary(result), is_fine=result.in_step)
     if result.stale:
         yield from first_lines([line((f"  {name}", "")) for name in result.stale], _INPUTS, "input", verbose=verbose)
-    changes = result.changes
+    changes = result.effective_changes
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
         yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
-    if (actions := action_counts(result, {Kind.KEEP})) and not (is_in_step(result) or result.failed):
+    if (actions := action_counts(result, {Kind.KEEP})) and not (result.in_step or result.failed):
         yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
     has_package = is_built(result)
@@ -200,9 +192,9 @@ def summary(result: Result) -> str:
         return "not expanded, so its files were not compared"
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
-    stand = "in step" if is_in_step(result) else NOT_EXPANDED if result.stale else "out of step"
+    stand = "in step" if result.in_step else NOT_EXPANDED if result.stale else "out of step"
     head = f"{stand}, {counted(counts.total(), 'file')}"
-    if not (is_built(result) or is_in_step(result)):
+    if not (is_built(result) or result.in_step):
         head = "not built yet"
         told.pop(FileStatus.STALE, None)
     nouns = (FileStatus.CONFLICT, FileStatus.ORPHAN)

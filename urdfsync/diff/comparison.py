@@ -195,13 +195,12 @@ def _with_version(
         source, file = robot.source, folder / against
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if file.is_file():
-            given = arguments if file.suffix == source.suffix else {}
-            other = _VersionedSource(source_files.read_file_source(file, given, folders), (file, source))
+            other = _VersionedSource(source_files.read_file_source(file, arguments, folders), (file, source))
         else:
             revision = Revision(source.parent, against)
             text = _in_revision(revision, robot, config)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
-        if config and robot.is_xacro and not robot.command:  # it may be expanded already
+        if config and not robot.command:  # it may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(source, arguments, folders)
@@ -241,8 +240,10 @@ def _with_version(
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
     label = revision.label(robot.source)
-    if not robot.is_xacro or config is None:
-        return Source(revision.read(robot.source), label)
+    content = revision.read(robot.source)
+    is_expanded = robot.arguments is not None or source_files.is_xacro(robot.source, content)
+    if config is None or not is_expanded:
+        return Source(content, label)
     path = Store(config.root).expansion(robot.name)
     if (found := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"

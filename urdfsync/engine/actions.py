@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, sides_hash
 
 
 class Kind(enum.StrEnum):
@@ -39,8 +39,6 @@ DELETES = frozenset({Kind.DELETE, Kind.LEAVE})
 """Actions that take a file away."""
 CONFLICTS = frozenset({Kind.CONFLICT, Kind.UNOWNED})
 """Actions that leave a file alone although other content is wanted."""
-IN_STEP = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET})
-"""Actions on files that are as they should be, edits apart."""
 DISPUTED = CONFLICTS | {Kind.MOVE}
 """Actions that the texts, or the user, decide on."""
 USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.CONFLICT, Kind.ORPHAN})
@@ -90,6 +88,11 @@ class Action(msgspec.Struct, frozen=True):
     """The user keeps the file beside a generated text that it has not taken into account."""
     takes_back: bool = False
     """The user saved the file without what the last build wrote."""
+
+    @property
+    def sides(self) -> str:
+        """One hash for the texts of both sides: a choice holds as long as it is the same."""
+        return sides_hash(self.mine, self.generated)
 
     @property
     def reason(self) -> str:

@@ -85,7 +85,6 @@ class _Builder:
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
             return msgspec.structs.replace(result, diagnostics=found, failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        state_folder = self._state_folder / "robots"
         return msgspec.structs.replace(
             result,
             actions=plan.actions,
@@ -94,7 +93,7 @@ class _Builder:
             conflict_texts=plan.conflicts,
             stale=plan.stale,
             drawing=plan.drawing,
-            renews_state=any(change.path.parent == state_folder for change in reversed(plan.writes)),
+            writes=not plan.is_noop,
         )
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:
@@ -108,8 +107,7 @@ class _Builder:
                     return plan
                 continue
             told = _joined(first, plan) if first else plan
-            writes = plan.writes or any(action.writes for action in plan.actions)
-            if not writes and not self._transactions.is_pending():
+            if plan.is_noop and not plan.writes and not self._transactions.is_pending():
                 return told
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)

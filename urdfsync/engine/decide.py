@@ -15,12 +15,12 @@ from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices
+from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices, valid_choices
 from urdfsync.engine.undo import reconsider
 from urdfsync.files import shown
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import Choice, sides_hash
+from urdfsync.state.record import Choice
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
@@ -38,6 +38,8 @@ class Decision(msgspec.Struct, frozen=True):
     """New texts of every `package.order` and of merged files, by key."""
     conflicts: tuple[Conflict, ...] = ()
     """The texts of the files in conflict."""
+    moved: Mapping[str, Conflict] = {}
+    """The texts of edited files that move with their elements, by key."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -62,7 +64,8 @@ def decide_package(generation: Generation) -> Decision:
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
     if inputs.options.adopts:
         actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
-    actions, undone, taken_back = reconsider(generation, actions, inputs.options.choices)
+    chosen = valid_choices(inputs.options.choices, actions)
+    actions, undone, taken_back = reconsider(generation, actions, chosen)
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
@@ -76,7 +79,7 @@ def decide_package(generation: Generation) -> Decision:
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
     kept = kept_choices(recorded, actions)
-    choices = {**kept, **remembered, **inputs.options.choices}
+    choices = {**kept, **remembered, **chosen}
     warnings: tuple[Diagnostic, ...] = ()
     if kept or _takes_names_away(generation):
         conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
@@ -94,6 +97,11 @@ def decide_package(generation: Generation) -> Decision:
         held,
         {**orders, **merged},
         tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
+        {
+            action.path: conflicts[action.path]
+            for action in actions
+            if action.kind is Kind.MOVE and action.path in conflicts
+        },
         tuple(file for file in shared if files.key(file.path) not in waiting),
     )
     gone = warnings if decision.is_complete else ()
@@ -138,8 +146,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
 
 def _edited_text(inputs: Inputs, action: Action) -> str | None:
     """Return what the user has made of both sides of a file, as they are: now, or while the file waited."""
-    if action.path in inputs.options.choices:
-        return inputs.options.edited.get((action.path, sides_hash(action.mine, action.generated)))
+    if (action.path, action.sides) in inputs.options.choices:
+        return inputs.options.edited.get((action.path, action.sides))
     waiting = inputs.record.open.edited if inputs.record and inputs.record.open else {}
     return waiting.get(inputs.path(action.path))
 
@@ -230,7 +238,10 @@ def _keep_bases(
     kept = {
         one.path: one
         for one in actions
-        if one.choice in (Choice.KEEP, Choice.UNDO) and one.kind in _KEPT and one.role is not Role.IMPORT
+        if one.choice in (Choice.KEEP, Choice.UNDO)
+        and one.kind in _KEPT
+        and one.generated
+        and one.role is not Role.IMPORT
     }
     if not kept:
         return tuple(actions), ()
@@ -317,6 +328,14 @@ def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[s
     return sorted(name for name in found.difference(names) if is_identifier(name))
 
 
+def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
+    """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
+    files = (one.path for one in actions if one.kind is Kind.UNDO and one.generated is None)
+    folder = order.removesuffix("package.order")
+    names = (path.removeprefix(folder).removesuffix(".mo") for path in files if path.startswith(folder))
+    return [name for name in names if is_identifier(name)]
+
+
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
@@ -335,6 +354,7 @@ def _decide_orders(
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         if inputs.options.adopts and old is None:
             names = (*names, *_users_classes(inputs, key, names))
+        names = (*names, *_returning_classes(actions, key))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
             kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE

@@ -24,7 +24,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     with inputs.source.locating():
         generation = generate_robot(inputs)
     decision = decide_package(generation)
-    is_still = decision.is_complete and not any(action.writes for action in decision.actions)
-    if options.full or options.draw or not is_still:
+    plan = stage(generation, decision, find_all(generation, decision))
+    if options.full or options.draw or not plan.is_noop:
         dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
-    return stage(generation, decision, find_all(generation, decision))
+    return plan

@@ -14,7 +14,7 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Kind
-from urdfsync.state.record import Choice, FileRecord, sides_hash
+from urdfsync.state.record import Choice, FileRecord
 
 
 class DesiredFile(msgspec.Struct, frozen=True):
@@ -211,7 +211,7 @@ def _renewed(action: Action) -> FileRecord:
 def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
     """Return the user's choices that wait, by path and by the two texts that they were made on."""
     waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
-    return {(one.path, sides_hash(one.mine, one.generated)): one.choice for one in waiting if one.choice}
+    return {(one.path, one.sides): one.choice for one in waiting if one.choice}
 
 
 def kept_choices(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
@@ -232,6 +232,10 @@ def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Itera
 
     An edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's.
     """
-    waiting = (one for one in actions if one.kind is not Kind.KEEP)
-    found = {one.path: pending.get((one.path, sides_hash(one.mine, one.generated))) for one in waiting}
-    return {path: choice for path, choice in found.items() if choice is not None and choice is not Choice.UNDO}
+    found = valid_choices(pending, (one for one in actions if one.kind is not Kind.KEEP))
+    return {path: choice for path, choice in found.items() if choice is not Choice.UNDO}
+
+
+def valid_choices(choices: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
+    """Return the choices of which both texts are still those that they were made on, by path."""
+    return {one.path: choices[one.path, one.sides] for one in actions if (one.path, one.sides) in choices}

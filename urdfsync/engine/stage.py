@@ -10,7 +10,7 @@ import msgspec
 from urdfsync.changes import Changes
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.domain import Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DELETES, Action, Actions
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision, names_since, renamed
@@ -42,7 +42,9 @@ class Plan(msgspec.Struct, frozen=True):
     changes: Changes | None = None
     """What is new in the model."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
+    """The files to write but for the shared ones, the record last."""
+    is_noop: bool = False
+    """The build writes nothing that version control has: no file of the package, and no recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
     stale: tuple[str, ...] = ()
@@ -52,23 +54,20 @@ class Plan(msgspec.Struct, frozen=True):
 
 
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
-    """Return the plan, with all that is to be written unless the run is dry."""
+    """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
     store, former, news = inputs.store, inputs.former_name, generation.changes
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
     plan = msgspec.structs.replace(plan, stale=inputs.source.stale)
-    if inputs.options.dry and not inputs.options.compares_state:
-        return plan
     record = _record(generation, decision)
-    changes = _file_changes(generation, decision, record.files if record else {})
+    files_changed = _file_changes(generation, decision, record.files if record else {})
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
     aside = {path: encode(text) for version in versions for path, text in version}
-    changes += store.fill(CONFLICTS, robot.name, aside, former)
-    before = put_aside(generation, decision.actions, decision.texts) if record else {}
+    changes = store.fill(CONFLICTS, robot.name, aside, former)
+    before = put_aside(generation, decision.actions, decision.texts, decision.moved) if record else {}
     changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
-    changes += _base_changes(generation, decision, record, before)
 
     drawing = None
     if inputs.options.draw:
@@ -78,9 +77,11 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing, more = store.drawing(robot.name, picture)
             changes += more
 
+    state = _base_changes(generation, decision, record, before)
     if record and not inputs.source.stale:
-        changes += store.save_expansion(robot.name, inputs.source.expansion)
-    changes += store.changes(robot.name, record, former)
+        state += store.save_expansion(robot.name, inputs.source.expansion)
+    state += store.changes(robot.name, record, former)
+    changes = [*files_changed, *changes, *state]
     above = {files.path(inputs.old_folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
     emptied = [one for one in folders if not above.isdisjoint(one.parents)]
@@ -88,6 +89,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         plan,
         witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
+        is_noop=not state and not any(action.writes for action in decision.actions),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         drawing=drawing,
     )
@@ -97,7 +99,24 @@ def _record(generation: Generation, decision: Decision) -> Record | None:
     """Return the record after a build; None for a robot that is removed."""
     if generation.inputs.options.removes:
         return None
-    return _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
+    if not decision.is_complete:
+        return _open_record(generation, decision)
+    record = _complete_record(generation, decision)
+    old = generation.inputs.record
+    return old if old is not None and _serves(old, record, generation) else record
+
+
+def _serves(old: Record, new: Record, generation: Generation) -> bool:
+    """Return whether all later decisions are the same with the record that is there.
+
+    What no file of the package says is not worth a commit: extensions that nothing models, options without effect.
+    """
+    changes = generation.changes
+    if old.open or old.is_united or old.snapshot is None or changes is None:
+        return False
+    is_said = any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in changes.changes)
+    like_old = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    return not is_said and like_old == old
 
 
 def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[str, FileRecord]) -> list[FileChange]:
@@ -191,8 +210,9 @@ def _base_changes(
 ) -> list[FileChange]:
     """Return how the texts that the record mentions get to the bases, and how old ones go.
 
-    A file of bases is renewed if a hash is new, or if it is not there; all are in a full build, and where git has
-    united states. Old texts go with that, once no state mentions them: neither the record before, nor the one after.
+    Looked at are the files of bases for new hashes, and those that are not there; all in a full build, and where git
+    has united states. Once no state mentions a text, neither the record before nor the one after, it goes when its file
+    is written; that alone is no reason to write it.
     """
     inputs, store, name = generation.inputs, generation.inputs.store, generation.inputs.robot.name
     if record is None:
@@ -207,12 +227,12 @@ def _base_changes(
     found = list[FileChange]()
     for digit in DIGITS if is_whole else sorted(renewed):
         texts = dict(store.bases(inputs.last_name, digit))
-        if decision.is_complete:
-            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
         for sha256 in [one for one in new if one[0] == digit and one not in texts]:
             path = inputs.path(new[sha256])
             if path in generation.package.artifacts and generation.package.hash(path) == sha256:
                 texts[sha256] = generation.package.content(path).decode()
+        if decision.is_complete and store.save_bases(name, digit, texts):
+            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
         found += store.save_bases(name, digit, texts)
         if inputs.former_name:
             found += store.save_bases(inputs.former_name, digit, None)

@@ -6,18 +6,18 @@ stays as long as the merged file is not saved.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Kind
-from urdfsync.engine.conflicts import BOTH_SIDES
+from urdfsync.engine.conflicts import BOTH_SIDES, Conflict
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import text_hash
 from urdfsync.files import shown
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, role_of, sides_hash
 from urdfsync.state.replaced import Replaced
 
 _MANY = 100
@@ -32,8 +32,9 @@ def reconsider(
     One that was saved without what the last build had written conflicts again if the user wants it merged or edited;
     else there is a warning. Returns the actions, the texts of what is undone by path, and the warnings.
     """
-    inputs = generation.inputs
+    inputs, actions = generation.inputs, tuple(actions)
     found = tuple(_reconsidered(generation, action, choices.get(action.path)) for action in actions)
+    found += tuple(_find_deleted(generation, {action.path for action in actions}))
     texts = {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
     return found, texts, tuple(_warning(shown(inputs.files.path(one.path))) for one in found if one.takes_back)
 
@@ -52,6 +53,19 @@ def _reconsidered(generation: Generation, action: Action, choice: Choice | None)
         if choice in (Choice.KEEP, None):
             return msgspec.structs.replace(action, choice=choice, takes_back=choice is None)
     return action
+
+
+def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Action]:
+    """Yield the actions that give back files of the user's which a build has deleted: they are his own then."""
+    inputs, no_file = generation.inputs, sides_hash(None, None)
+    for (key, sides), choice in inputs.options.choices.items():
+        path = inputs.path(key)
+        if choice is not Choice.UNDO or sides != no_file or key in known or path not in inputs.replaced:
+            continue
+        role = role_of(path)
+        if inputs.files.on_disk(key, role) is None:
+            result = text_hash(inputs.replaced[path].before)
+            yield Action(key, Kind.UNDO, role, choice=choice, result=result)
 
 
 def _undone(action: Action, one: Replaced) -> Action:
@@ -83,11 +97,13 @@ def _warning(file: str) -> Diagnostic:
     return Diagnostic(Severity.WARNING, "taken-back", message, file, hint=hint)
 
 
-def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, Replaced]:
-    """Return what is put aside after a build, by path; `texts` has those of merged files by key."""
+def put_aside(
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
+) -> dict[str, Replaced]:
+    """Return what is put aside after a build, by path; `texts` has merged files, `moved` those that move, by key."""
     inputs, files = generation.inputs, generation.inputs.files
     actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
-    new = dict(_written_over(generation, actions, texts))
+    new = dict(_written_over(generation, actions, texts, moved))
     untouched = [path for path, one in new.items() if not one.is_users]
     for path in untouched if len(untouched) > _MANY else ():
         del new[path]
@@ -97,20 +113,26 @@ def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[
     taken_back = {inputs.path(action.path) for action in actions if action.takes_back}
     for path, one in inputs.replaced.items():
         after = files.text(inputs.key(path))
-        stands = after is not None and one.after in (None, after)
+        stands = after is None or one.after in (None, after)
         if path not in settled and (not is_writing or path in taken_back or (one.is_users and stands)):
             found[path] = one
     return found | new
 
 
 def _written_over(
-    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
 ) -> Iterator[tuple[str, Replaced]]:
     inputs, files = generation.inputs, generation.inputs.files
     for action in actions:
-        if action.writes and action.mine and action.kind in (Kind.UPDATE, Kind.MERGE) and action.origin is None:
+        is_taken = action.kind is Kind.DELETE and action.choice is Choice.TAKE
+        is_replaced = action.kind in (Kind.UPDATE, Kind.MERGE) and action.origin is None
+        if action.writes and action.mine and (is_taken or is_replaced):
             before = files.text(action.path) or ""
             base = before if action.mine == action.base else None
             if base is None and action.base:
                 base = inputs.base(action.base)
             yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
+        elif action.writes and action.path in moved:
+            one, after = moved[action.path], texts.get(action.path)
+            if one.kept != after:
+                yield inputs.path(action.path), Replaced(one.kept, one.base, after)

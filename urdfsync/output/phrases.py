@@ -15,9 +15,11 @@ from urdfsync.output.outline import change_row, outline
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
-NOT_EXPANDED = "inputs changed, not expanded"
+NOT_EXPANDED = "inputs changed since the last build"
 """What is said of a source that xacro, or a command, would have to make again."""
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
+_SETTLES = (Kind.ADOPT, Kind.CONFLICT, Kind.UNOWNED)
+"""Actions that write to the state alone, and are told by themselves."""
 _NAMED = {
     Kind.UPDATE: "{}",
     Kind.MERGE: "{}; merged with your edits",
@@ -42,7 +44,7 @@ def summary(result: Result) -> str:
         end = "the next build finishes it" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
     parts = [NOT_EXPANDED, *action_counts(result)] if result.stale else action_counts(result)
-    if result.in_step:
+    if result.in_step and not any(action.writes or action.kind is Kind.ADOPT for action in result.actions.decided):
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
         total = sum(action.kind in fine for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
@@ -69,6 +71,9 @@ def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
         if (number := kinds[kind]) and kind not in silent:
             them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
             phrases.append((to_do if result.dry else done).format(n=number, them=them, have=have, s=s))
+    is_told = any(action.writes or action.kind in _SETTLES for action in result.actions.decided)
+    if result.dry and result.writes and not is_told:
+        phrases.append("recorded state to write")
     if waiting := sum(action.held for action in result.actions.decided):
         what = "the conflict is" if kinds[Kind.CONFLICT] == 1 else "all conflicts are"
         phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")

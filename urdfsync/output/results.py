@@ -81,7 +81,7 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
 
 def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
     """What changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
-    changed = change_lines(result.changes, everything=verbose) if result.changes else []
+    changed = change_lines(result.effective_changes, everything=verbose) if result.effective_changes else []
     yield from first_lines(
         [line((f"  {words}", "")) for words in changed], _CHANGES, "change", verbose=verbose or explain
     )
@@ -89,7 +89,7 @@ def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Ite
     if not (verbose or explain):
         actions = [action for action in actions if action.kind in _ALWAYS_LISTED and not action.held]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
-        why = reason(action, result.changes, brief=True)
+        why = reason(action, result.effective_changes, brief=True)
         yield file_line(shown_path(result, action.path), *action_word(action), why)
     if explain and (rest := len(result.actions) - len(actions)):
         yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
@@ -113,15 +113,15 @@ def action_values(action: Action, changes: Changes | None = None) -> dict[str, A
 
 def result_values(result: Result) -> dict[str, Any]:
     """What was done with a robot as plain data; paths are relative to the configuration's folder."""
-    changes = result.changes
+    changes = result.effective_changes
     return {
         "name": result.robot,
         "package": result.package,
         "folder": str(result.folder),
         "failed": result.failed,
         "locked": result.locked,
-        "was_in_step": result.in_step,
-        "in_step": result.is_in_step_now,
+        "in_step": result.in_step,
+        "writes": result.writes,
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
         "checked": result.checked,

@@ -325,6 +325,31 @@ class _Target(msgspec.Struct, frozen=True):
         return False
 
 
+def save(file: Path, old: bytes, new: bytes) -> None:
+    """Replace a file that no build owns; a link to it stays one, and its permissions stay.
+
+    Raises OutputError if it is not as `old` any more: somebody's save stays. Raises OSError.
+    """
+    path = file.resolve()
+    temporary = path.with_name(f".{os.urandom(8).hex()}{TEMPORARY}")
+    target = _Target(str(path.parent), path, temporary, digest(old), digest(new), is_moved=False)
+    try:
+        file_operations.write(temporary, new, path)
+        file_operations.sync([temporary])
+    except BaseException:
+        file_operations.remove(temporary)
+        raise
+    try:
+        # twice, since somebody may have written to the old file through a handle that was opened before
+        is_done = target.change() and target.change()
+    finally:
+        kept = [*target.clear(_temporary_files([target.folder]))]
+    if not is_done:
+        message = "it has changed meanwhile, and stays as it is now"
+        hint = f"{'an earlier save is kept as ' + shown(kept[0]) + '; ' if kept else ''}run the command again"
+        raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(file), hint=hint))
+
+
 def hash_of(path: Path) -> str | None:
     """SHA-256 (hex) of a file, None for nothing; a word for what is no regular file. Raises OSError."""
     try:

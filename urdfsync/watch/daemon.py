@@ -354,7 +354,7 @@ class Daemon:
         for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
             watched.built = None  # what is saved meanwhile is built, even if it is as before the last change
-            if result.renews_state or any(action.writes for action in result.actions):
+            if result.writes:
                 writers.add(result.robot)
             if not result.failed:
                 self._take_result(watched, result)

@@ -103,11 +103,11 @@ class EventLog:
         if self._console.quiet and not conflicts:
             return
         said = []
-        if event.files or event.recovered or result.changes or conflicts or kept:
+        if event.files or event.recovered or result.effective_changes or conflicts or kept:
             said = [*_changes(result), *action_counts(result, {Kind.KEEP} | (frozenset() if kept else _KEPT))]
         if not result.conflicts and (event.recovered or had_conflicts):
             said.append("in step again")
-        if not said and (verbose or result.changes):
+        if not said and (verbose or result.effective_changes):
             said = [summary(result)]
         if not said:
             return
@@ -149,13 +149,13 @@ class EventLog:
 
 def _changes(result: Result) -> list[str]:
     """Return what changed in the model: a few changes in words, else their number."""
-    if result.changes is None:
+    if result.effective_changes is None:
         return []
-    lines = change_lines(result.changes)
-    if result.changes.generator:
+    lines = change_lines(result.effective_changes)
+    if result.effective_changes.generator:
         return lines[:1]
     words = "; ".join(lines)
     if len(lines) <= _FEW and len(words) <= _MAX_LENGTH:
         return [words]
-    found = result.changes
+    found = result.effective_changes
     return [f"{counted(len(found.changes), 'change')} in {counted(len(found.by_element()), 'element')}"]
