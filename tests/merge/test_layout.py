@@ -148,11 +148,12 @@ LARGER = model(
 )
 
 
-def test_graphics_of_the_user_stand_in_an_icon_that_grows() -> None:
+@pytest.mark.parametrize("export", [LARGER, LARGER.replace(text("b", 60), f"{text('b', 60)}, {text('d', 80)}")])
+def test_graphics_of_the_user_stand_in_an_icon_that_grows(export: str) -> None:
     """What he only adds leaves all the rest to the export."""
     logo = 'Text(extent={{0, 0}, {1, 1}}, textString="mine")'
     mine = DRAWN.replace(text("b", 20), f"{text('b', 20)}, {logo}")
-    assert merged(DRAWN, mine, LARGER) == LARGER.replace(text("b", 60), f"{text('b', 60)}, {logo}")
+    assert merged(DRAWN, mine, export) == export.replace(text("b", 60), f"{text('b', 60)}, {logo}")
 
 
 def test_graphics_of_the_export_come_to_an_icon_that_the_user_has_arranged() -> None:

@@ -201,7 +201,8 @@ def _merge_parts(
         trees = pair(*trees) if base else trees
     base, mine, generated = trees
     is_picture = not kept.isdisjoint(PICTURES.intersection(path))
-    sequence = _sequence(trees, is_picture=is_picture)
+    has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
+    sequence = _sequence(trees) if has_sequence else []
     items: dict[str, _Item] = {}
     notes = ""  # the user's comments in what goes, for the next item
     for part in mine.parts:
@@ -235,15 +236,14 @@ def _merge_parts(
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
     if sequence is None or [key for key in order if key in sequence] != sequence:
-        return [_contradiction((*path, "order"), base, mine, generated, mine)]
+        place = (*path, "order") if mine.kind is TreeKind.BODY else path
+        return [_contradiction(place, base, mine, generated, mine)]
     return _text_of(trees, [items[key] for key in order], notes)
 
 
-def _sequence(trees: Sequence[SyntaxTree], *, is_picture: bool) -> list[str] | None:
+def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
     """Merge what has an order that counts, by keys; None if both sides changed it, so that the result is in doubt."""
     kind = trees[1].kind
-    if kind is not TreeKind.BODY and (kind is not TreeKind.ARRAY or is_picture):
-        return []
     keys = [tree.signature if kind is TreeKind.BODY else [part.key for part in tree.parts] for tree in trees]
     base, mine, generated = keys
     if mine == base or generated in (base, mine):
