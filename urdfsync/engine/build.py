@@ -93,6 +93,7 @@ class _Builder:
             changes=plan.changes,
             conflict_texts=plan.conflicts,
             stale=plan.stale,
+            is_broken=plan.is_broken,
             drawing=plan.drawing,
             renews_state=any(change.path.parent == state_folder for change in reversed(plan.writes)),
         )

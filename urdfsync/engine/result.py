@@ -58,6 +58,8 @@ class Result(msgspec.Struct, frozen=True):
     """A build writes to the recorded state that is committed; see `BuildOptions.compares_state`."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, if it was not expanded now: the rest goes by the old text."""
+    is_broken: bool = False
+    """A file of the package that the user edited does not fit it, or is no Modelica."""
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
@@ -73,13 +75,18 @@ class Result(msgspec.Struct, frozen=True):
 
     @property
     def in_step(self) -> bool:
+        """Whether every file was what it should be before the build, and every edit fits."""
+        return self.are_files_in_step and not self.is_broken
+
+    @property
+    def are_files_in_step(self) -> bool:
         """Whether every file was what it should be before the build, edits apart."""
         return not (self.failed or self.stale) and all(action.kind in IN_STEP for action in self.actions.decided)
 
     @property
     def is_in_step_now(self) -> bool:
-        """The same of the time after it: a build that wrote has brought all in step but for conflicts."""
-        return self.in_step if self.dry else not self.failed and not self.conflicts
+        """The same of the time after it: a build that wrote has brought all in step but for conflicts and misfits."""
+        return self.in_step if self.dry else not (self.failed or self.conflicts or self.is_broken)
 
     @property
     def is_first(self) -> bool:
@@ -89,12 +96,17 @@ class Result(msgspec.Struct, frozen=True):
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """The worst of all: an error, a lock, a conflict, being out of step; the last counts only if `check`."""
+    """The worst of all: an error, a lock, a conflict or what a build leaves broken, being out of step.
+
+    The last counts only if `check`, or if a package is broken.
+    """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):
         return Exit.ERROR
     if any(result.locked for result in results):
         return Exit.LOCKED
-    if any(result.conflicts for result in results):
+    if any(result.conflicts or (result.is_broken and not result.dry) for result in results):
         return Exit.CONFLICT
+    if any(result.is_broken for result in results):
+        return Exit.OUT_OF_STEP
     return Exit.OUT_OF_STEP if check and not all(result.in_step for result in results) else Exit.IN_STEP

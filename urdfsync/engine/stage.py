@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DELETES, USERS, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
-from urdfsync.engine.decide import Decision, names_since, renamed
+from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import option_values
 from urdfsync.engine.package_files import encode
@@ -43,6 +43,8 @@ class Plan(msgspec.Struct, frozen=True):
     """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
+    is_broken: bool = False
+    """Whether a file of the package that the user edited does not fit it, or is no Modelica."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, which it was not again."""
     drawing: Path | None = None
@@ -56,7 +58,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
-    plan = msgspec.structs.replace(plan, stale=inputs.source.stale)
+    is_broken = any(one.is_broken for one in decision.misfits)
+    plan = msgspec.structs.replace(plan, stale=inputs.source.stale, is_broken=is_broken)
     if inputs.options.dry and not inputs.options.compares_state:
         return plan
     record = _record(generation, decision)
@@ -141,19 +144,17 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
     }
     files = files_after(decision.actions, old)
     for action in decision.actions:
-        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED) or action.keeps_base
+        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED)
         if is_left and action.path.startswith(inside) and action.role is not Role.IMPORT:
             for base in files[action.path].hashes:
                 if (text := generation.base(action.origin or action.path, base)) is not None:
                     texts[base] = text
-    has_kept = any(one.kept for one in files.values())
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
         folder=inputs.folder,
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        former_names=names_since(inputs, renamed(generation)) if has_kept else {},
         snapshots=(generation.now.snapshot,),
         imports={key: (one,) for key, one in generation.imported.imports.items()},
         files={key: one for key, one in files.items() if key.startswith(inside)},
