@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DELETES, Action, Actions
 from urdfsync.engine.conflicts import Conflict, conflict_files
-from urdfsync.engine.decide import Decision, names_since, renamed
+from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import option_values
 from urdfsync.engine.package_files import encode, text_hash
@@ -47,6 +47,8 @@ class Plan(msgspec.Struct, frozen=True):
     """The build writes nothing that version control has: no file of the package, and no recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
+    is_broken: bool = False
+    """Whether a file of the package that the user edited does not fit it, or is no Modelica."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, which it was not again."""
     drawing: Path | None = None
@@ -60,7 +62,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
-    plan = msgspec.structs.replace(plan, stale=inputs.source.stale)
+    is_broken = any(one.is_broken for one in decision.misfits)
+    plan = msgspec.structs.replace(plan, stale=inputs.source.stale, is_broken=is_broken)
     record = _record(generation, decision)
     files_changed = _file_changes(generation, decision, record.files if record else {})
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
@@ -161,14 +164,12 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
         key: one for key, one in inputs.recorded_files.items() if not one.is_users or is_file(inputs.files.path(key))
     }
     files = files_after(decision.actions, old)
-    has_kept = any(one.kept for one in files.values())
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
         folder=inputs.folder,
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        former_names=names_since(inputs, renamed(generation)) if has_kept else {},
         snapshot=generation.now.snapshot,
         imports={key: (one,) for key, one in generation.imported.imports.items()},
         files={key: one for key, one in files.items() if key.startswith(inside)},

@@ -52,7 +52,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
         """Whether it does not conflict, but can be decided about all the same."""
         action = self.action
         waits = action.held and action.choice is not None
-        return action.kind in (Kind.MERGE, Kind.MOVE) or waits or action.keeps_base or action.takes_back
+        return action.kind in (Kind.MERGE, Kind.MOVE) or waits
 
     @property
     def merges(self) -> bool:
