@@ -19,7 +19,6 @@ from urdfsync.engine.rules import (
     decide,
     decide_file,
     files_after,
-    kept_choices,
     remembered_choices,
 )
 from urdfsync.state.record import Choice, FileRecord, sides_hash
@@ -179,15 +178,3 @@ def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
     pending = {("a.mo", sides_hash("mine", "new")): Choice.TAKE}
     actions = [Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Kind.KEEP, Kind.CONFLICT)]
     assert [remembered_choices(pending, [action]) for action in actions] == [{}, {"a.mo": Choice.TAKE}]
-
-
-def test_a_file_stays_kept_beside_the_same_text_unless_its_base_is_ambiguous() -> None:
-    """A file that does not fit keeps its base; where git has united two, it conflicts again."""
-    (action,) = decided = decide(
-        {"A.mo": FileRecord(("base",))}, {"A.mo": DesiredFile(Role.MODEL, "a", "new")}, {"A.mo": "mine"}, {}, {}
-    )
-    assert action.kind is Kind.CONFLICT
-    kept = {"A.mo": FileRecord(("base",), kept="new")}
-    assert kept_choices(kept, decided) == {"A.mo": Choice.KEEP}
-    assert kept_choices({"A.mo": FileRecord(("base",), kept="old")}, decided) == {}
-    assert kept_choices({"A.mo": FileRecord(("base", "new"), kept="new")}, decided) == {}

@@ -108,5 +108,8 @@ def test_what_is_kept_since_its_place_is_taken_is_told(project: Path, save_in_be
     edit(R1.replace("R1", "R9"), "100", "101")
     rename("R9", "R1")
     save_in_between(lambda: None, "place")
-    assert [(found.code, found.file) for found in run().diagnostics] == [("kept-save", R1)]
+    assert [(found.code, found.file) for found in run().diagnostics] == [
+        ("kept-save", R1),
+        ("no-class", R1),
+    ]
     assert "101" in (project / f"{R1}.saved").read_text()

@@ -90,14 +90,19 @@ def test_a_build_without_news_reads_none_and_one_number_touches_two_at_most(proj
     assert mentioned() <= stored().keys()
 
 
-def test_old_texts_go_once_no_state_mentions_them(project: Path) -> None:
+def test_old_texts_go_with_later_builds_but_are_no_reason_for_one(project: Path) -> None:
     run()
     first = text_digest(Path(RECORD).read_bytes())
     resistor(150)
     run()
     assert first in stored(), "the state before it mentions it"
-    run(full=True)
-    assert stored().keys() == mentioned()
+    assert run(full=True, dry=True).in_step
+    for ohm in range(150, 250):
+        resistor(ohm + 1, before=ohm)
+        run()
+        assert mentioned() <= stored().keys()
+    assert first not in stored()
+    assert len(stored()) < len(mentioned()) + 50
 
 
 def test_while_something_is_open_no_text_goes(project: Path) -> None:
@@ -232,6 +237,6 @@ def test_git_unites_the_bases_of_two_branches(project: Path, monkeypatch: pytest
     assert mentioned() <= stored().keys()
     assert repository.git("status", "--porcelain") == ""
     run()
-    assert stored().keys() == mentioned()
+    assert mentioned() <= stored().keys()
     for file in BASES.iterdir():
         assert bases.dumps(bases.loads(file.read_bytes())) == file.read_bytes()

@@ -151,7 +151,8 @@ class RobotFiles:
         kept = [*recorded, state / ".gitignore", state / ".gitattributes"]
         self.outputs = commit.paths([*kept, *parents.files(robot)])
         """Files that a commit has to have if they exist."""
-        read = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
+        found = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
+        read = [path for path in found if not path.endswith(".mo")]  # the user's models need not be in the commit
         self.inputs = commit.paths([config.file, *read])
         """Files that a commit has to have unless git is told to ignore them."""
         self.known = self.inputs | commit.paths(
@@ -254,7 +255,7 @@ def _plan(
 
 
 def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
-    if result.failed or result.conflicts:
+    if result.failed or result.conflicts or result.is_broken:
         return CommitFault(files, "out-of-step", summary(result), result=result)
     return CommitFault(files, "out-of-step", f"out of step: {summary(result)}", step, paths, result)
 

@@ -18,6 +18,7 @@ from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
+    BROKEN,
     NOT_EXPANDED,
     RESOLVE_HINT,
     action_counts,
@@ -85,7 +86,8 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 in step, 1 out of step, 2 error, 3 conflict, 4 another build is running, 130 interrupted",
+        "exit codes: 0 in step, 1 out of step or broken, 2 error, 3 conflict, 4 another build is running, "
+        "130 interrupted",
     )
 
 
@@ -106,7 +108,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
         console.findings(told)
         console.stop_progress()
-        if not console.quiet or result.conflicts:
+        if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
     code = exit_code(results, check=True)
     console.end("status", code)
@@ -193,6 +195,7 @@ def summary(result: Result) -> str:
     counts = Counter(filter(None, map(file_status, result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
     stand = "in step" if result.in_step else NOT_EXPANDED if result.stale else "out of step"
+    stand = BROKEN if result.is_broken else stand
     head = f"{stand}, {counted(counts.total(), 'file')}"
     if not (is_built(result) or result.in_step):
         head = "not built yet"

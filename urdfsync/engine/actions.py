@@ -84,10 +84,6 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the merged text; None if nothing is merged."""
     held: bool = False
     """Waits until the robot's other conflicts are resolved."""
-    keeps_base: bool = False
-    """The user keeps the file beside a generated text that it has not taken into account."""
-    takes_back: bool = False
-    """The user saved the file without what the last build wrote."""
 
     @property
     def sides(self) -> str:

@@ -92,6 +92,7 @@ class _Builder:
             changes=plan.changes,
             conflict_texts=plan.conflicts,
             stale=plan.stale,
+            is_broken=plan.is_broken,
             drawing=plan.drawing,
             writes=not plan.is_noop,
         )

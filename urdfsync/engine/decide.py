@@ -7,25 +7,26 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.dependencies import is_file, mark_incomplete
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
+from urdfsync.engine.fit import LostNames, Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices, valid_choices
-from urdfsync.engine.undo import reconsider
+from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices, valid_choices
+from urdfsync.engine.undo import apply_undo
 from urdfsync.files import shown
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
 from urdfsync.state.record import Choice
 
 _GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
 """Actions on files that are not generated any more."""
-_KEPT = frozenset({Kind.KEEP, Kind.MOVE, Kind.UNDO})
-"""Actions by which the user's choice leaves him his own text."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
 
@@ -42,8 +43,8 @@ class Decision(msgspec.Struct, frozen=True):
     """The texts of edited files that move with their elements, by key."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
-    diagnostics: tuple[Diagnostic, ...] = ()
-    """Warnings about names that are gone."""
+    misfits: tuple[Misfit, ...] = ()
+    """What means nothing in the user's files."""
 
     @property
     def is_complete(self) -> bool:
@@ -65,35 +66,26 @@ def decide_package(generation: Generation) -> Decision:
     if inputs.options.adopts:
         actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
     chosen = valid_choices(inputs.options.choices, actions)
-    actions, undone, taken_back = reconsider(generation, actions, chosen)
+    actions, undone = apply_undo(generation, actions, chosen)
 
     disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
-    former = names_since(inputs, names) if disputed else {}
-    is_behind = {key for key, record in recorded.items() if record.kept}
-    conflicts = {
-        one.path: _conflict(generation, one, former if (one.origin or one.path) in is_behind else names)
-        for one in disputed
-    }
+    conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
-    kept = kept_choices(recorded, actions)
-    choices = {**kept, **remembered, **chosen}
-    warnings: tuple[Diagnostic, ...] = ()
-    if kept or _takes_names_away(generation):
-        conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
-    resolved, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    choices = {**remembered, **chosen}
+    conflicts = _without_misfits(generation, actions, conflicts, choices)
+    actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     merged |= undone
-    resolved, misfits = _keep_bases(generation, actions, _keep_needed(generation, resolved, merged), merged)
-    actions = resolved
+    actions = _keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
     numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
-    decision = Decision(
+    return Decision(
         held,
         {**orders, **merged},
         tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
@@ -103,9 +95,8 @@ def decide_package(generation: Generation) -> Decision:
             if action.kind is Kind.MOVE and action.path in conflicts
         },
         tuple(file for file in shared if files.key(file.path) not in waiting),
+        tuple(find_misfits(generation, held, merged)),
     )
-    gone = warnings if decision.is_complete else ()
-    return msgspec.structs.replace(decision, diagnostics=(*taken_back, *misfits, *gone))
 
 
 def _as_edit(action: Action) -> Action:
@@ -122,12 +113,6 @@ def renamed(generation: Generation) -> Mapping[str, str]:
     return renamed_names(generation)
 
 
-def names_since(inputs: Inputs, names: Mapping[str, str]) -> dict[str, str]:
-    """Return new names by the old ones since the bases of kept files; `names` are those since the last build."""
-    former = inputs.record.former_names if inputs.record else {}
-    return {**names, **{old: names.get(new, new) for old, new in former.items()}}
-
-
 def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
     key, files = action.origin or action.path, generation.inputs.files
@@ -137,7 +122,9 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     bases = [base for one in hashes if one and (base := generation.inputs.base(one)) is not None]
     if mine is not None:
         found = find_conflict(action, bases, mine, generated, names)
-        return msgspec.structs.replace(found, edited=_edited_text(generation.inputs, action))
+        package = ".".join((generation.inputs.robot.target.package, *class_parts(generation.inputs.path(action.path))))
+        kept = with_within(found.kept, package) if action.origin and action.path.endswith(".mo") else found.kept
+        return msgspec.structs.replace(found, kept=kept, edited=_edited_text(generation.inputs, action))
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
     texts = base, package, generated, None
@@ -184,37 +171,34 @@ def _takes_names_away(generation: Generation) -> bool:
     )
 
 
-def _find_vanished(
+def _without_misfits(
     generation: Generation,
-    actions: Iterable[Action],
-    conflicts: Mapping[str, Conflict],
+    actions: Sequence[Action],
+    conflicts: dict[str, Conflict],
     choices: Mapping[str, Choice],
-) -> tuple[dict[str, Conflict], tuple[Diagnostic, ...]]:
-    """Return the conflicts, without the merges that would use a name that is gone; and warnings about other uses.
+) -> dict[str, Conflict]:
+    """Return the conflicts without the merges that would bring in what means nothing.
 
     All merges that are possible are taken for that.
     """
-    from urdfsync.engine import vanished  # the parser takes a tenth of a small build to load
-
-    mark_incomplete()  # what the resolver reads is not recorded as a dependency of the answer
     planned, merged = resolve(actions, conflicts, choices, merging=True)
-    planned = _keep_needed(generation, planned, merged)
-    found = vanished.find_vanished(generation, planned, merged)
-    recorded = generation.inputs.recorded_files
-    kept = [key for key in merged if key in recorded and recorded[key].kept]
-    flaws = {
-        key: f"mentions `{use.part}`, which is no longer in the package (line {use.line})"
-        for key, (use, *_) in found.in_package.items()
-    }
-    flaws |= {key: one.what for key, one in vanished.find_misfits(generation, planned, merged, kept).items()}
+    if not merged:
+        return conflicts
+    package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
+    new = package.misfits(merged.keys(), lost=LostNames(package))
+    if not new:
+        return conflicts
+    now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
+    old = {(one.key, one.name) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
     sound = dict(conflicts)
-    for key in flaws.keys() & merged.keys():
-        conflict = sound[key]
-        if conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
+    for key, conflict in conflicts.items():
+        misfits = [one for one in new if one.key == key and (conflict.origin or key, one.name) not in old]
+        if misfits and conflict.merged(choices.get(key)) == merged.get(key) != conflict.mine:
+            finding = misfits[0].finding
             merge = conflict.merge.rejected if conflict.merge else None
-            reason = f"the merge {flaws[key]}"
+            reason = f"in the merge, {finding.message} (line {finding.line})"
             sound[key] = msgspec.structs.replace(conflict, merge=merge, edited=None, rejected=reason)
-    return sound, tuple(vanished.warnings(generation, found))
+    return sound
 
 
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
@@ -225,40 +209,6 @@ def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapp
 
         used = mentioned_files(generation, actions, merged)
     return keep_needed(actions, generation.inputs.files.has_classes, used)
-
-
-def _keep_bases(
-    generation: Generation, before: Sequence[Action], actions: Sequence[Action], merged: Mapping[str, str]
-) -> tuple[tuple[Action, ...], tuple[Diagnostic, ...]]:
-    """Let kept files have their former bases that do not fit the package, and those that were kept so before.
-
-    `before` are the same actions before the user's choices counted. Also a warning for each file that does not fit.
-    """
-    recorded, bases = generation.inputs.recorded_files, {action.path: action.base for action in before}
-    kept = {
-        one.path: one
-        for one in actions
-        if one.choice in (Choice.KEEP, Choice.UNDO)
-        and one.kind in _KEPT
-        and one.generated
-        and one.role is not Role.IMPORT
-    }
-    if not kept:
-        return tuple(actions), ()
-    from urdfsync.engine import vanished
-
-    mark_incomplete()  # as in `_find_vanished`
-    misfits = vanished.find_misfits(generation, actions, merged, kept)
-    stay = {
-        path
-        for path, one in kept.items()
-        if path in misfits or (path in recorded and recorded[path].kept == one.generated)
-    }
-    found = (
-        msgspec.structs.replace(one, base=bases[one.path], keeps_base=True) if one.path in stay else one
-        for one in actions
-    )
-    return tuple(found), tuple(vanished.misfit_warnings(generation, misfits))
 
 
 def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:

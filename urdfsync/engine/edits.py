@@ -44,6 +44,8 @@ def find_edited(generation: Generation) -> Iterator[EditedFile]:
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.kind is not Kind.LEAVE
         if is_text and action.mine not in (None, action.base, action.generated):
             base = generation.inputs.base(action.base) if action.base else None
+            if action.base == action.generated:  # it need not be stored yet, as before a package is adopted
+                base = generation.content(action.path).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 
 

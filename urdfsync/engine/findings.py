@@ -8,9 +8,10 @@ import msgspec
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.fit import diagnose
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
@@ -30,7 +31,8 @@ _NEW = 6
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
     """Return all findings of a build in the order of their places."""
     inputs, actions = generation.inputs, decision.actions
-    found = [*generation.diagnostics, *inputs.parents.diagnostics, *decision.diagnostics]
+    found = [*generation.diagnostics, *inputs.parents.diagnostics]
+    found += diagnose(generation, decision.misfits)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -41,7 +43,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
             line = generation.lines.get(path, 0)
             found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
-        found += _changed_connectors(generation, actions)
+        found += _changed_connectors(generation)
     found = list(map(inputs.source.locate, found))
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
@@ -74,18 +76,14 @@ def _first(names: Sequence[str], most: int) -> str:
     return ", ".join([*names[:most], *more])
 
 
-def _changed_connectors(generation: Generation, actions: Actions) -> Iterator[Diagnostic]:
-    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new.
-
-    Not on what is new if a model that should have it is kept as it is.
-    """
+def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
+    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
-    is_kept = any(one.keeps_base and one.role is Role.MODEL for one in actions)
-    if (new := [f"`{one.new}`" for one in found if one.old is None]) and not is_kept:
+    if new := [f"`{one.new}`" for one in found if one.old is None]:
         message = f"there is more to connect to: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
     for one in found:

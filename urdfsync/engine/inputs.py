@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -21,6 +20,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
 from urdfsync.engine.source import Source
+from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import shown
 from urdfsync.state import replaced
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Record
@@ -105,12 +105,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
 
     @cached_property
-    def users_files(self) -> Mapping[Path, bytes]:
-        """The user's models outside of the package that have to do with it, as it is and as it was."""
-        from urdfsync.engine.users_files import find_users_files  # the parser takes a tenth of a small build to load
-
-        packages = {self.files.path(folder) for folder in (self.folder, self.old_folder)}
-        return find_users_files(self.config, self.robot, packages, {package.name for package in packages})
+    def users_files(self) -> UsersFiles:
+        """The user's models outside of the package, by whether they mention it, as it is or as it was."""
+        former = self.files.path(self.old_folder) if self.has_moved else None
+        names = {folder.name for folder in (self.robot.folder, former) if folder}
+        return find_users_files(self.config, self.robot, names, former)
 
     @property
     def last_name(self) -> str:

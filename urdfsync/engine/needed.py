@@ -39,7 +39,7 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     leaving = {one.path: one for one in actions if one.kind is Kind.DELETE}
     texts = inputs.users_classes([one for one in actions if one.kind in USERS], actions, merged)
     all_words = {word for text in texts.values() for word in code_words(text)}
-    all_words |= {word for content in inputs.users_files.values() for word in code_words(text_of(content))}
+    all_words |= {word for content in inputs.users_files.mentioning.values() for word in code_words(text_of(content))}
     kept = {one.path for one in actions if one.choice is Choice.KEEP and one.kind in USERS}
     kept_words = {word for key in kept & texts.keys() for word in code_words(texts[key])}
     left = set(generation.moves.values())

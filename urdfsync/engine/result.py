@@ -58,6 +58,8 @@ class Result(msgspec.Struct, frozen=True):
     """The build has written files or the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, if it was not expanded now: the rest goes by the old text."""
+    is_broken: bool = False
+    """A file of the package that the user edited does not fit it, or is no Modelica."""
     drawing: Path | None = None
     changes: Changes | None = None
     """What changed in the model since the last build that wrote; None if nothing did, or nothing is known of it."""
@@ -77,8 +79,12 @@ class Result(msgspec.Struct, frozen=True):
 
         All commands, hooks and documents read this one value.
         """
-        waits = self.failed or self.stale or self.conflicts or (self.dry and self.writes)
-        return not waits
+        return self.are_files_in_step and not self.is_broken
+
+    @property
+    def are_files_in_step(self) -> bool:
+        """The same, whether the user's edits fit or not."""
+        return not (self.failed or self.stale or self.conflicts or (self.dry and self.writes))
 
     @property
     def effective_changes(self) -> Changes | None:
@@ -93,12 +99,17 @@ class Result(msgspec.Struct, frozen=True):
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """The worst of all: an error, a lock, a conflict, being out of step; the last counts only if `check`."""
+    """The worst of all: an error, a lock, a conflict or what a build leaves broken, being out of step.
+
+    The last counts only if `check`, or if a package is broken.
+    """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):
         return Exit.ERROR
     if any(result.locked for result in results):
         return Exit.LOCKED
-    if any(result.conflicts for result in results):
+    if any(result.conflicts or (result.is_broken and not result.dry) for result in results):
         return Exit.CONFLICT
+    if any(result.is_broken for result in results):
+        return Exit.OUT_OF_STEP
     return Exit.IN_STEP if not check or all(result.in_step for result in results) else Exit.OUT_OF_STEP

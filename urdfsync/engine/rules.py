@@ -186,14 +186,14 @@ def files_after(actions: Iterable[Action], recorded: Mapping[str, FileRecord]) -
         elif action.released:
             found[action.path] = FileRecord(is_users=True)
         elif action.generated is not None:
-            found[action.path] = _renewed(action)
+            found[action.path] = FileRecord((action.generated,))
     return found
 
 
 def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
     """Return the records of the files that are as generated after a build that left others waiting."""
     return {
-        action.path: _renewed(action)
+        action.path: FileRecord((action.generated,))
         for action in actions
         if action.role is not Role.ORDER
         and action.generated is not None
@@ -201,30 +201,10 @@ def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
     }
 
 
-def _renewed(action: Action) -> FileRecord:
-    """Return the record of a file that is generated, after the action."""
-    if action.keeps_base:
-        return FileRecord((action.base,) if action.base else (), kept=action.generated or "")
-    return FileRecord((action.generated,) if action.generated else ())
-
-
 def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
     """Return the user's choices that wait, by path and by the two texts that they were made on."""
     waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
     return {(one.path, one.sides): one.choice for one in waiting if one.choice}
-
-
-def kept_choices(recorded: Mapping[str, FileRecord], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the choice to keep files that stay beside a generated text which is still the same, by path.
-
-    Not where git has united two states: an edited file with an ambiguous base is never kept in silence.
-    """
-    found = {}
-    for action in actions:
-        record = recorded.get(action.path, _NEVER_WRITTEN)
-        if action.kind in CONFLICTS and record.kept and record.kept == action.generated and not record.is_ambiguous:
-            found[action.path] = Choice.KEEP
-    return found
 
 
 def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:

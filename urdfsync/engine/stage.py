@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DELETES, Action, Actions
 from urdfsync.engine.conflicts import Conflict, conflict_files
-from urdfsync.engine.decide import Decision, names_since, renamed
+from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import option_values
 from urdfsync.engine.package_files import encode, text_hash
@@ -23,7 +23,7 @@ from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
 from urdfsync.state import replaced
 from urdfsync.state.bases import DIGITS
-from urdfsync.state.record import RESOURCES, Choice, FileRecord, Open, Record
+from urdfsync.state.record import Choice, FileRecord, Open, Record
 from urdfsync.state.replaced import Replaced
 from urdfsync.state.store import CONFLICTS, REPLACED, Witness
 from urdfsync.state.transaction import FileChange
@@ -47,6 +47,8 @@ class Plan(msgspec.Struct, frozen=True):
     """The build writes nothing that version control has: no file of the package, and no recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
+    is_broken: bool = False
+    """Whether a file of the package that the user edited does not fit it, or is no Modelica."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, which it was not again."""
     drawing: Path | None = None
@@ -60,7 +62,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     if news and not (news.changes or news.generator):
         news = None
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
-    plan = msgspec.structs.replace(plan, stale=inputs.source.stale)
+    is_broken = any(one.is_broken for one in decision.misfits)
+    plan = msgspec.structs.replace(plan, stale=inputs.source.stale, is_broken=is_broken)
     record = _record(generation, decision)
     files_changed = _file_changes(generation, decision, record.files if record else {})
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
@@ -161,14 +164,12 @@ def _complete_record(generation: Generation, decision: Decision) -> Record:
         key: one for key, one in inputs.recorded_files.items() if not one.is_users or is_file(inputs.files.path(key))
     }
     files = files_after(decision.actions, old)
-    has_kept = any(one.kept for one in files.values())
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
         folder=inputs.folder,
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        former_names=names_since(inputs, renamed(generation)) if has_kept else {},
         snapshot=generation.now.snapshot,
         imports={key: (one,) for key, one in generation.imported.imports.items()},
         files={key: one for key, one in files.items() if key.startswith(inside)},
@@ -210,38 +211,30 @@ def _base_changes(
 ) -> list[FileChange]:
     """Return how the texts that the record mentions get to the bases, and how old ones go.
 
-    A file of bases is renewed if a hash is new, or if it is not there; all are in a full build, and where git has
-    united states. Old texts go with that, once no state mentions them: neither the record before, nor the one after.
+    Looked at are the files of bases for new hashes, and those that are not there; all in a full build, and where git
+    has united states. Once no state mentions a text, neither the record before nor the one after, it goes when its file
+    is written; that alone is no reason to write it.
     """
     inputs, store, name = generation.inputs, generation.inputs.store, generation.inputs.robot.name
     if record is None:
         names = {name, inputs.last_name}
         return [one for robot in names for digit in DIGITS for one in store.save_bases(robot, digit, None)]
-    imports = inputs.key(RESOURCES), inputs.old_key(RESOURCES)
-    old = _text_hashes(inputs.recorded_files, imports) | _text_hashes(
-        inputs.record.files if inputs.record else {}, imports
-    )
-    new = _text_hashes(record.files, imports)
+    before = [*(inputs.record.files if inputs.record else {}).values(), *inputs.written.values()]
+    old = {sha256 for file in before if file for sha256 in file.hashes}
+    new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
     is_whole = inputs.options.full or inputs.former_name or inputs.record is None or inputs.record.is_united
-    renewed = {sha256[0] for sha256 in new.keys() - old.keys()} | store.missing_bases(name)
+    renewed = {sha256[0] for sha256 in new.keys() - old} | store.missing_bases(name)
     needed = {*old, *new, *(text_hash(one.base) for one in aside.values() if one.is_users and one.base)}
     found = list[FileChange]()
     for digit in DIGITS if is_whole else sorted(renewed):
         texts = dict(store.bases(inputs.last_name, digit))
-        if decision.is_complete:
-            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
-        for sha256, key in new.items():
-            path = inputs.path(key)
-            is_lost = sha256[0] == digit and sha256 not in texts
-            if is_lost and path in generation.package.artifacts and generation.package.hash(path) == sha256:
+        for sha256 in [one for one in new if one[0] == digit and one not in texts]:
+            path = inputs.path(new[sha256])
+            if path in generation.package.artifacts and generation.package.hash(path) == sha256:
                 texts[sha256] = generation.package.content(path).decode()
+        if decision.is_complete and store.save_bases(name, digit, texts):
+            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
         found += store.save_bases(name, digit, texts)
         if inputs.former_name:
             found += store.save_bases(inputs.former_name, digit, None)
     return found
-
-
-def _text_hashes(files: Mapping[str, FileRecord], imports: tuple[str, ...]) -> dict[str, str]:
-    """Return the hashes of all bases but those below `imports`, with the key of a file that has each."""
-    texts = ((key, file) for key, file in files.items() if not key.startswith(imports))
-    return {sha256: key for key, file in texts for sha256 in file.hashes}

@@ -1,4 +1,4 @@
-"""What the last build wrote over: given back to the user, and compared with what has been saved since.
+"""What the last build wrote over, to be given back to the user.
 
 It is put aside in the state folder and stays there until the next build that writes. What the user had before a merge
 stays as long as the merged file is not saved.
@@ -10,13 +10,11 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Kind
-from urdfsync.engine.conflicts import BOTH_SIDES, Conflict
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import text_hash
-from urdfsync.files import shown
 from urdfsync.state.record import Choice, role_of, sides_hash
 from urdfsync.state.replaced import Replaced
 
@@ -24,35 +22,28 @@ _MANY = 100
 """If a build writes over more files that nobody edited, these are not put aside: it was no export, but a template."""
 
 
-def reconsider(
+def apply_undo(
     generation: Generation, actions: Iterable[Action], choices: Mapping[str, Choice]
-) -> tuple[tuple[Action, ...], dict[str, str], tuple[Diagnostic, ...]]:
-    """Undo merges, and look again at files that nothing seems to be new for.
-
-    One that was saved without what the last build had written conflicts again if the user wants it merged or edited;
-    else there is a warning. Returns the actions, the texts of what is undone by path, and the warnings.
-    """
+) -> tuple[tuple[Action, ...], dict[str, str]]:
+    """Undo merges where the user chose that. Returns the actions, and the texts of what is undone by path."""
     inputs, actions = generation.inputs, tuple(actions)
-    found = tuple(_reconsidered(generation, action, choices.get(action.path)) for action in actions)
+    found = tuple(
+        _undone(generation, action) if choices.get(action.path) is Choice.UNDO else action for action in actions
+    )
     found += tuple(_find_deleted(generation, {action.path for action in actions}))
-    texts = {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
-    return found, texts, tuple(_warning(shown(inputs.files.path(one.path))) for one in found if one.takes_back)
+    return found, {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
 
 
-def _reconsidered(generation: Generation, action: Action, choice: Choice | None) -> Action:
-    if not action.mine or action.role is Role.IMPORT or not (action.kind is Kind.KEEP or choice is Choice.UNDO):
-        return action
+def _undone(generation: Generation, action: Action) -> Action:
+    """Give back what the user had, if the file is still what was written over it."""
     one = generation.inputs.replaced.get(generation.inputs.path(action.path))
-    if one is None:
+    if one is None or not action.mine or action.role is Role.IMPORT:
         return action
-    if choice is Choice.UNDO:
-        return _undone(action, one)
-    if one.base and _takes_back(generation, action, one):
-        if choice in BOTH_SIDES:
-            return msgspec.structs.replace(action, kind=Kind.CONFLICT, base=text_hash(one.base))
-        if choice in (Choice.KEEP, None):
-            return msgspec.structs.replace(action, choice=choice, takes_back=choice is None)
-    return action
+    after = action.generated if one.after is None else text_hash(one.after)
+    if not one.is_users or action.mine != after or action.base != action.generated:
+        return action
+    result = text_hash(one.before)
+    return msgspec.structs.replace(action, kind=Kind.UNDO, choice=Choice.UNDO, result=result)
 
 
 def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Action]:
@@ -68,35 +59,6 @@ def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Ac
             yield Action(key, Kind.UNDO, role, choice=choice, result=result)
 
 
-def _undone(action: Action, one: Replaced) -> Action:
-    """Give back what the user had, if the file is still what was written over it."""
-    after = action.generated if one.after is None else text_hash(one.after)
-    if not one.is_users or action.mine != after or action.base != action.generated:
-        return action
-    base, result = None if one.base is None else text_hash(one.base), text_hash(one.before)
-    return msgspec.structs.replace(
-        action, kind=Kind.UNDO, base=base, choice=Choice.UNDO, result=result, keeps_base=True
-    )
-
-
-def _takes_back(generation: Generation, action: Action, one: Replaced) -> bool:
-    """Whether a file is rather what stood there before the last build than what this build wrote, with an edit."""
-    from urdfsync.merge.edits import find_edits  # only an edited file needs it
-
-    mine = generation.inputs.files.text(action.path) or ""
-    after = generation.content(action.path).decode() if one.after is None else one.after
-    since_before, since_after = find_edits(one.before, mine), find_edits(after, mine)
-    if since_before is None or since_after is None:
-        return text_hash(mine) == text_hash(one.before)
-    return len(since_before) < len(since_after)
-
-
-def _warning(file: str) -> Diagnostic:
-    message = "it was saved without what the last build wrote, as by an editor that had opened it before"
-    hint = f"`urdfsync resolve {file} --merge` brings that in again, --keep leaves your file as it is"
-    return Diagnostic(Severity.WARNING, "taken-back", message, file, hint=hint)
-
-
 def put_aside(
     generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
 ) -> dict[str, Replaced]:
@@ -110,11 +72,10 @@ def put_aside(
     found = {}
     is_writing = any(action.writes for action in actions)
     settled = {inputs.path(action.path) for action in actions if action.choice in (Choice.KEEP, Choice.UNDO)}
-    taken_back = {inputs.path(action.path) for action in actions if action.takes_back}
     for path, one in inputs.replaced.items():
         after = files.text(inputs.key(path))
         stands = after is None or one.after in (None, after)
-        if path not in settled and (not is_writing or path in taken_back or (one.is_users and stands)):
+        if path not in settled and (not is_writing or (one.is_users and stands)):
             found[path] = one
     return found | new
 

@@ -20,6 +20,7 @@ _ROLES = {
     "description": "description",
     "head": "kind and name",
     "name": "name",
+    "order": "order of inputs and outputs",
     "prefixes": "prefixes",
     "sizes": "size",
     "type": "type",

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 NOT_EXPANDED = "inputs changed since the last build"
 """What is said of a source that xacro, or a command, would have to make again."""
+BROKEN = "broken: a file that you edited does not fit"
+"""What is said of a package in which a name means nothing, or a file is no Modelica."""
 RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
 _SETTLES = (Kind.ADOPT, Kind.CONFLICT, Kind.UNOWNED)
 """Actions that write to the state alone, and are told by themselves."""
@@ -48,6 +50,8 @@ def summary(result: Result) -> str:
         fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
         total = sum(action.kind in fine for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
+    if result.is_broken:
+        parts.insert(0, BROKEN)
     checked = [check_result(result.checked, result.diagnostics)] if result.checked else []
     return "; ".join([", ".join(parts), *checked])
 

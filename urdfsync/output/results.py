@@ -67,10 +67,10 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
         console.add_robot(result_values(result))
         return
     console.findings(result.diagnostics)
-    if console.quiet and not result.conflicts:
+    if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return
-    lines = [headline(result, summary(result), is_fine=not result.conflicts)]
+    lines = [headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))]
     if not console.quiet:
         lines += result_lines(result, verbose=console.verbose, explain=explain)
     console.print(lines, error=result.failed)
@@ -115,7 +115,7 @@ def action_values(action: Action, changes: Changes | None = None) -> dict[str, A
 
 def result_values(result: Result) -> dict[str, Any]:
     """What was done with a robot as plain data; paths are relative to the configuration's folder."""
-    changes = result.effective_changes
+    changes = result.changes
     return {
         "name": result.robot,
         "package": result.package,
@@ -123,6 +123,7 @@ def result_values(result: Result) -> dict[str, Any]:
         "failed": result.failed,
         "locked": result.locked,
         "in_step": result.in_step,
+        "broken": result.is_broken,
         "writes": result.writes,
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,

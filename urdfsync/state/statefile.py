@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
@@ -43,8 +42,6 @@ _FACTS: Mapping[str, Any] = {
     "option": tuple[str, Any],
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
-    "kept": tuple[str, str],
-    "former": tuple[str, str],
     "choice": tuple[str, str, Choice],
     "edited": tuple[str, str],
     "seen": tuple[str, str | None, Any],
@@ -89,9 +86,6 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     if record.snapshot is not None:
         yield from (("model", fact) for fact in _elements(record.snapshot))
     yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
-    below = len(record.folder) + 1
-    yield from (("kept", (key[below:], file.kept)) for key, file in record.files.items() if file.kept)
-    yield from (("former", item) for item in record.former_names.items())
     if record.open:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
         yield from (("edited", item) for item in record.open.edited.items())
@@ -165,12 +159,9 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     hashes: dict[str, list[str]] = {}
     for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
-    kept = {f"{folder}/{path}": sha256 for path, sha256 in found["kept"]} if is_placed else {}
-    hashes |= {key: [] for key in kept if key not in hashes}
     imports: dict[str, tuple[Import, ...]] = {}
     for key, one in found["import"]:
         imports[key] = (*imports.get(key, ()), one)
-    names = Counter(old for old, _ in found["former"])
     open_ = None
     if found["seen"]:
         choices = {(path, sides): choice for path, sides, choice in found["choice"]}
@@ -194,10 +185,9 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         snapshot=_snapshot(found["model"]),
         imports=imports,
         files={
-            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found, kept.get(key, ""))
+            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found)
             for key, found in sorted(hashes.items())
         },
-        former_names={old: new for old, new in found["former"] if names[old] == 1},
         open=open_,
         is_united=not is_whole,
     )
