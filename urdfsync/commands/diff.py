@@ -26,6 +26,7 @@ from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
 from urdfsync.output.phrases import RESOLVE_HINT, change_counts, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, file_line, headline, result_values
 
 _STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
@@ -75,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             console.add_robot(_to_json(one))
             continue
-        console.findings([found for found in one.result.diagnostics if found.code != CONNECTORS])
+        show_findings(console, one.result, [found for found in one.result.diagnostics if found.code != CONNECTORS])
         if not console.quiet or one.result.conflicts:
             head = headline(one.result, _summary(one), is_fine=one.in_step)
             console.print([head, *_lines(one, console.verbose)], error=one.result.failed)

@@ -28,6 +28,7 @@ from urdfsync.output.phrases import (
     generator_change,
 )
 from urdfsync.output.phrases import reason as reason_of
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_values, file_line, headline, result_values
 
 _INPUTS = 5
@@ -106,7 +107,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         source, found = (sources[result.robot], ".xacro"), result.diagnostics
         quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
-        console.findings(told)
+        show_findings(console, result, told)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
