@@ -21,10 +21,10 @@ from urdfsync.engine.actions import CONFLICTS, Kind
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import RESOLVE_HINT, change_counts, counted, error_count, generator_change
+from urdfsync.output.phrases import change_counts, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, file_line, headline, result_values
@@ -199,4 +199,4 @@ def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
         lines.append(file_line(shown_path(result, action.path), *action_word(action), why))
     yield from first_lines(lines, max(_FILES, len(found.edited) + 1), "file", verbose=verbose)
     if any(action.kind in CONFLICTS for action in actions):
-        yield line((RESOLVE_HINT, "dim"))
+        yield line((settle_hint(result), "dim"))

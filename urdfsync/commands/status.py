@@ -15,12 +15,11 @@ from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
     BROKEN,
     NOT_EXPANDED,
-    RESOLVE_HINT,
     action_counts,
     change_counts,
     counted,
@@ -184,7 +183,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"
-        yield line((RESOLVE_HINT if is_built(result) else adopts, "dim"))
+        yield line((settle_hint(result) if is_built(result) else adopts, "dim"))
 
 
 def summary(result: Result) -> str:
