@@ -53,7 +53,7 @@ def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_b
         assert expected in execute(command, code=code).errors
     with (project / "urdfsync.toml").open("a") as file:
         file.write('frames = ["arm"]\n')
-    assert "arm_linkFrame" not in execute("build").words
+    assert "[unresolved]" not in execute("build").words
 
 
 def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_number(

@@ -154,7 +154,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
     ids=["no model", "a file of the user's", "a lost base", "another name", "a folder"],
 )
 def test_why_a_merge_is_not_offered(found: Conflict, kind: Reason, reason: str, after: str) -> None:
-    lines = seen(found, reason=kind)
+    lines = seen(found, kind=kind)
     assert lines[1] == f"  conflict   {found.origin or ELBOW}  link elbow"
     assert lines[2].endswith(reason)
     words = " ".join(" ".join(lines).split())

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 _STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
-_STYLES_LEFT = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
+_STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
 """Styles of files that are left as they are, by how they stand."""
 _ALWAYS_LISTED = (Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.ORPHAN, Reason.NEEDED)
 _ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
