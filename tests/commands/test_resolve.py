@@ -15,6 +15,7 @@ import pytest
 from support.commands import Execute
 from support.crashes import Operation, before_each
 from support.files import unchanged
+from support.git import NEEDS_GIT
 from support.networks import LADDER, MANIFEST, RC_FOLDER, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
@@ -697,15 +698,34 @@ def test_an_editor_makes_one_text_of_both(
     assert not list(tmp_path.glob("urdfsync-edit-*"))
 
 
-def test_the_editor_sees_all_versions(contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path) -> None:
-    editor("print([Path(name).name for name in names]); print(Path(names[2]).read_text()); sys.exit(3)")
+def test_the_editor_sees_all_versions_in_one_file_outside_of_the_project(
+    contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path
+) -> None:
+    editor("print(len(names), Path.cwd() == file.parent); print(file.read_text()); sys.exit(3)")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
-    assert "the editor ended with exit code 3; nothing was changed" in error
+    assert "the editor ended with exit code 3; nothing was changed; what it saved is in " in error
     (folder,) = tmp_path.glob("urdfsync-edit-*")
-    names = sorted(path.name for path in folder.iterdir())
-    assert names == ["Ladder.base.mo", "Ladder.generated.mo", "Ladder.mine.mo", "Ladder.mo"]
-    assert (folder / "Ladder.mine.mo").read_text() == Path(MODEL).read_text()
+    (file,) = folder.iterdir()
+    assert file.name == "Ladder.mo"
+    lines = file.read_text().splitlines()
+    marks = [line for line in lines if line[:7] in ("<<<<<<<", "|||||||", "=======", ">>>>>>>")]
+    assert marks == ["<<<<<<< mine", "||||||| base", "=======", ">>>>>>> generated"]
+
+
+def test_without_a_base_the_editor_sees_both_texts(execute: Execute, editor: Editor, project: Path) -> None:
+    """The file that was there first is no edit of the generated one."""
+    Path(MODEL).parent.mkdir(parents=True)
+    Path(MODEL).write_text('model Ladder "of mine"\nend Ladder;\n')
+    execute("build", code=3)
+    own = 'within;\nmodel Ladder "of both"\nend Ladder;\n'
+    copy = project.parent / "seen"
+    editor(f"Path({str(copy)!r}).write_text(file.read_text()); file.write_text({own!r})")
+    assert f"  accepted   {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines
+    assert Path(MODEL).read_text() == own
+    seen = copy.read_text()
+    assert seen.startswith('<<<<<<< mine\nmodel Ladder "of mine"\n=======\nwithin ')
+    assert "\n>>>>>>> generated\nend Ladder;\n" in seen
 
 
 @pytest.mark.parametrize(
@@ -714,6 +734,7 @@ def test_the_editor_sees_all_versions(contradictory: Path, execute: Execute, edi
         ("", "has the conflict marker"),
         ('file.write_text("")', "is not one class called `Ladder`"),
         (SETTLE + 'file.write_text(file.read_text().replace("Ladder", "Other"))', "is not one class called `Ladder`"),
+        (SETTLE + 'file.write_bytes(file.read_text().replace("1 %", "\\xe4").encode("latin-1"))', "is not UTF-8"),
     ],
 )
 def test_an_edited_text_that_cannot_be_used_changes_nothing(
@@ -723,7 +744,18 @@ def test_an_edited_text_that_cannot_be_used_changes_nothing(
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
     assert words in error
-    assert "nothing was changed" in error
+    assert "nothing was changed; it stays in " in error
+    assert "; --edit begins anew" in error
+
+
+def test_an_edited_text_in_latin_1_is_no_bug_while_another_file_waits(
+    contradictory: Path, execute: Execute, editor: Editor
+) -> None:
+    edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
+    edit("ladder.json", '"R1"', '"R8"')
+    editor(SETTLE + 'file.write_bytes(file.read_text().replace("1 %", "\\xe4").encode("latin-1"))')
+    assert "the edited text is not UTF-8; nothing was changed" in execute("resolve", MODEL, "--edit", code=2).err
+    execute("build", code=3)
 
 
 def test_an_edited_text_waits_for_other_conflicts(contradictory: Path, execute: Execute, editor: Editor) -> None:
@@ -760,7 +792,7 @@ def test_a_header_and_other_line_ends_are_no_other_class(contradictory: Path, ex
 def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
     contradictory: Path, execute: Execute, editor: Editor
 ) -> None:
-    editor("file.write_text(Path(names[2]).read_text())")
+    editor(f"file.write_text(Path({str(Path(MODEL).absolute())!r}).read_text())")
     execute("resolve", MODEL, "--edit")
     assert Path(f"{LADDER}/Elements/R2.mo").exists(), "the file uses it"
 
@@ -768,25 +800,45 @@ def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
 def test_a_text_that_is_not_taken_is_named(contradictory: Path, execute: Execute, editor: Editor) -> None:
     edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
     edit("ladder.json", '"R1"', '"R8"')
-    editor("if file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text(Path(names[3]).read_text())")
+    generated = "re.sub('<<<<<<<.*?=======\\n|>>>>>>>.*?\\n', '', file.read_text(), flags=re.S)"
+    editor(f"import re\nif file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text({generated})")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", "--all", "--edit", code=2).err
     assert "the editor ended with exit code 1" in error
     assert "R8.mo: note: this edited text was not taken over" in error
 
 
-def test_git_of_a_hook_does_not_lead_the_merge_tool_astray(
+HOSTILE = """
+[core]
+repositoryformatversion = 0
+bare = true
+editor = touch pwned
+[merge]
+tool = evil
+[mergetool "evil"]
+cmd = touch pwned
+trustExitCode = true
+"""
+
+
+@NEEDS_GIT
+def test_no_folder_of_the_project_chooses_what_is_started(
     contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    editor("file.write_text(Path(names[1]).read_text())")
-    settings, other = tmp_path / "gitconfig", tmp_path / "other.git"
-    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
-    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
-    monkeypatch.setenv("GIT_DIR", str(other))
-    execute("resolve", MODEL, "--edit")
-    assert FRESH in Path(MODEL).read_text()
-    assert not other.exists()
+    """It poses as a bare repository, or is one that somebody has copied with its settings."""
+    for folder in (contradictory, contradictory / ".git"):
+        for name in ("objects", "refs"):
+            (folder / name).mkdir(parents=True)
+        (folder / "HEAD").write_text("ref: refs/heads/main\n")
+        (folder / "config").write_text(HOSTILE)
+    for name in ("VISUAL", "EDITOR"):
+        monkeypatch.delenv(name, raising=False)
+    assert "there is no editor to open; set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
+    monkeypatch.setenv("VISUAL", "editor-of-nobody")
+    (contradictory / "editor-of-nobody").write_text("#!/bin/sh\ntouch pwned\n")
+    (contradictory / "editor-of-nobody").chmod(0o755)
+    assert "`editor-of-nobody` can't be started" in execute("resolve", MODEL, "--edit", code=2).err
+    assert not list(tmp_path.rglob("pwned"))
 
 
 def test_a_command_that_cannot_be_read_is_no_bug(
@@ -807,31 +859,12 @@ def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(
     assert Path(MODEL).read_text() == mine
 
 
-def test_the_merge_tool_of_git_goes_before_the_editor(
-    contradictory: Path,
-    execute: Execute,
-    editor: Editor,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-) -> None:
-    editor("file.write_text(Path(names[1]).read_text())")
-    settings = tmp_path / "gitconfig"
-    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
-    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
-    monkeypatch.setenv("VISUAL", "false")
-    execute("resolve", MODEL, "--edit")
-    assert MINE not in Path(MODEL).read_text()
-    assert FRESH in Path(MODEL).read_text()
-    execute("build", "--check")
-
-
 def test_without_an_editor_it_says_what_to_set(
     contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("VISUAL")
     monkeypatch.delenv("EDITOR", raising=False)
-    assert "set $VISUAL, or git's `merge.tool`" in execute("resolve", MODEL, "--edit", code=2).err
+    assert "set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
 
 
 # Robots, locks, programs

@@ -72,7 +72,7 @@ def test_watch_needs_the_users_word(outside: Path, rc_site: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "code"), [("status", 0), ("build --check", 1), ("build --dry-run", 0), ("diff", 1)]
+    ("command", "code"), [("status", 1), ("build --check", 1), ("build --dry-run", 0), ("diff", 1)]
 )
 def test_other_commands_read_and_tell(outside: Path, execute: Execute, command: str, code: int) -> None:
     assert "warning: `output` leads out of the configuration's folder" in execute(*command.split(), code=code).words

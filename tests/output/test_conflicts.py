@@ -79,7 +79,7 @@ def test_what_each_side_changed_and_what_to_do() -> None:
         f"    {SAVED}.merge.mo",
         "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
         "      --merge  both sides' changes",
-        "      --edit   both in your merge tool, or in your editor",
+        "      --edit   both in your editor, between markers",
         "      --keep   your file as it is",
         "      --take   the generated file",
     ]
@@ -128,16 +128,16 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Kind.CONFLICT),
             f"{CHANGED} The changes fit together, but the merge declares `x` twice.",
-            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your merge tool, or in your editor",
+            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your editor, between markers",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.UNOWNED),
-            "urdfsync did not write the file that is there. There is no base, so nothing can be merged.",
-            f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --take",
+            "urdfsync did not write the file that is there. There is no base, so it can't be merged.",
+            f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --edit both",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Kind.CONFLICT),
-            f"{CHANGED} The base, which is what urdfsync wrote last, is lost, so nothing can be merged.",
+            f"{CHANGED} Its merge base, the text that urdfsync wrote last, is not recorded, so it can't be merged.",
             "mine 3 Real a = 1; // measured generated 3 Real a = 1;",
         ),
         (

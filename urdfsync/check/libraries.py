@@ -15,6 +15,7 @@ from urdfsync.check.cache import UserCache, cache_errors, digest
 from urdfsync.check.contents import content_hash, copy_library
 from urdfsync.check.package import package_texts
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
@@ -168,7 +169,7 @@ def needed_libraries(
 
 def library_texts(path: Path) -> Mapping[str, bytes]:
     """The files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
-    return {path.name: path.read_bytes()} if path.suffix == ".mo" else package_texts(path)
+    return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:

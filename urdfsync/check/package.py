@@ -15,6 +15,7 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -243,7 +244,7 @@ def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes
     try:
         for path in stored_files(folder, without):
             with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                found[path] = path.read_bytes()
+                found[path] = read_unrecorded(path)
     except OSError as error:
         message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
         file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""

@@ -76,7 +76,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--trust": {
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, and run a robot's `command` and, for "
-        "checks, the `omc` that the configuration names",
+        "checks, OpenModelica if the configuration chooses it",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
     # never from the configuration: workers may do whatever they want

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import os
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync import config
-from urdfsync.commands import arguments, merge_tool
+from urdfsync.commands import arguments, editor
 from urdfsync.commands.build import build_and_check
 from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
@@ -35,11 +36,11 @@ from urdfsync.state.record import Choice
 _LINES = 20
 """So many files are listed at most, without --verbose."""
 _MEANINGS = {
-    Choice.KEEP: "stays as you have it",
-    Choice.TAKE: "replaced by the generated file",
-    Choice.MERGE: "has the changes of both sides",
-    Choice.MERGE_MINE: "has the changes of both sides, yours where they contradict each other",
-    Choice.MERGE_GENERATED: "has the changes of both sides, the generated ones where they contradict each other",
+    Choice.KEEP: "your file as it is",
+    Choice.TAKE: "the generated file",
+    Choice.MERGE: "both sides' changes",
+    Choice.MERGE_MINE: "both sides' changes, yours in doubt",
+    Choice.MERGE_GENERATED: "both sides' changes, generated in doubt",
     Choice.EDIT: "as you edited it",
     Choice.UNDO: "as you had it before",
 }
@@ -69,8 +70,8 @@ def add(commands: arguments.Commands) -> None:
         Choice.KEEP: "leave your file as it is, until something new is generated",
         Choice.TAKE: "replace your file by the generated one",
         Choice.MERGE: "take both sides' changes, if they do not contradict each other",
-        Choice.EDIT: "make one text of both sides in git's merge tool, or in the editor of $VISUAL",
-        Choice.UNDO: "give a file back as you had it before it was merged or replaced",
+        Choice.EDIT: "make one text of both sides in the editor of $VISUAL or $EDITOR",
+        Choice.UNDO: "bring back what you had before a file was merged, replaced or deleted",
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
@@ -109,8 +110,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         _show_losses(loaded, robots, targets, planned, console)
     if choice is Choice.UNDO:
         _refuse_undo(targets, build(loaded, robots, planned))
-    edited = _edit(loaded, targets, list(build(loaded, robots, planned))) if choice is Choice.EDIT else {}
-    texts = {sides: file.read_bytes().decode(errors="surrogateescape") for sides, file in edited.items()}
+    edited = _edit(targets, list(build(loaded, robots, planned))) if choice is Choice.EDIT else {}
+    texts = {key: file.read_bytes().decode() for key, file in edited.items()}
     request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=texts)
     results = show_results(console, build_and_check(loaded, robots, request))
     actions = {one.path: one for result in results for one in result.actions if not result.failed}
@@ -139,7 +140,7 @@ def _changed(target: DisputedFile) -> Diagnostic:
 
 def _meaning(action: Action) -> str:
     """What a choice makes of a file."""
-    words = _MEANINGS[action.choice] if action.choice else "has what is new already"
+    words = _MEANINGS[action.choice] if action.choice else "your file has both sides' changes already"
     if action.generated is None and action.choice is not Choice.UNDO:
         words = "deleted" if action.kind is Kind.DELETE else "yours from now on"
     return f"{words}, once the other conflicts are resolved" if action.held else words
@@ -205,7 +206,7 @@ def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> 
         raise UrdfsyncError(*found)
 
 
-def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
+def _edit(targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
     """Let the user edit each file; where its text is then, by key and `Action.sides`.
 
     Raises UrdfsyncError if one can't be used; it names those that could, too.
@@ -215,24 +216,38 @@ def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Sequence[Res
     try:
         for target in targets:
             path = target.action.path
-            edited[path, target.action.sides] = _edit_one(texts[path], target.shown, loaded.root)
+            if path in texts:  # else it has changed since
+                edited[path, target.action.sides] = _edit_one(texts[path], target.shown)
     except UrdfsyncError as error:
         raise UrdfsyncError(*error.diagnostics, *map(_left, edited.values())) from error
     return edited
 
 
-def _edit_one(conflict: Conflict, place: str, root: Path) -> Path:
-    proposal = conflict.merge.proposal if conflict.merge else conflict.mine
-    texts = (conflict.base or "", conflict.mine, conflict.generated, proposal)
-    file = merge_tool.edit(PurePosixPath(conflict.path).name, merge_tool.Versions(*map(encode, texts)), root)
-    if flaw := _flaw(file.read_bytes().decode(errors="surrogateescape"), conflict):
-        message = f"the edited text {flaw}; nothing was changed"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, place, hint=f"it is in {file}"))
+def _edit_one(conflict: Conflict, place: str) -> Path:
+    proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
+    file = editor.edit(PurePosixPath(conflict.path).name, encode(proposal))
+    if flaw := _flaw(file.read_bytes(), conflict):
+        message, hint = f"the edited text {flaw}; nothing was changed", f"it stays in {file}; --edit begins anew"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, place, hint=hint))
     return file
 
 
-def _flaw(text: str, conflict: Conflict) -> str:
+def _both(mine: str, generated: str) -> str:
+    """Return both texts as one, with markers around what differs: there is no base to merge with."""
+    sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
+    lines: list[str] = []
+    for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
+        own, new = sides[0][places[0] : places[1]], sides[1][places[2] : places[3]]
+        lines += own if what == "equal" else ["<<<<<<< mine", *own, "=======", *new, ">>>>>>> generated"]
+    return ("\r\n" if "\r\n" in mine else "\n").join([*lines, ""])
+
+
+def _flaw(content: bytes, conflict: Conflict) -> str:
     """Why an edited text can't be used, as the end of a sentence; empty if it can."""
+    try:
+        text = content.decode()
+    except UnicodeDecodeError:
+        return "is not UTF-8"
     wanted, found = ([str(one.name) for one in parse(one).classes] for one in (conflict.generated, text))
     if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
         return flaw

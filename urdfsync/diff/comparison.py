@@ -240,10 +240,11 @@ def _with_version(
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
     label = revision.label(robot.source)
-    content = revision.read(robot.source)
-    is_expanded = robot.arguments is not None or source_files.is_xacro(robot.source, content)
-    if config is None or not is_expanded:
-        return Source(content, label)
+    # the source may have had another name then, its expansion has that of the robot
+    if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
+        content = revision.read(robot.source)
+        if config is None or not source_files.is_xacro(robot.source, content):
+            return Source(content, label)
     path = Store(config.root).expansion(robot.name)
     if (found := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"

@@ -20,7 +20,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
-        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale)
+        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale, is_noop=True)
     with inputs.source.locating():
         generation = generate_robot(inputs)
     decision = decide_package(generation)

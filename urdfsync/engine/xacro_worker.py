@@ -145,11 +145,24 @@ def find_matches(pattern: str) -> list[str]:
 
 
 class _Files:
-    """Opens and finds files for xacro, and notes their hashes and the patterns."""
+    """Opens and finds files and packages for xacro, and notes all that was asked for."""
 
-    def __init__(self) -> None:
+    def __init__(self, packages: ros_packages.Packages) -> None:
         self.hashes: dict[str, str | None] = {}
         self.patterns: dict[str, None] = {}
+        self.packages: dict[str, str] = {}
+        self._known = packages
+
+    def find(self, name: str) -> str:
+        """Return the folder of a ROS package. Raises PackageNotFoundError."""
+        if (folder := self._known.folder(name)) is None:
+            places = (
+                str(place / name / "package.xml") for place in (*self._known.folders, *self._known.source.parents)
+            )
+            self.hashes.update(dict.fromkeys(places))
+            raise PackageNotFoundError(name)
+        self.packages[name] = str(folder)
+        return self.packages[name]
 
     def glob(self, pattern: str) -> list[str]:
         """Return the files that a pattern matches. Raises PatternError."""
@@ -221,20 +234,13 @@ def expand(request: Request) -> Answer:
         from urdfsync.engine import xacro_expressions
     except ImportError as error:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
-    files, packages, said = _Files(), dict[str, str](), io.StringIO()
-    known = ros_packages.Packages([Path(folder) for folder in request.package_paths], Path(request.source))
-
-    def find(name: str) -> str:
-        if (folder := known.folder(name)) is None:
-            places = (str(place / name / "package.xml") for place in (*known.folders, *known.source.parents))
-            files.hashes.update(dict.fromkeys(places))
-            raise PackageNotFoundError(name)
-        packages[name] = str(folder)
-        return packages[name]
-
+    files, said = (
+        _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))),
+        io.StringIO(),
+    )
     # xacro asks ROS 2 for packages, which need not be installed
     ament = types.ModuleType("ament_index_python.packages")
-    ament.get_package_share_directory = find  # type: ignore[attr-defined]
+    ament.get_package_share_directory = files.find  # type: ignore[attr-defined]
     sys.modules.update({"ament_index_python": types.ModuleType("ament_index_python"), ament.__name__: ament})
     xacro_expressions.install()
     xacro.open, xacro.glob, xacro.root_dir = files.open, files, request.folder
@@ -249,7 +255,7 @@ def expand(request: Request) -> Answer:
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
-            text = _with_package_uris(document.toprettyxml(indent="  "), packages)
+            text = _with_package_uris(document.toprettyxml(indent="  "), files.packages)
             places = tuple(_places(document, text))
     except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source)
@@ -260,7 +266,7 @@ def expand(request: Request) -> Answer:
         files.hashes,
         tuple(files.patterns),
         tuple(environment.asked),
-        packages,
+        files.packages,
         tuple(name for name in request.arguments if name not in arguments.asked),
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,

@@ -85,8 +85,10 @@ def describe(target: DisputedFile) -> str:
         return "it is not a text, so it can't be merged"
     if texts.merge is None:
         is_unowned = target.action.kind is Kind.UNOWNED
-        lost = "there is no base" if is_unowned else "the base, which is what urdfsync wrote last, is lost"
-        return texts.rejected or f"{lost}, so nothing can be merged"
+        base = (
+            "there is no base" if is_unowned else "its merge base, the text that urdfsync wrote last, is not recorded"
+        )
+        return texts.rejected or f"{base}, so it can't be merged"
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
@@ -179,10 +181,12 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     elif target.offers(Choice.MERGE_MINE):
         found["--merge --prefer mine"] = "both sides' changes, yours (or generated) in doubt"
     if target.texts and target.texts.merge and target.replaceable:
-        found["--edit"] = "both in your merge tool, or in your editor"
+        found["--edit"] = "both in your editor, between markers"
     found["--keep"] = "your file as it is"
     if target.action.origin:
         found["--keep"] += ", under its new name"
+    if target.texts and target.replaceable:
+        found.setdefault("--edit", "both texts in your editor, between markers")
     if target.replaceable:
         found["--take"] = "the generated file"
     return found

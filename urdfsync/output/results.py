@@ -113,7 +113,7 @@ def action_values(action: Action, changes: Changes | None = None) -> dict[str, A
 
 def result_values(result: Result) -> dict[str, Any]:
     """What was done with a robot as plain data; paths are relative to the configuration's folder."""
-    changes = result.effective_changes
+    changes = result.changes
     return {
         "name": result.robot,
         "package": result.package,
