@@ -38,6 +38,7 @@ RENAMED = {
     "../plant/Bench.mo": BENCH.replace("elbow", "wrist"),
     "modelica/Arm/Links/Mine.mo": MINE.replace("elbow", "wrist").replace("Elbow", "Wrist"),
 }
+NONE = "none of your models uses a name that the last build renamed"
 COMMAND = ("resolve", "--rename-uses")
 NAMES = (*COMMAND, "elbow=wrist")
 
@@ -101,13 +102,13 @@ def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, 
     assert texts() == RENAMED
     assert Path("modelica/Arm/Joints/Wrist.mo").exists()
     execute("build", "--check")
-    assert "no model of yours uses an old name" in execute(*COMMAND).err
+    assert NONE in execute(*COMMAND).err
 
 
 def test_what_an_earlier_build_renamed_is_renamed_by_its_names(user: Path, execute: Execute) -> None:
     hint = "`urdfsync resolve --rename-uses elbow=wrist` shows the lines, and writes them if you agree [rename-uses]"
     assert f"note: your files can get the new names; {hint}" in execute("build").words
-    note = "no model of yours uses an old name; what an earlier build renamed has to be named: --rename-uses OLD=NEW"
+    note = f"{NONE}; for a rename before the last build, give both names: --rename-uses OLD=NEW"
     assert f"note: {note} [no-old-names]" in execute(*COMMAND).errors
     with unchanged(user / "modelica/Arm/Joints"):
         assert execute(*NAMES, "--yes").lines[-1] == "7 lines in 3 files written"
@@ -187,7 +188,7 @@ def test_a_name_that_may_mean_either_of_two_is_left_to_the_user(user: Path, exec
     """What was `elbow` is `swing`, and what was `swing` is `wrist`."""
     write_source("swing", "wrist")
     with unchanged(user.parent):
-        assert "no model of yours uses an old name" in execute(*COMMAND, "--yes").err
+        assert NONE in execute(*COMMAND, "--yes").err
 
 
 @pytest.mark.parametrize(

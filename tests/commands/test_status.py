@@ -184,7 +184,7 @@ def test_a_conflict_in_a_package_that_was_never_built() -> None:
         (
             [Reason.UPDATE],
             changed(ChangeClass.PARAMETER, noise=True),
-            ["1 parameter change in the source (rounding)", "next build: 1 file to write"],
+            ["1 parameter change by rounding in the source", "next build: 1 file to write"],
         ),
         (
             [Reason.UPDATE],

@@ -102,9 +102,9 @@ def test_verbose_shows_the_lines() -> None:
 def test_of_many_changes_the_first_are_shown() -> None:
     many = BASE.replace("  Real b", "".join(f"  Real x{number};\n" for number in range(10)) + "  Real b")
     found = Conflict(ELBOW, "link elbow", BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
-    assert seen(found, width=100)[11:14] == [
-        "                component `x7`: added",
-        "                … 2 more changes",
+    assert seen(found, width=100)[8:11] == [
+        "                component `x4`: added",
+        "                … 5 more changes",
         "    the export  component `b`: b 2 → 3",
     ]
 
@@ -118,6 +118,21 @@ def test_of_a_contradiction_nothing_else_is_shown() -> None:
     assert not any("b = 3" in line for line in lines)
 
 
+def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> None:
+    base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
+    generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
+    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    assert seen(found)[4:11] == [
+        "    -- lines 1 to 4: the sides contradict each other",
+        "               1  within Arm;",
+        "               2  model Elbow",
+        "    base       3    Real a = 1;",
+        "    mine       3    Real a = 7;",
+        "    generated  3    Real a = 9;",
+        "               4",
+    ]
+
+
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")
 SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
 
@@ -127,7 +142,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
     [
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Reason.CONFLICT),
-            f"{CHANGED} The changes fit together, but the merge declares `x` twice.",
+            f"{CHANGED} --merge would not be right: the merge declares `x` twice.",
             f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your editor, between markers",
         ),
         (
@@ -142,7 +157,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         ),
         (
             *(NEW_NAME, Reason.CONFLICT),
-            f"Its element was renamed: it will be moved to {ELBOW}.",
+            f"It will be moved to {ELBOW}.",
             f"{SHOULDER} --merge --prefer mine both sides' changes, yours (or generated) in doubt --edit",
         ),
         (

@@ -152,11 +152,11 @@ SAID: dict[str, Case] = {
                 )),
             ),
         ),
-        [f"{TIME}arm  5 changes in 3 elements, 4 files written"],
+        [f"{TIME}arm  ~3 (5 parameter changes), 4 files written"],
     ),
     "a long change": (
         (built(action(Reason.UPDATE), changes=Changes((change(f"link {'a' * 120}", None, None, kind=Event.ADDED),))),),
-        [f"{TIME}arm  1 change in 1 element, 1 file written"],
+        [f"{TIME}arm  1 parameter change, 1 file written"],
     ),
     "another name": (
         (

@@ -74,7 +74,7 @@ def add(commands: arguments.Commands) -> None:
         "adopt",
         run,
         "--wait --trust",
-        help="take packages that were there before for edited ones",
+        help="take over packages that exist already; what differs counts as your edits",
         description="Build robots whose packages were there before: written by another tool, or by urdfsync, whose "
         "recorded state is lost. Every file that differs from the generated one counts as edited by you, and stays; "
         "missing files are written. What differs is listed. From then on exports merge with it as with any edit.",

@@ -22,7 +22,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
+from urdfsync.output.phrases import RESOLVE_HINT, change_counts, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import action_word, file_line, headline, result_values
 
@@ -137,8 +137,7 @@ def _summary(found: Comparison) -> str:
     changes = found.result.changes
     if changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are out of step'}"
-    what = change_classes(changes) if changes.changes else generator_change(changes)
-    return f"{what} {since}{', only by rounding' if changes.noise else ''}"
+    return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from urdfsync.output.phrases import (
     NOT_EXPANDED,
     RESOLVE_HINT,
     action_counts,
-    change_classes,
+    change_counts,
     counted,
     error_count,
     generator_change,
@@ -136,7 +136,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
-        yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
+        yield line((f"  {change_counts(changes)} in the source", ""))
     if (actions := action_counts(result, {Reason.KEEP})) and not (result.in_step or result.failed):
         yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
-_ELEMENTS = 8
+_ELEMENTS = 5
 """So many changes of each side are listed."""
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
@@ -92,7 +92,7 @@ def describe(target: DisputedFile) -> str:
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
-        return f"the changes fit together, but {texts.rejected}"
+        return f"--merge would not be right: {texts.rejected}"
     found = [conflict.what for conflict in texts.merge.conflicts]
     if not all(found):
         return f"the changes contradict each other{f' in {len(found)} places' if len(found) > 1 else ''}"
@@ -147,9 +147,9 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     """One conflict: what happened, the versions, where they are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
-    story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
+    story = f"{_sentence(reason(action, result.changes, brief=True))} {_sentence(describe(target))}"
     if action.origin:
-        story += f" Its element was renamed: it will be moved to {shown_path(result, action.path)}."
+        story += f" It will be moved to {shown_path(result, action.path)}."
     yield from _paragraph(story, "", screen)
     if target.texts:
         from urdfsync.output.differences import difference_lines  # only a conflict needs it

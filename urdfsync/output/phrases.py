@@ -7,7 +7,7 @@ from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.outline import change_row, outline
@@ -124,16 +124,33 @@ def generator_change(changes: Changes) -> str:
     return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
 
 
-def change_lines(changes: Changes, *, everything: bool = False) -> list[str]:
-    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`."""
+def change_lines(changes: Changes, most: int | None = None, *, everything: bool = False) -> list[str]:
+    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`.
+
+    How much it is comes first, if it is several things. Where that takes more than `most` lines, each element has one.
+    """
     lines = [generator_change(changes)] if changes.generator else []
-    rows = outline(changes, everything=everything).items()
-    return [*lines, *(f"{title}: {row}" for title, own in rows for row in own)]
+    elements = outline(changes, everything=everything)
+    if sum(map(len, elements.values())) > 1:
+        lines.append(change_counts(changes))
+    if most is None or len(lines) + sum(map(len, elements.values())) <= most:
+        return [*lines, *(f"{title}: {row}" for title, rows in elements.items() for row in rows)]
+    for title, (first, *others) in elements.items():
+        lines.append(f"{title}: {first}{f', and {len(others)} more' if others else ''}")
+    return lines
 
 
-def change_classes(changes: Changes) -> str:
-    """`1 structural and 2 parameter changes`."""
+def change_counts(changes: Changes) -> str:
+    """`+2 −1 ~42 (4 structural and 51 parameter changes)`: elements that come, go and change, unless it is one."""
+    marks = {change.element: "~" for change in changes.changes}
+    marks |= {one.element: _SIGNS.get(one.kind, "~") for one in changes.changes if len(one.path) == 1}
+    elements = Counter(marks.values())
     classes = Counter(change.change_class for change in changes.changes)
     counts = [(classes[one], one) for one in reversed(ChangeClass) if classes[one]]
-    words = " and ".join(f"{number} {one}" for number, one in counts)
-    return f"{words} change{'' if counts[-1][0] == 1 else 's'}"
+    words = f"{' and '.join(f'{number} {one}' for number, one in counts)} change{'' if counts[-1][0] == 1 else 's'}"
+    words += " by rounding" if changes.noise else ""
+    signs = [f"{sign}{elements[sign]}" for sign in "+−~" if elements[sign]]
+    return f"{' '.join(signs)} ({words})" if len(marks) > 1 else words
+
+
+_SIGNS = {ChangeKind.ADDED: "+", ChangeKind.REMOVED: "−"}

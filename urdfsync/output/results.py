@@ -78,10 +78,12 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
 
 def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
     """What changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
-    changed = change_lines(result.effective_changes, everything=verbose) if result.effective_changes else []
-    yield from first_lines(
-        [line((f"  {words}", "")) for words in changed], _CHANGES, "change", verbose=verbose or explain
-    )
+    if result.effective_changes:
+        most = None if verbose or explain else _CHANGES
+        changed = [
+            line((f"  {words}", "")) for words in change_lines(result.effective_changes, most, everything=verbose)
+        ]
+        yield from first_lines(changed, _CHANGES, "change", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
         actions = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]

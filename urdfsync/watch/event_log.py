@@ -17,7 +17,7 @@ from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line
-from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary
+from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
 from urdfsync.output.results import result_lines
 from urdfsync.watch import events
 
@@ -149,14 +149,11 @@ class EventLog:
 
 
 def _changes(result: Result) -> list[str]:
-    """Return what changed in the model: a few changes in words, else their number."""
+    """Return what changed in the model: a few changes in words, else how many."""
     if result.effective_changes is None:
         return []
-    lines = change_lines(result.effective_changes)
-    if result.effective_changes.generator:
+    changes, lines = result.effective_changes, change_lines(result.effective_changes)
+    words = "; ".join(lines[-_FEW:])
+    if changes.generator:
         return lines[:1]
-    words = "; ".join(lines)
-    if len(lines) <= _FEW and len(words) <= _MAX_LENGTH:
-        return [words]
-    found = result.effective_changes
-    return [f"{counted(len(found.changes), 'change')} in {counted(len(found.by_element()), 'element')}"]
+    return [words if len(lines) <= _FEW + 1 and len(words) <= _MAX_LENGTH else change_counts(changes)]
