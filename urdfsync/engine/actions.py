@@ -41,7 +41,7 @@ class FileStatus(enum.StrEnum):
 class Reason(enum.Enum):
     """Why something happens to a file. What happens, and all words about it, follow."""
 
-    # Word, kind, status (None where there is no file any more), text: the end of a sentence that begins with the path.
+    # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
     # Then what a dry run says of n such files, and what a build does: in this order, where it says anything.
     UPDATE = (
         ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed"),

@@ -112,9 +112,11 @@ class Package:
                 continue
             keys.add(key)
             classes |= {key} if action.generated else set()
+            is_expected = action.generated is not None
             if not action.held and key in merged:
-                sha256 = text_digest(encode(merged[key]))
-                found[inputs.path(key)] = _Text(key, sha256, text=merged[key], is_edited=sha256 != action.generated)
+                sha256, text = text_digest(encode(merged[key])), merged[key]
+                is_edited = sha256 != action.generated
+                found[inputs.path(key)] = _Text(key, sha256, text=text, is_edited=is_edited, is_expected=is_expected)
             elif self._is_open and action.kind is Kind.CONFLICT:
                 found[inputs.path(key)] = _Text(key, text_digest(b""), text="")
             elif action.held or action.reason in _ON_DISK:
@@ -123,7 +125,6 @@ class Package:
                 ):
                     record = inputs.recorded_files.get(key)
                     is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
-                    is_expected = action.generated is not None
                     found[inputs.path(key)] = _Text(key, sha256, is_edited=is_edited, is_expected=is_expected)
             elif action.kind is not Kind.DELETE:
                 found[inputs.path(key)] = _Text(key, action.generated or "", is_generated=True)

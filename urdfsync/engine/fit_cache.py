@@ -51,7 +51,7 @@ class FitCache:
 
     def __init__(self, folder: Path, robot: str) -> None:
         """`folder` is the configuration's. What is known lies in the user's cache folder: no repository brings it."""
-        self._name = digest(f"{folder}\0{robot}\0{_program()}".encode())
+        self._name = digest(f"{folder}\0{robot}\0{_program()}".encode(errors="surrogateescape"))
         self._parsed = dict[str, StoredText]()
         """Interfaces, and whole texts of files that are looked at, by the hashes of the texts."""
         self._used, self._is_new = set[str](), False
