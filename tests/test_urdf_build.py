@@ -189,5 +189,5 @@ def test_the_new_name_of_a_class_has_a_capital_although_that_of_its_element_has_
     run(cart)
     (cart / "modelica/Cart/Bench.mo").write_text("within Cart;\nmodel Bench\n  Joints.Caster caster;\nend Bench;\n")
     (cart / "cart.urdf").write_text(CART.replace('"caster"', '"swivel"'))
-    (found,) = (found for found in run(cart).diagnostics if found.code == "vanished-name")
+    (found,) = (found for found in run(cart).diagnostics if found.code == "unresolved")
     assert (found.hint, found.line) == ("use `Swivel` instead", 3)

@@ -9,12 +9,12 @@ from collections.abc import Collection
 import msgspec
 
 IGNORABLE = frozenset(
-    "byte-order-mark compiler-warning connector-changed does-not-compile does-not-fit dotted-modifier "
+    "byte-order-mark compiler-warning connector-changed does-not-compile dotted-modifier "
     "fmu-differs fmu-not-simulated fmu-not-valid kept-save "
     "left-behind limit-passed names-unread nested-redeclare no-joints no-package-path no-users-path no-uses "
     "not-checked order-lacks order-twice out-of-step outdated-file outdated-package recovered rename-done rename-uses "
-    "renamed-robot repeated same-but-for-case stray-state stray-template taken-back terminated units unknown-build "
-    "untried-compiler unused-argument vanished-name xacro-said".split()
+    "renamed-robot repeated same-but-for-case stray-state stray-template terminated units unknown-build "
+    "untried-compiler unused-argument unresolved xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
 

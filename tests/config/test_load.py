@@ -136,8 +136,8 @@ OTHER_MISTAKES = {
     robot(package="Plant.end"): "3 `package`: `end` is a keyword of Modelica; choose another name, for example "
     "`EndRobot` [modelica-name]",
     robot(
-        'ignore = ["vanished-nam"]'
-    ): "5 no warning or note has the code `vanished-nam`; did you mean `vanished-name`? [unknown-code]",
+        'ignore = ["unresolve"]'
+    ): "5 no warning or note has the code `unresolve`; did you mean `unresolved`? [unknown-code]",
     robot(
         'ignore = ["mesh-guessed"]'
     ): "5 no warning or note has the code `mesh-guessed`; errors can't be ignored, and "

@@ -13,7 +13,7 @@ from support.urdfs import joint, link, robot
 from urdfsync.engine.result import Exit
 
 CONFIGURATION = '[robots.dog]\nsource = "dog.urdf"\npackage = "Dog"\n\n[robots.dog.renamed]\n'
-MINE = "  Real mine = 1;\n  annotation"
+MINE = "\n  Real mine = 1;\n\nequation"
 
 
 def dog(*sides: str) -> str:
@@ -56,7 +56,7 @@ LEGS = {
 def test_one_declared_joint_tells_two_legs_apart(built: Path, execute: Execute) -> None:
     """All else of both legs follows from it, edits move, and then the line is no longer needed."""
     Path("old.urdf").write_text(Path("dog.urdf").read_text())
-    edit("modelica/Dog/Links/Left_thigh.mo", "  annotation", MINE)
+    edit("modelica/Dog/Links/Left_thigh.mo", "\nequation", MINE)
     Path("dog.urdf").write_text(dog("l", "r"))
     assert renames(execute) == {}
     declare('left_hip = "l_hip"')
@@ -127,7 +127,7 @@ def test_without_a_last_build_only_the_source_counts(built: Path, execute: Execu
 
 def test_what_was_declared_while_a_conflict_is_open_can_be_taken_back(built: Path, execute: Execute) -> None:
     """The wrong leg is declared first: nothing of that is recorded."""
-    edit("modelica/Dog/Links/Left_thigh.mo", "  annotation", MINE)
+    edit("modelica/Dog/Links/Left_thigh.mo", "\nequation", MINE)
     edit("modelica/Dog/Links/TrunkParameters.mo", "9", "8")
     Path("dog.urdf").write_text(dog("l", "r").replace("9.0", "7.0"))
     declare('left_hip = "r_hip"')

@@ -9,12 +9,13 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -23,7 +24,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import has_word, text_of
+from urdfsync.modelica.files import files_that_use, has_word, text_of
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
@@ -110,9 +111,10 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
         raise UrdfsyncError(*built.diagnostics)
     rendering = Rendering(config, robot, options)
     domain = rendering.domain
-    said = [one for one in built.diagnostics if one.severity is Severity.ERROR]
+    errors = [one for one in built.diagnostics if one.severity is Severity.ERROR]
+    said = [one for one in errors if not one.file.endswith(".mo")]  # of these the check tells by itself
     on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
-    texts, in_step = on_disk or generated, bool(on_disk) and built.in_step
+    texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
@@ -180,7 +182,7 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
 
 def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
     """The user's models in no robot's package that have to do with this robot's package."""
-    return find_users_files(config, robot, {other.folder for other in config.robots}, [robot.folder.name])
+    return files_that_use(find_users_files(config, robot, [robot.folder.name]).mentioning, [robot.folder.name])
 
 
 class UsersModels(msgspec.Struct, frozen=True):
@@ -243,7 +245,7 @@ def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes
     try:
         for path in stored_files(folder, without):
             with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                found[path] = path.read_bytes()
+                found[path] = read_unrecorded(path)
     except OSError as error:
         message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
         file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
@@ -256,15 +258,13 @@ def _refuse(error: OSError) -> None:
         raise error
 
 
-def stored_files(
-    folder: Path, without: Collection[Path] = (), onerror: Callable[[OSError], None] | None = _refuse
-) -> Iterator[Path]:
+def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
     """The Modelica files of a package and of those in it, but for the folders in `without`.
 
     Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
-    OSError for a folder that can't be read, unless `onerror` passes over it.
+    OSError for a folder that can't be read.
     """
-    for place, folders, names in os.walk(folder, onerror=onerror):
+    for place, folders, names in os.walk(folder, onerror=_refuse):
         visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
         folders[:] = [name for name in visible if Path(place, name) not in without]
         for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some

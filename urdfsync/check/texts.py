@@ -237,9 +237,8 @@ def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved
         hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
     else:
         severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
-        message = f"there is no {one.kind.value} `{one.name}`"
+        message = one.message
         if one.kind is UnresolvedKind.ELEMENT:
-            message = f"{one.owner.rpartition('.')[2]} has no `{one.part}`"
             robot, snapshot = package.robot, package.rendering.snapshot
             if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
                 option = package.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)

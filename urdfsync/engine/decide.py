@@ -7,25 +7,26 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.dependencies import is_file, mark_incomplete
+from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
+from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
+from urdfsync.engine.fit import LostNames, Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, kept_choices, remembered_choices
-from urdfsync.engine.undo import reconsider
+from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices, valid_choices
+from urdfsync.engine.undo import apply_undo
 from urdfsync.files import shown
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import Choice, sides_hash
+from urdfsync.state.record import Choice
 
-_GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+_GONE = frozenset({Reason.DELETE, Reason.MOVED_AWAY, Reason.ORPHAN, Reason.NEEDED, Reason.FORGET})
 """Actions on files that are not generated any more."""
-_KEPT = frozenset({Kind.KEEP, Kind.MOVE, Kind.UNDO})
-"""Actions by which the user's choice leaves him his own text."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
 
@@ -38,15 +39,17 @@ class Decision(msgspec.Struct, frozen=True):
     """New texts of every `package.order` and of merged files, by key."""
     conflicts: tuple[Conflict, ...] = ()
     """The texts of the files in conflict."""
+    moved: Mapping[str, Conflict] = {}
+    """The texts of edited files that move with their elements, by key."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
-    diagnostics: tuple[Diagnostic, ...] = ()
-    """Warnings about names that are gone."""
+    misfits: tuple[Misfit, ...] = ()
+    """What means nothing in the user's files."""
 
     @property
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
-        return not any(action.held or action.kind in CONFLICTS for action in self.actions)
+        return not any(action.held or action.kind is Kind.CONFLICT for action in self.actions)
 
 
 def decide_package(generation: Generation) -> Decision:
@@ -61,48 +64,48 @@ def decide_package(generation: Generation) -> Decision:
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
     if inputs.options.adopts:
-        actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
-    actions, undone, taken_back = reconsider(generation, actions, inputs.options.choices)
+        actions = tuple(_as_edit(action) if action.reason is Reason.UNOWNED else action for action in actions)
+    chosen = valid_choices(inputs.options.choices, actions)
+    actions, undone = apply_undo(generation, actions, chosen)
 
-    disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
-    former = names_since(inputs, names) if disputed else {}
-    is_behind = {key for key, record in recorded.items() if record.kept}
-    conflicts = {
-        one.path: _conflict(generation, one, former if (one.origin or one.path) in is_behind else names)
-        for one in disputed
-    }
+    conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
-    kept = kept_choices(recorded, actions)
-    choices = {**kept, **remembered, **inputs.options.choices}
-    warnings: tuple[Diagnostic, ...] = ()
-    if kept or _takes_names_away(generation):
-        conflicts, warnings = _find_vanished(generation, actions, conflicts, choices)
-    resolved, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    choices = {**remembered, **chosen}
+    conflicts = _without_misfits(generation, actions, conflicts, choices)
+    actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     merged |= undone
-    resolved, misfits = _keep_bases(generation, actions, _keep_needed(generation, resolved, merged), merged)
-    actions = resolved
+    actions = _keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
-    numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
+    numbers = (
+        _renumbered(generation, actions, merged) if any(action.kind is Kind.CONFLICT for action in actions) else ()
+    )
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
-    decision = Decision(
+    return Decision(
         held,
         {**orders, **merged},
-        tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
+        tuple(
+            conflicts[action.path] for action in actions if action.kind is Kind.CONFLICT and action.path in conflicts
+        ),
+        {
+            action.path: conflicts[action.path]
+            for action in actions
+            if action.reason is Reason.MOVE and action.path in conflicts
+        },
         tuple(file for file in shared if files.key(file.path) not in waiting),
+        tuple(find_misfits(generation, held, merged)),
     )
-    gone = warnings if decision.is_complete else ()
-    return msgspec.structs.replace(decision, diagnostics=(*taken_back, *misfits, *gone))
 
 
 def _as_edit(action: Action) -> Action:
     """Keep a file that urdfsync did not write as an edit of the generated one."""
-    return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated)
+    return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
 
 
 def renamed(generation: Generation) -> Mapping[str, str]:
@@ -114,22 +117,18 @@ def renamed(generation: Generation) -> Mapping[str, str]:
     return renamed_names(generation)
 
 
-def names_since(inputs: Inputs, names: Mapping[str, str]) -> dict[str, str]:
-    """Return new names by the old ones since the bases of kept files; `names` are those since the last build."""
-    former = inputs.record.former_names if inputs.record else {}
-    return {**names, **{old: names.get(new, new) for old, new in former.items()}}
-
-
 def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
     key, files = action.origin or action.path, generation.inputs.files
     mine, generated = files.text(key), generation.content(action.path).decode()
     record = generation.inputs.recorded_files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
+    bases = [base for one in hashes if one and (base := generation.inputs.base(one)) is not None]
     if mine is not None:
         found = find_conflict(action, bases, mine, generated, names)
-        return msgspec.structs.replace(found, edited=_edited_text(generation.inputs, action))
+        package = ".".join((generation.inputs.robot.target.package, *class_parts(generation.inputs.path(action.path))))
+        kept = with_within(found.kept, package) if action.origin and action.path.endswith(".mo") else found.kept
+        return msgspec.structs.replace(found, kept=kept, edited=_edited_text(generation.inputs, action))
     package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
     reason, base = "you made a folder of the class", bases[0] if bases else None
     texts = base, package, generated, None
@@ -138,8 +137,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
 
 def _edited_text(inputs: Inputs, action: Action) -> str | None:
     """Return what the user has made of both sides of a file, as they are: now, or while the file waited."""
-    if action.path in inputs.options.choices:
-        return inputs.options.edited.get((action.path, sides_hash(action.mine, action.generated)))
+    if (action.path, action.sides) in inputs.options.choices:
+        return inputs.options.edited.get((action.path, action.sides))
     waiting = inputs.record.open.edited if inputs.record and inputs.record.open else {}
     return waiting.get(inputs.path(action.path))
 
@@ -161,8 +160,8 @@ def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple
         return generation.is_rendered(path, (action.base or "",))
 
     return tuple(
-        msgspec.structs.replace(action, kind=Kind.ORPHAN)
-        if action.kind in DELETES and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
+        msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        if action.kind is Kind.DELETE and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
         else action
         for action in actions
     )
@@ -176,85 +175,51 @@ def _takes_names_away(generation: Generation) -> bool:
     )
 
 
-def _find_vanished(
+def _without_misfits(
     generation: Generation,
-    actions: Iterable[Action],
-    conflicts: Mapping[str, Conflict],
+    actions: Sequence[Action],
+    conflicts: dict[str, Conflict],
     choices: Mapping[str, Choice],
-) -> tuple[dict[str, Conflict], tuple[Diagnostic, ...]]:
-    """Return the conflicts, without the merges that would use a name that is gone; and warnings about other uses.
+) -> dict[str, Conflict]:
+    """Return the conflicts without the merges that would bring in what means nothing.
 
     All merges that are possible are taken for that.
     """
-    from urdfsync.engine import vanished  # the parser takes a tenth of a small build to load
-
-    mark_incomplete()  # what the resolver reads is not recorded as a dependency of the answer
     planned, merged = resolve(actions, conflicts, choices, merging=True)
-    planned = _keep_needed(generation, planned, merged)
-    found = vanished.find_vanished(generation, planned, merged)
-    recorded = generation.inputs.recorded_files
-    kept = [key for key in merged if key in recorded and recorded[key].kept]
-    flaws = {
-        key: f"mentions `{use.part}`, which is no longer in the package (line {use.line})"
-        for key, (use, *_) in found.in_package.items()
-    }
-    flaws |= {key: one.what for key, one in vanished.find_misfits(generation, planned, merged, kept).items()}
+    if not merged:
+        return conflicts
+    package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
+    new = package.misfits(merged.keys(), lost=LostNames(package))
+    if not new:
+        return conflicts
+    now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
+    old = {(one.key, one.name) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
     sound = dict(conflicts)
-    for key in flaws.keys() & merged.keys():
-        conflict = sound[key]
-        if conflict.merged(choices.get(key)) == merged[key] != conflict.mine:
+    for key, conflict in conflicts.items():
+        misfits = [one for one in new if one.key == key and (conflict.origin or key, one.name) not in old]
+        if misfits and conflict.merged(choices.get(key)) == merged.get(key) != conflict.mine:
+            finding = misfits[0].finding
             merge = conflict.merge.rejected if conflict.merge else None
-            reason = f"the merge {flaws[key]}"
+            reason = f"in the merge, {finding.message} (line {finding.line})"
             sound[key] = msgspec.structs.replace(conflict, merge=merge, edited=None, rejected=reason)
-    return sound, tuple(vanished.warnings(generation, found))
+    return sound
 
 
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
     """Keep what texts of the user's need."""
     used: Collection[str] = ()
-    if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
+    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
         from urdfsync.engine.needed import mentioned_files
 
         used = mentioned_files(generation, actions, merged)
     return keep_needed(actions, generation.inputs.files.has_classes, used)
 
 
-def _keep_bases(
-    generation: Generation, before: Sequence[Action], actions: Sequence[Action], merged: Mapping[str, str]
-) -> tuple[tuple[Action, ...], tuple[Diagnostic, ...]]:
-    """Let kept files have their former bases that do not fit the package, and those that were kept so before.
-
-    `before` are the same actions before the user's choices counted. Also a warning for each file that does not fit.
-    """
-    recorded, bases = generation.inputs.recorded_files, {action.path: action.base for action in before}
-    kept = {
-        one.path: one
-        for one in actions
-        if one.choice in (Choice.KEEP, Choice.UNDO) and one.kind in _KEPT and one.role is not Role.IMPORT
-    }
-    if not kept:
-        return tuple(actions), ()
-    from urdfsync.engine import vanished
-
-    mark_incomplete()  # as in `_find_vanished`
-    misfits = vanished.find_misfits(generation, actions, merged, kept)
-    stay = {
-        path
-        for path, one in kept.items()
-        if path in misfits or (path in recorded and recorded[path].kept == one.generated)
-    }
-    found = (
-        msgspec.structs.replace(one, base=bases[one.path], keeps_base=True) if one.path in stay else one
-        for one in actions
-    )
-    return tuple(found), tuple(vanished.misfit_warnings(generation, misfits))
-
-
 def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:
     """Return the records of which only numbers change."""
     files, found = generation.inputs.files, set()
     for action in actions:
-        if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+        if action.reason in (Reason.UPDATE, Reason.MERGE) and action.role is Role.RECORD:
             text = merged.get(action.path) or generation.content(action.path).decode()
             if numbers_only(files.text(action.path) or "", text):
                 found.add(action.path)
@@ -285,9 +250,9 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
     staying = set()
     for action in actions:
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-        if action.kind in (Kind.ORPHAN, Kind.NEEDED) or (action.kind in _GONE and action.released):
+        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or (action.reason in _GONE and action.handed_to_user):
             staying.add((f"{folder}/package.order", name))
-        elif action.kind in _GONE and f"{folder}/package.order" in lines:
+        elif action.reason in _GONE and f"{folder}/package.order" in lines:
             lines[f"{folder}/package.order"].append(name)
     return {key: tuple(name for name in names if (key, name) not in staying) for key, names in lines.items()}
 
@@ -296,7 +261,7 @@ def _lines_of_gone_classes(
     inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
 ) -> dict[str, tuple[str, ...]]:
     """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
-    deleted, inside, found = {one.path for one in actions if one.kind in DELETES}, f"{inputs.folder}/", {}
+    deleted, inside, found = {one.path for one in actions if one.kind is Kind.DELETE}, f"{inputs.folder}/", {}
     for key, names in lines.items():
         folder = key.removesuffix("package.order")
         files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
@@ -317,6 +282,14 @@ def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[s
     return sorted(name for name in found.difference(names) if is_identifier(name))
 
 
+def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
+    """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
+    files = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
+    folder = order.removesuffix("package.order")
+    names = (path.removeprefix(folder).removesuffix(".mo") for path in files if path.startswith(folder))
+    return [name for name in names if is_identifier(name)]
+
+
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
@@ -335,11 +308,12 @@ def _decide_orders(
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         if inputs.options.adopts and old is None:
             names = (*names, *_users_classes(inputs, key, names))
+        names = (*names, *_returning_classes(actions, key))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
-            kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE
+            kind = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:
-            kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
+            kind = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
         found.append(Action(key, kind, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, owned))
@@ -347,8 +321,8 @@ def _decide_orders(
         key = files.key(one.path)
         if one.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
-            found.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
+            found.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, one.names):
-            kind = Kind.CREATE if old is None else Kind.UPDATE
+            kind = Reason.CREATE if old is None else Reason.UPDATE
             found.append(Action(key, kind, Role.ORDER, "parent package"))
     return found, texts, [*shared, *inputs.parents.shared]

@@ -8,9 +8,10 @@ import msgspec
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
+from urdfsync.domain import ChangeClass
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.fit import diagnose
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
@@ -30,7 +31,8 @@ _NEW = 6
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
     """Return all findings of a build in the order of their places."""
     inputs, actions = generation.inputs, decision.actions
-    found = [*generation.diagnostics, *inputs.parents.diagnostics, *decision.diagnostics]
+    found = [*generation.diagnostics, *inputs.parents.diagnostics]
+    found += diagnose(generation, decision.misfits)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -41,7 +43,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
             line = generation.lines.get(path, 0)
             found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
-        found += _changed_connectors(generation, actions)
+        found += _changed_connectors(generation)
     found = list(map(inputs.source.locate, found))
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
@@ -51,7 +53,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.held for action in actions):
         return
-    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
+    gone = {files.path(action.path) for action in actions if action.kind is Kind.DELETE}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
     is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
@@ -74,18 +76,14 @@ def _first(names: Sequence[str], most: int) -> str:
     return ", ".join([*names[:most], *more])
 
 
-def _changed_connectors(generation: Generation, actions: Actions) -> Iterator[Diagnostic]:
-    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new.
-
-    Not on what is new if a model that should have it is kept as it is.
-    """
+def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
+    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
-    is_kept = any(one.keeps_base and one.role is Role.MODEL for one in actions)
-    if (new := [f"`{one.new}`" for one in found if one.old is None]) and not is_kept:
+    if new := [f"`{one.new}`" for one in found if one.old is None]:
         message = f"there is more to connect to: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
     for one in found:
@@ -104,7 +102,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """
     if inputs.last is None or inputs.record is None or inputs.record.generator.revision >= inputs.domain.fits_since:
         return
-    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind in CONFLICTS]
+    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind is Kind.CONFLICT]
     if conflicts and any(action.held for action in actions):
         named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
@@ -113,7 +111,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         folder = shown(inputs.files.path(inputs.old_folder))
         yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
     for action in actions:
-        if action.kind is Kind.KEEP and action.choice is Choice.KEEP:
+        if action.reason is Reason.KEEP and action.choice is Choice.KEEP:
             message = f"this file stays as it is, but it was made for an older library {LIBRARY}"
             hint = f"`urdfsync check {inputs.robot.name}` tells whether it fits the rest of the package"
             file = shown(inputs.files.path(action.path))

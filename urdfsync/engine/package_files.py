@@ -72,6 +72,13 @@ class PackageFiles:
         except OutputError:
             return ""
 
+    def can_read(self, key: str) -> bool:
+        """Return whether a file is there that can be read."""
+        try:
+            return self.text(key) is not None
+        except OutputError:
+            return False
+
     def state(self, key: str) -> FileState | None:
         """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
         path = self._place(key)
@@ -116,7 +123,8 @@ class PackageFiles:
         """Return all Modelica files below the folder with this key, the user's own included."""
         from urdfsync.modelica.files import modelica_files
 
-        return {self.key(Path(path)) for path in modelica_files(self.path(folder))}
+        place = str(self.path(folder))  # strings: there are thousands of files
+        return {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)

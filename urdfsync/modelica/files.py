@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies import scan_folder
+from urdfsync.dependencies import is_file, read_file, scan_modelica
 from urdfsync.modelica.classes import OPAQUE, Node
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
@@ -29,6 +29,11 @@ def class_path(file: PurePosixPath) -> PurePosixPath:
     return file.parent if file.name == _PACKAGE else file.with_suffix("")
 
 
+def class_parts(path: str) -> tuple[str, ...]:
+    """Return the name of the class that a file is for, from its POSIX path below the package."""
+    return tuple(path.removesuffix(".mo").removesuffix("/package").split("/")) if path != _PACKAGE else ()
+
+
 class StoredClasses:
     """The classes that are stored in files, for one robot's package; files are known by their absolute paths."""
 
@@ -39,32 +44,40 @@ class StoredClasses:
         texts: Mapping[str, bytes],
         others: Mapping[Path, bytes],
         find: Callable[[str], Path | None],
+        read: Callable[[bytes], StoredText] | None = None,
         gone: str = "",
     ) -> None:
         """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
 
-        `find` gives the folder or file of any other top-level class, None if there is none. `gone` is a package of
-        which nothing counts that is on disk.
+        `find` gives the folder or file of any other top-level class, None if there is none; `read` parses a file if
+        names are resolved in others alone. `gone` is a package of which nothing counts that is on disk.
         """
         self._find = functools.cache(lambda name: find(name) or self._beside(name))
+        self._read = read or parse_file
         self._folders: dict[Path, None] = {}
         self._not_on_disk = [tuple(name.split(".")) for name in (package, gone) if name]
-        self.own: dict[ClassName, tuple[bytes, Path]] = {}
-        """The files of the robot's package by the full names of their classes."""
+        self._below, self._texts, self._others = f"{folder}{os.sep}", texts, others
+        self.own: dict[ClassName, str] = {}
+        """The files of the robot's package, by the full names of their classes."""
         self.users: dict[ClassName, Node] = {}
         """The classes of the user's files, by their full names; of several of one name the first."""
         self.all_users: list[Node] = []
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
-        for path, content in texts.items():
-            place = PurePosixPath(path)
-            if path.endswith(".mo") and _NOT_CLASSES not in place.parent.parts:
-                self.own[(*package.split("."), *class_path(place).parts)] = content, folder / path
+        self.libraries = {"Modelica"}
+        """Libraries that need not be at hand: of their classes nothing is said."""
+        self.seen: dict[ClassName, str | None] = {}
+        """The classes that were asked for, and their files; None where there is none."""
+        prefix = tuple(package.split("."))
+        for path in texts:
+            if path.endswith(".mo") and f"/{_NOT_CLASSES}/" not in f"/{path}":
+                self.own[(*prefix, *class_parts(path))] = self._below + path
         for file, content in others.items():
-            found = _parsed(content)
+            found = self._read(content)
+            self.libraries.update(found.libraries)
             around = tuple(found.within.split(".")) if found.within else ()
-            folder_around, expected = _place(file, others)
+            folder_around, expected = place_of(file, others)
             self._folders[folder_around] = None
             if found.is_broken or (expected and around != expected):
                 self.unread.append(file)
@@ -76,19 +89,52 @@ class StoredClasses:
 
     def stored(self, name: ClassName) -> Node | None:
         """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
-        if name in self.users:
-            return self.users[name]
-        if name in self.own:
-            return _class_in(*self.own[name], name)
-        if any(name[: len(package)] == package for package in self._not_on_disk):
+        file = self.seen[name] = self.file(name)
+        if file is None:
             return None
-        if name[-1] in map(_class_name, self.unread):
-            return OPAQUE
-        file = self._file(name)
+        if name in self.users:  # another one each time: a node has what was resolved with it
+            return Node(self.users[name].definition, name, file)
         try:
-            return _class_in(file.read_bytes(), file, name) if file else None
+            text = self._read(self.content(file))
         except OSError:
             return OPAQUE
+        definition = next((one for one in text.classes if one.name.parts[0] == name[-1]), None)
+        return OPAQUE if definition is None or text.is_broken else Node(definition, name, file)
+
+    def file(self, name: ClassName) -> str | None:
+        """Return the file in which a class is stored; None if there is none."""
+        if name in self.users:
+            return self.users[name].file
+        if name in self.own:
+            return self.own[name]
+        if any(name[: len(package)] == package for package in self._not_on_disk):
+            return None
+        unread = next((path for path in self.unread if name[-1] == class_of_file(path)), None)
+        found = unread or self._file(name)
+        return str(found) if found else None
+
+    def content(self, file: str) -> bytes:
+        """Return the content of a file. Raises OSError."""
+        if (path := self.path_below(file)) in self._texts:
+            return self._texts[path]
+        other = self._others.get(Path(file))
+        return read_file(file) if other is None else other
+
+    def path_below(self, file: str) -> str:
+        """Return the path of a file below the robot's package; empty if it is elsewhere."""
+        return file.removeprefix(self._below) if file.startswith(self._below) else ""
+
+    def has_library(self, name: str) -> bool:
+        """Whether a library need not be at hand: a `uses` annotation around the package, or of the user's, names it."""
+        if name in self.libraries:
+            return True
+        for package in self._not_on_disk[:1]:
+            for end in range(1, len(package) + 1):
+                file = self.seen[package[:end]] = self.file(package[:end])
+                with contextlib.suppress(OSError):
+                    if file and name in self._read(self.content(file)).libraries:
+                        return True
+        return False
 
     def names_in(self, name: ClassName) -> Iterable[str]:
         """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
@@ -103,7 +149,7 @@ class StoredClasses:
     def _beside(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class that stands beside one of the user's; None for none."""
         places = (folder / end for folder in self._folders for end in (f"{name}/{_PACKAGE}", f"{name}.mo"))
-        found = next((place for place in places if place.is_file()), None)
+        found = next((place for place in places if is_file(place)), None)
         return found.parent if found and found.name == _PACKAGE else found
 
     def _file(self, name: ClassName) -> Path | None:
@@ -112,21 +158,21 @@ class StoredClasses:
         if root is None or root.suffix == ".mo":
             return root if len(name) == 1 else None
         folder = root.joinpath(*name[1:])
-        return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if path.is_file()), None)
+        return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if is_file(path)), None)
 
 
-def modelica_files(folder: Path, others: Collection[str] = ()) -> Iterator[str]:
+def modelica_files(folder: Path, others: Collection[str] = (), left_out: Collection[str] = ()) -> Iterator[str]:
     """Yield all files of Modelica below a folder, but for links, hidden folders and `Resources`.
 
-    Folders below it that hold a file of one of the names `others` are left out as well. What is looked at is recorded
-    as a dependency. What can't be looked at is left out.
+    Folders below it that hold a file of one of the names `others` are left out as well, and those whose paths are in
+    `left_out`. What is looked at is recorded as a dependency. What can't be looked at is left out.
     """
     waiting = [str(folder)]
     while waiting:
         current = waiting.pop()
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(scan_folder(current), key=lambda entry: entry.name)
+            inside = sorted(scan_modelica(current), key=lambda entry: entry.name)
         if current != str(folder) and any(entry.name in others for entry in inside):
             continue
         for entry in inside:
@@ -134,22 +180,36 @@ def modelica_files(folder: Path, others: Collection[str] = ()) -> Iterator[str]:
                 continue
             with contextlib.suppress(OSError):  # some file systems do not tell the type with the name
                 if entry.is_dir(follow_symlinks=False):
-                    waiting.append(entry.path)
+                    waiting += [entry.path] if entry.path not in left_out else []
                 elif entry.name.endswith(".mo") and entry.is_file(follow_symlinks=False):
                     yield entry.path
 
 
+def files_that_mention(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
+    """Return the files in which one of these names stands, or the class of another such file.
+
+    A class is called like its file. Strings and comments count, too, see `files_that_use`.
+    """
+    return _with_words(files, names, lambda word, content: has_word(content, word.encode()))
+
+
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """The files that use one of these names, or the class of another such file, which is called like that file.
+    """Return the files that use one of these names, or the class of another such file, which is called like that file.
 
     Strings and comments do not count: a library of words about robots is no user.
     """
-    waiting, unused, found = dict(files), list(names), {}
-    while unused:
-        word = unused.pop()
-        for path in [path for path, content in waiting.items() if _is_used(word, content)]:
+    return _with_words(files, names, _is_used)
+
+
+def _with_words(
+    files: Mapping[Path, bytes], names: Iterable[str], has: Callable[[str, bytes], bool]
+) -> dict[Path, bytes]:
+    waiting, words, found = dict(files), list(names), {}
+    while words:
+        word = words.pop()
+        for path in [path for path, content in waiting.items() if has(word, content)]:
             found[path] = waiting.pop(path)
-            unused.append(_class_name(path))
+            words.append(class_of_file(path))
     return dict(sorted(found.items()))
 
 
@@ -178,26 +238,21 @@ def _is_used(name: str, content: bytes) -> bool:
     return has_word(content, name.encode()) and any(token.text == name for token in lex(text_of(content))[0])
 
 
-def _parsed(content: bytes) -> StoredText:
+def parse_file(content: bytes) -> StoredText:
+    """Parse the content of a file."""
     return parse(text_of(content))
 
 
-def _class_in(content: bytes, file: Path, name: ClassName) -> Node:
-    found = _parsed(content)
-    definition = next((one for one in found.classes if one.name.parts[0] == name[-1]), None)
-    return OPAQUE if definition is None or found.is_broken else Node(definition, name, str(file))
-
-
-def _class_name(path: Path) -> str:
-    """The name of the class that a file is for."""
+def class_of_file(path: Path) -> str:
+    """Return the name of the class that a file is for."""
     return path.parent.name if path.name == _PACKAGE else path.stem
 
 
-def _place(path: Path, files: Mapping[Path, bytes]) -> tuple[Path, ClassName]:
+def place_of(path: Path, files: Collection[Path]) -> tuple[Path, ClassName]:
     """Return the folder of a file's top-level class, and the name of the package that the file is in by its folders."""
     folder = path.parent.parent if path.name == _PACKAGE else path.parent
     parts: list[str] = []
-    while folder / _PACKAGE in files or (folder / _PACKAGE).is_file():
+    while folder / _PACKAGE in files or is_file(folder / _PACKAGE):
         parts.insert(0, folder.name)
         folder = folder.parent
     return folder, tuple(parts)

@@ -5,13 +5,22 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.modelica.lexer import find_markers
+from urdfsync.modelica.lexer import find_markers, lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
 
 PACKAGE_FILE = "package.mo"
 _ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
+
+
+def with_within(text: str, name: str) -> str:
+    """Return the file of a class that gets this full name, with the `within` clause that it needs."""
+    tokens = lex(text)[0]
+    end = next((number for number, token in enumerate(tokens) if token.text == ";"), 0)
+    if tokens[0].text != "within" or not end:
+        return text
+    return text[: tokens[0].start] + within(name) + text[tokens[end].start + 1 :]
 
 
 def check_class_file(text: str, path: PurePosixPath, name: str) -> tuple[StoredText | None, list[Diagnostic]]:

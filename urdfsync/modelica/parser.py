@@ -48,7 +48,7 @@ def parse(text: str) -> StoredText:
 def read(parser: SyntaxParser) -> StoredText:
     """Read all that a parser has before it."""
     parser.document()
-    return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes)
+    return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes, tuple(parser.libraries))
 
 
 class _FaultError(Exception):
@@ -73,6 +73,8 @@ class SyntaxParser:
         self.within_line = 0
         self.open = [Class(Name(("",), 0), "")]
         """The classes around this place, the innermost one last; the first stands for the file."""
+        self.libraries = list[str]()
+        """Libraries that `uses` annotations name."""
         self._depth = self._subscript_depth = 0
 
     # --- tokens ---------------------------------------------------------------------------------------------------
@@ -468,7 +470,9 @@ class SyntaxParser:
     def _annotation(self) -> None:
         """An annotation, if there is one; names have meanings of their own in it."""
         if self._accept("annotation"):
-            self._arguments()
+            for one in self._arguments():
+                if one.name.parts == ("uses",):
+                    self.libraries += (used.name.parts[0] for used in one.arguments)
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 

@@ -79,9 +79,8 @@ class Scopes:
 
     def users(self) -> Iterator[Node]:
         """Yield the classes of the user's files at their places, in the order of the files."""
-        for node in self._sources.all_users:
-            node.parent = node.parent or self.node(node.name[:-1])
-            yield node
+        for one in self._sources.all_users:
+            yield Node(one.definition, one.name, one.file, self.node(one.name[:-1]))
 
     def _top(self, name: str) -> Node | None:
         if name not in self._tops:
@@ -201,18 +200,18 @@ class Scopes:
         while scope is not None:
             found = self._in_scope(scope, name)
             if isinstance(found, Element):
-                return found if is_certain else ANYTHING
+                return found
             is_certain &= found.is_certain
             if not is_certain and not name[:1].isupper():
                 return found
-            # nobody inherits what is called like the library in which it stands
+            # a model inherits components from a library that is not at hand, and hardly ever classes
             scope = None if "encapsulated" in scope.definition.prefixes else scope.parent
         if name in _ANYTHING:
             return ANYTHING
         top = _TYPES.get(name) or self._top(name)
         if top is not None:
             return Element((Type(top),)) if top is not OPAQUE else ANYTHING
-        if name == "Modelica":  # builds do not read it
+        if self._sources.has_library(name):  # builds do not read it
             return ANYTHING
         return Missing(name, (), is_certain)
 

@@ -30,7 +30,7 @@ class Name(NamedTuple):
         return ".".join(self.parts)
 
 
-class Modifier(msgspec.Struct, frozen=True):
+class Modifier(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
     """One argument of a modification: `mass = 3`, `inertial(mass = 3)`, `redeclare Elastic elbow(c = 1)`."""
 
     name: Name
@@ -45,14 +45,14 @@ class Modifier(msgspec.Struct, frozen=True):
     """The class after `constrainedby`."""
 
 
-class Extends(msgspec.Struct, frozen=True):
+class Extends(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
     """A class that another one is made from, with its modifiers: `extends`, `constrainedby`, `type A = B(…)`."""
 
     type: Name
     arguments: tuple[Modifier, ...] = ()
 
 
-class Component(msgspec.Struct, frozen=True):
+class Component(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
     """A declared component; those of one declaration (`Real x, y;`) are one value each."""
 
     name: Name
@@ -65,7 +65,7 @@ class Component(msgspec.Struct, frozen=True):
     constraint: Extends | None = None
 
 
-class ImportClause(msgspec.Struct, frozen=True):
+class ImportClause(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
     """An import clause."""
 
     name: Name
@@ -74,7 +74,7 @@ class ImportClause(msgspec.Struct, frozen=True):
     """What is imported, by the short names that it gets; empty for everything in the package (`import A.*`)."""
 
 
-class Class(msgspec.Struct, eq=False):
+class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
     """A class definition. Only the parser changes it. Equal to itself only."""
 
     name: Name
@@ -101,7 +101,7 @@ class Class(msgspec.Struct, eq=False):
     """Names in equations and statements, those in connections included, without the indices of loops."""
 
 
-class StoredText(msgspec.Struct, frozen=True):
+class StoredText(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
     """A file of Modelica, as far as it could be read."""
 
     faults: Sequence[Fault] = ()
@@ -110,6 +110,8 @@ class StoredText(msgspec.Struct, frozen=True):
     """The package that its `within` clause names; None if it has none."""
     within_line: int = 0
     classes: Sequence[Class] = ()
+    libraries: tuple[str, ...] = ()
+    """Libraries that its `uses` annotations name."""
 
     @property
     def is_broken(self) -> bool:

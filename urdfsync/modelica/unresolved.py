@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Container, Iterable, Iterator
 from typing import NamedTuple
 
 from urdfsync.modelica.classes import OPAQUE, Node, Types
@@ -45,8 +45,16 @@ class Unresolved(NamedTuple):
     """Where the part begins in the text; -1 if that is not known."""
     known: Collection[str] = ()
     """The names that mean something there."""
-    is_certain: bool = True
-    """False if the class may inherit the name from a library that is not at hand."""
+
+    is_library: bool = False
+    """Whether it may be the name of a library."""
+
+    @property
+    def message(self) -> str:
+        """What is wrong, as a sentence."""
+        if self.kind is UnresolvedKind.ELEMENT and self.owner:
+            return f"{self.owner.rpartition('.')[2]} has no `{self.part}`"
+        return f"there is no {self.kind.value} `{self.name}`"
 
     @property
     def meant(self) -> str:
@@ -55,18 +63,30 @@ class Unresolved(NamedTuple):
         return ".".join(self.near if part == self.part else part for part in parts)
 
 
-def unresolved(node: Node, scopes: Scopes, doubtful: Collection[str] = ()) -> Iterator[Unresolved]:
+def unresolved(
+    node: Node, scopes: Scopes, *, all_libraries: bool = False, lost: Container[str] = ()
+) -> Iterator[Unresolved]:
     """Yield all that is wrong with names in a class and in the classes inside of it.
 
     Nothing is said of what seems to be in a library that is not at hand, nor of an element that a class may inherit
-    from there, unless it is one of the `doubtful` names.
+    from there, unless it is a `lost` name. `all_libraries` tells that all libraries are known by name: another one is
+    missing.
     """
-    yield from _Walk(scopes, doubtful)._class(node)
+    yield from _Walk(scopes, all_libraries, lost)._class(node)
+
+
+def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
+    """Whether a class or one around it is a package that may inherit classes from a library that is not at hand."""
+    while scope is not None:
+        if scope.definition.kind == "package" and any(base.node is OPAQUE for base in scopes.bases(scope)):
+            return True
+        scope = scope.parent
+    return False
 
 
 class _Walk:
-    def __init__(self, scopes: Scopes, doubtful: Collection[str]) -> None:
-        self._scopes, self._doubtful = scopes, doubtful
+    def __init__(self, scopes: Scopes, all_libraries: bool, lost: Container[str]) -> None:
+        self._scopes, self._all_libraries, self._lost = scopes, all_libraries, lost
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -132,7 +152,13 @@ class _Walk:
     def _missing(
         self, name: Name, found: Element | Missing, scope: Node | None, kind: UnresolvedKind
     ) -> Iterator[Unresolved]:
-        if isinstance(found, Element) or not (found.is_certain or found.part in self._doubtful):
+        if isinstance(found, Element):
+            return
+        # a model inherits components from a library that is not read, but hardly ever classes
+        is_class = kind is UnresolvedKind.CLASS and len(name.parts) == 1 and scope is not None
+        if not (
+            found.is_certain or found.part in self._lost or (is_class and not _is_in_open_package(scope, self._scopes))
+        ):
             return
         owner = str(found.types[0] if found.types else scope or "")
         known = self._scopes.names_in(found.types) if found.types else self._scopes.names_around(scope)
@@ -140,6 +166,6 @@ class _Walk:
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(found.part, sorted(candidates - {found.part}), least)
-        if near or not is_library or found.part in self._doubtful:  # else a compiler tells whether there is a library
+        if near or not is_library or self._all_libraries:  # else a compiler tells whether there is a library
             start = name.starts[found.number] if found.number < len(name.starts) else -1
-            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates, found.is_certain)
+            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates, is_library)

@@ -63,7 +63,7 @@ def read_package(config: Config, robot: RobotConfig, options: SimulateOptions) -
     around = files_around(config, robot, texts)
     message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, shown(robot.folder), hint=hint)
-    return SimulatedPackage(bench, package, around, () if built.in_step else (late,))
+    return SimulatedPackage(bench, package, around, () if built.are_files_in_step else (late,))
 
 
 def find_with_libraries(
