@@ -102,7 +102,7 @@ class FitCache:
 
     def save(self) -> None:
         """Write what is new. If it cannot be written, it is found out again."""
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, UnicodeEncodeError):  # the latter for a path that is not UTF-8
             if self.fits != self.known_fits:
                 _save(self._file(), self.fits)
             if self._is_new:
