@@ -291,38 +291,6 @@ def test_a_package_that_moves_into_another_one_is_left_to_the_user(user: Path, e
     assert left in execute(*COMMAND, "Arm=Robot", "--yes").words
 
 
-def test_a_name_that_another_element_has_now_is_told(user: Path, execute: Execute) -> None:
-    """Not a name of the user's own, nor what may come from a library; the class of link `hand` is gone."""
-    write_source("elbow")
-    execute("build")
-    model = """\
-    model Swap
-      Arm.Arm robot(hand(animation = false));
-      Real hand = 1;
-      Real sum = robot.hand.m + hand;
-      Arm.Links.Hand link;
-      model Inner
-        extends Modelica.Mechanics.MultiBody.Parts.BodyShape;
-        Real m = hand.m;
-      end Inner;
-    end Swap;
-    """
-    Path("Swap.mo").write_text(model)
-    urdf = Path("arm.urdf").read_text().replace('"hand"', '"hand_link"').replace('"swing"', '"hand"')
-    Path("arm.urdf").write_text(urdf)
-    printed = execute("build")
-    told = [words for words in printed.errors if words.startswith("Swap.mo") and "vanished-name" in words]
-    hint = "was link hand and is joint hand now; use `hand_link` instead [vanished-name]"
-    assert told == [
-        f"Swap.mo:2: warning: `hand` {hint}",
-        f"Swap.mo:4: warning: `robot.hand` {hint}",
-        "Swap.mo:5: warning: `Arm.Links.Hand` is used here, but the package has no `Hand` any more; "
-        "use `Hand_link` instead [vanished-name]",
-    ]
-    assert "--rename-uses" not in printed.err
-    assert Path("Swap.mo").read_text() == model
-
-
 def test_a_model_that_is_saved_while_others_are_written_stays(user: Path, execute: Execute) -> None:
     """The others are written; nothing is built before all are."""
     saved = f"// saved\n{CELL}"

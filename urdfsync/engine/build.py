@@ -17,7 +17,7 @@ from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
-from urdfsync.engine.actions import DELETES, Actions, Kind
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -167,9 +167,9 @@ def _joined(first: Plan, second: Plan) -> Plan:
     """
     known = {action.path for action in second.actions}
     done = {action.path: action for action in first.actions if action.writes}
-    in_order = (Kind.UNCHANGED, Kind.ADOPT, Kind.INCLUDED, Kind.FORGET)
-    actions = [done.get(one.path, one) if one.kind in in_order else one for one in second.actions]
-    deleted = [one for path, one in done.items() if path not in known and one.kind in DELETES]
+    in_order = (Reason.UNCHANGED, Reason.ADOPT, Reason.INCLUDED, Reason.FORGET)
+    actions = [done.get(one.path, one) if one.reason in in_order else one for one in second.actions]
+    deleted = [one for path, one in done.items() if path not in known and one.kind is Kind.DELETE]
     return msgspec.structs.replace(
         second,
         actions=Actions([*actions, *deleted]),

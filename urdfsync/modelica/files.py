@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies import is_file, read_file, scan_folder
+from urdfsync.dependencies import is_file, read_file, scan_modelica
 from urdfsync.modelica.classes import OPAQUE, Node
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
@@ -172,7 +172,7 @@ def modelica_files(folder: Path, others: Collection[str] = (), left_out: Collect
         current = waiting.pop()
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(scan_folder(current), key=lambda entry: entry.name)
+            inside = sorted(scan_modelica(current), key=lambda entry: entry.name)
         if current != str(folder) and any(entry.name in others for entry in inside):
             continue
         for entry in inside:

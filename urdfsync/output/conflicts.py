@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
@@ -52,7 +52,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
         """Whether it does not conflict, but can be decided about all the same."""
         action = self.action
         waits = action.held and action.choice is not None
-        return action.kind in (Kind.MERGE, Kind.MOVE) or waits
+        return action.reason in (Reason.MERGE, Reason.MOVE) or waits
 
     @property
     def merges(self) -> bool:
@@ -64,9 +64,9 @@ class DisputedFile(msgspec.Struct, frozen=True):
         return self.is_decided or (self.texts is not None and self.texts.merged(choice) is not None)
 
     @property
-    def replaceable(self) -> bool:
+    def is_on_disk(self) -> bool:
         """Whether `--take` settles it: a file stands there, and the generated one is at hand."""
-        return self.is_decided or self.action.replaceable
+        return self.is_decided or self.action.is_on_disk
 
 
 def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
@@ -84,7 +84,7 @@ def describe(target: DisputedFile) -> str:
     if texts is None:
         return "it is not a text, so it can't be merged"
     if texts.merge is None:
-        is_unowned = target.action.kind is Kind.UNOWNED
+        is_unowned = target.action.reason is Reason.UNOWNED
         base = (
             "there is no base" if is_unowned else "its merge base, the text that urdfsync wrote last, is not recorded"
         )
@@ -138,7 +138,7 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     command = _command(["resolve", "--all", "--robot", result.robot, f"--{choice}"], console)
     yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
-    if never_built and all(target.action.kind is Kind.UNOWNED for target in found):
+    if never_built and all(target.action.reason is Reason.UNOWNED for target in found):
         what = "takes them for your edits, and lists these"
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
@@ -189,14 +189,14 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         found["--merge"] = "both sides' changes"
     elif target.offers(Choice.MERGE_MINE):
         found["--merge --prefer mine"] = "both sides' changes, yours (or generated) in doubt"
-    if target.texts and target.texts.merge and target.replaceable:
+    if target.texts and target.texts.merge and target.is_on_disk:
         found["--edit"] = "both in your editor, between markers"
     found["--keep"] = "your file as it is"
     if target.action.origin:
         found["--keep"] += ", under its new name"
-    if target.texts and target.replaceable:
+    if target.texts and target.is_on_disk:
         found.setdefault("--edit", "both texts in your editor, between markers")
-    if target.replaceable:
+    if target.is_on_disk:
         found["--take"] = "the generated file"
     return found
 

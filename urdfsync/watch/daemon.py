@@ -402,7 +402,7 @@ class Daemon:
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
-        left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
+        left_alone = frozenset((action.path, str(action.reason)) for action in decided if not action.writes)
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener(events.Built(result, files, recovered))
         watched.failure, watched.left_alone = None, left_alone

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, Actions, Kind
+from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
@@ -42,8 +42,9 @@ _PLAIN: dict[type[events.Event], str] = {
 """Texts of events that are one line."""
 _ALWAYS = (events.Recovered, events.Stopping)
 """Those of them that are told without `--verbose`."""
-_KEPT = frozenset({Kind.ORPHAN, Kind.NEEDED})
+_KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
 """Files that are no longer generated, but kept."""
+_CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
 _FEW = 2
 """So many changes of a model are spelled out, in at most so many characters; more are counted."""
 _MAX_LENGTH = 100
@@ -99,12 +100,12 @@ class EventLog:
         yield from self._findings(new)
         had_conflicts = bool(self._told.get((robot, "conflicts")))
         conflicts = self._is_new(robot, "conflicts", {(one.path, one.mine, one.generated) for one in result.conflicts})
-        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.kind in _KEPT})
+        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.reason in _KEPT})
         if self._console.quiet and not conflicts:
             return
         said = []
         if event.files or event.recovered or result.effective_changes or conflicts or kept:
-            said = [*_changes(result), *action_counts(result, {Kind.KEEP} | (frozenset() if kept else _KEPT))]
+            said = [*_changes(result), *action_counts(result, {Reason.KEEP} | (frozenset() if kept else _KEPT))]
         if not result.conflicts and (event.recovered or had_conflicts):
             said.append("in step again")
         if not said and (verbose or result.effective_changes):
@@ -113,8 +114,8 @@ class EventLog:
             return
         yield self._line(clock, robot, ", ".join(said), "yellow" if result.conflicts else "")
         if not self._console.quiet:
-            hidden = frozenset() if verbose else CONFLICTS | (frozenset() if kept else _KEPT)
-            actions = Actions(one for one in result.actions if one.kind not in hidden)
+            hidden = frozenset() if verbose else _CONFLICTS | (frozenset() if kept else _KEPT)
+            actions = Actions(one for one in result.actions if one.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
