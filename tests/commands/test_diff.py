@@ -242,7 +242,7 @@ def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; its robots are ladder"),
+        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; did you mean `ladder`?"),
         (
             ["step.csv"],
             "step.csv was never built: it is not the source of a robot; add a robot for it, or name the version",

@@ -58,7 +58,23 @@ def test_a_conflict(built: Path, execute: Execute) -> None:
     for option in ([], ["--quiet"]):
         found = execute("status", *option, code=3).lines
         assert any(line.startswith(conflict) for line in found)
-        assert "`urdfsync resolve FILE --merge`" in found[-1]
+        file = Path(LADDER, "Elements/R2Parameters.mo")
+        assert found[-1].startswith(
+            f"  settle the conflict with `urdfsync resolve {file} --merge --prefer mine` (or --edit"
+        )
+
+
+def test_of_what_settles_conflicts_only_that_is_proposed_which_can(built: Path, execute: Execute) -> None:
+    edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
+    for file in (built / ".urdfsync").rglob("*/*/*"):
+        file.unlink()  # the bases
+    for file in (built / ".urdfsync/robots").iterdir():
+        file.unlink()
+    edit(built / "ladder.json", "220.5", "330")
+    for command in ("status", "diff"):
+        found = execute(command, code=None).lines
+        assert found[-1] == "  settle each conflict with `urdfsync resolve FILE --keep` (or --edit, --take)"
 
 
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:
@@ -133,7 +149,7 @@ def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
     status = reason.status
     assert (status is FileStatus.CONFLICT) == (reason.kind is Kind.CONFLICT)
     assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (reason.kind in (Kind.WRITE, Kind.DELETE))
-    (shown,) = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
+    shown, *_ = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
     assert shown.startswith(f"  {status}")
     assert not shown.endswith(".mo") or reason in (Reason.UNCHANGED, Reason.KEEP)
 

@@ -21,6 +21,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import configure
 
 from urdfsync import cli
+from urdfsync.state.lock import build_lock
 
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["settling", "building", "built"]
@@ -89,13 +90,26 @@ def test_a_slow_writer_is_one_build(start: Start) -> None:
     assert watch.kinds(since) == BUILD
 
 
+def test_what_changed_and_who_builds_meanwhile_is_said(start: Start) -> None:
+    watch = start("--rescan", "0.1")
+    await_rescans()  # and the look at what the daemon has written
+    with build_lock(Path.cwd() / ".urdfsync", 0) as lock:
+        lock.acquire()
+        since = watch.mark
+        put(Path("ladder.json"), 330)
+        assert watch.wait("settling", since=since)["file"] == "ladder.json"
+        assert watch.wait("waiting", since=since)["reason"] == f"waiting for process {os.getpid()}, which is building"
+    watch.wait("built", since=since)
+    assert watch.kinds(since) == ["settling", "building", "waiting", "built"]
+
+
 @pytest.mark.parametrize("content", ["", "{", None], ids=["empty", "half", "deleted"])
 def test_a_source_that_is_not_valid_yet_is_waited_for(start: Start, content: str | None) -> None:
     watch = start(*PATIENT)
     since, source = watch.mark, Path("ladder.json")
     source.unlink() if content is None else source.write_text(content)
     waiting = watch.wait("waiting", since=since)
-    assert waiting["reason"] == "waiting for the exporter"
+    assert waiting["reason"] == "waiting for the exporter of ladder.json"
     assert waiting["diagnostics"][0]["code"] == ("no-source" if content is None else "json")
     with building(watch, 330):
         put(source, 330)

@@ -116,7 +116,7 @@ def test_the_page_shows_what_a_terminal_shows(terminal: Terminal, monkeypatch: p
     for event, moment in zip(found, moments, strict=True):
         clock(monkeypatch, moment)
         tell(people, event)
-    tell(people, events.Waiting("crane", "waiting for the exporter"))
+    tell(people, events.Waiting("crane", "waiting for the exporter of cad/crane.urdf"))
     assert "\n".join(screen.shown()).replace("F4.mo", "Links/Probe.mo") == example
 
 
@@ -205,14 +205,14 @@ WAITING = "waiting for the exporter"
         ([BUILT], IS_BUILT),
         ([UNCHANGED], "in step"),
         ([FAILED], IS_BROKEN),
-        ([CONFLICT], "conflict in F0.mo"),
-        ([built("arm", Reason.CONFLICT, Reason.UNOWNED)], "conflict in 2 files"),
+        ([CONFLICT], "conflict in F0.mo: waiting for `urdfsync resolve`"),
+        ([built("arm", Reason.CONFLICT, Reason.UNOWNED)], "conflict in 2 files: waiting for `urdfsync resolve`"),
         # a build that did nothing keeps the time of the last one
         ([BUILT, BUILDING, UNCHANGED], IS_BUILT),
         ([CONFLICT, UNCHANGED], "in step"),
         # one that calms down is as before
         ([BUILT, SETTLING, CALM], IS_BUILT),
-        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo"),
+        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo: waiting for `urdfsync resolve`"),
         ([FAILED, SETTLING, CALM], IS_BROKEN),
         # a check goes on beside the rest, and counts when it finds something that is not worse
         ([BUILT, CHECKING], "checking"),
@@ -222,7 +222,7 @@ WAITING = "waiting for the exporter"
         ([BUILT, CHECKING, SETTLING, CALM], "checking"),
         ([BUILT, WRONG, BUILDING, UNCHANGED], IS_WRONG),
         ([BUILT, WRONG, CHECKING, RIGHT], IS_BUILT),
-        ([CONFLICT, CHECKING], "conflict in F0.mo"),
+        ([CONFLICT, CHECKING], "conflict in F0.mo: waiting for `urdfsync resolve`"),
         ([CONFLICT, WRONG], IS_WRONG),
         ([WRONG, FAILED], IS_BROKEN),
         # another configuration

@@ -26,6 +26,7 @@ from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import file_line, headline, result_values, show_result
 
 _EDITS = 5
@@ -136,7 +137,7 @@ def _show(console: Console, result: Result, files: Sequence[AdoptedFile]) -> Non
         told = {key: values[key] for key in ("name", "package", "folder", "failed", "locked", "diagnostics")}
         console.add_robot({**told, "files": list(map(_values, files))})
         return
-    console.findings(result.diagnostics)
+    show_findings(console, result)
     if console.quiet:
         return
     counts = Counter(file.status for file in files)

@@ -19,11 +19,12 @@ from urdfsync.engine.actions import Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import RESOLVE_HINT, change_counts, counted, error_count, generator_change
+from urdfsync.output.phrases import change_counts, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, file_line, headline, result_values
 
 _STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
@@ -73,7 +74,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             console.add_robot(_to_json(one))
             continue
-        console.findings([found for found in one.result.diagnostics if found.code != CONNECTORS])
+        show_findings(console, one.result, [found for found in one.result.diagnostics if found.code != CONNECTORS])
         if not console.quiet or one.result.conflicts:
             head = headline(one.result, _summary(one), is_fine=one.in_step)
             console.print([head, *_lines(one, console.verbose)], error=one.result.failed)
@@ -198,4 +199,4 @@ def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
         lines.append(file_line(shown_path(result, action.path), *action_word(action), why))
     yield from first_lines(lines, max(_FILES, len(found.edited) + 1), "file", verbose=verbose)
     if any(action.kind is Kind.CONFLICT for action in actions):
-        yield line((RESOLVE_HINT, "dim"))
+        yield line((settle_hint(result), "dim"))

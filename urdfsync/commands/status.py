@@ -14,12 +14,11 @@ from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
     BROKEN,
     NOT_EXPANDED,
-    RESOLVE_HINT,
     action_counts,
     change_counts,
     counted,
@@ -27,6 +26,7 @@ from urdfsync.output.phrases import (
     generator_change,
 )
 from urdfsync.output.phrases import reason as reason_of
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_values, file_line, headline, result_values
 
 _INPUTS = 5
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         source, found = (sources[result.robot], ".xacro"), result.diagnostics
         quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
-        console.findings(told)
+        show_findings(console, result, told)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
@@ -151,7 +151,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"
-        yield line((RESOLVE_HINT if is_built(result) else adopts, "dim"))
+        yield line((settle_hint(result) if is_built(result) else adopts, "dim"))
 
 
 def summary(result: Result) -> str:

@@ -34,6 +34,7 @@ from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
+from urdfsync.spelling import nearest
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
@@ -103,7 +104,9 @@ def find_sources(
         using = using or [robot for robot in config.robots if robot.name == source and not is_file]
         if not (using or is_file):
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            hint = f"its robots are {', '.join(robot.name for robot in config.robots)}"
+            known = [robot.name for robot in config.robots]
+            near = nearest(source, known)
+            hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
             raise _config_error("no-source", message, hint=hint)
         if not (using or names):
             if against is not None:

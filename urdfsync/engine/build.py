@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
 
 
+WAITING = "waiting for"
+"""What progress says while another process builds, before the name of that one."""
 _ATTEMPTS = 5
 """Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
 
@@ -155,7 +157,7 @@ class _Builder:
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(self._state_folder), hint=hint))
 
     def _wait(self) -> None:
-        self._options.progress("waiting for another build", 0, 1)
+        self._options.progress(f"{WAITING} {self._lock.holder()}, which is building", 0, 1)
 
 
 def _joined(first: Plan, second: Plan) -> Plan:

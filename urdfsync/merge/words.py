@@ -76,7 +76,7 @@ def _change(base: str, side: str, what: str) -> str:
     start = _same_count(old, new)
     end = _same_count(old[start:][::-1], new[start:][::-1])
     before, after = (quoted(" ".join(lines[start : len(lines) - end])) for lines in (old, new))
-    if not start + end:
+    if not start + end or "order" in what:
         return f"changed {what} to `{after}`"
     if before and after:
         return f"changed `{before}` to `{after}`"

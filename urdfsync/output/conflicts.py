@@ -173,6 +173,15 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
         yield line((f"      {choice:<{width}}  {words}", "dim"))
 
 
+def settle_hint(result: Result) -> str:
+    """Return what settles the conflicts of a robot: the options that do so for each of them."""
+    found = find_conflicts([result])
+    best, *others = [choice for choice in _choices(found[0]) if all(choice in _choices(one) for one in found[1:])]
+    what, file = ("the conflict", found[0].shown) if len(found) == 1 else ("each conflict", "FILE")
+    more = f" (or {', '.join(others)})" if others else ""
+    return f"  settle {what} with `urdfsync resolve {file} {best}`{more}"
+
+
 def _choices(target: DisputedFile) -> dict[str, str]:
     """The options that settle a conflict, the best one first, and what they do."""
     found = {}

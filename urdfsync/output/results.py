@@ -15,6 +15,7 @@ from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
 from urdfsync.output.phrases import change_lines, counted, reason, summary
+from urdfsync.output.repeated import show_findings
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -63,7 +64,7 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
     if console.json:
         console.add_robot(result_values(result))
         return
-    console.findings(result.diagnostics)
+    show_findings(console, result)
     if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return

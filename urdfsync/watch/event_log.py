@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 NAME_WIDTH = 24
 """Columns of the robots' names at most."""
 _PLAIN: dict[type[events.Event], str] = {
-    events.Settling: "changed, settling",
+    events.Settling: "{0.file} changed, settling",
     events.Waiting: "{0.reason}",
     events.Unchanged: "as before",
     events.Building: "building",
@@ -86,7 +86,7 @@ class EventLog:
                 yield from self._findings(diagnostics, clock)
             case _ if self._console.verbose or (isinstance(event, _ALWAYS) and not self._console.quiet):
                 style = "" if isinstance(event, _ALWAYS) else "dim"
-                yield self._line(clock, getattr(event, "robot", ""), _PLAIN[type(event)].format(event), style)
+                yield self._line(clock, getattr(event, "robot", ""), _PLAIN[type(event)].format(event).strip(), style)
                 yield from self._findings(getattr(event, "diagnostics", ()))
             case _:
                 pass

@@ -111,6 +111,12 @@ class WatchedRobot(msgspec.Struct):
         """All files, when they were last read."""
         return {path: state.sha256 for path, state in self.files.items()}
 
+    def changed_file(self) -> str:
+        """Return a file that is other than after the last build, an input before outputs; empty if none is known."""
+        built = self.built or {}
+        found = (path for path, file in self.files.items() if file.sha256 != built.get(path, file.sha256))
+        return min(found, key=lambda path: (path not in self.paths.inputs, path), default="")
+
     def read_files(self) -> Hashes:
         """Read all inputs, those in the template folder and those that patterns match included, and all outputs."""
         inputs, outputs, templates = set(self.paths.inputs), self.paths.outputs, self.robot.templates
