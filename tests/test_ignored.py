@@ -21,6 +21,7 @@ UNRELATED = {
     "old-name-left",
     "exec",
     "written-in-part",
+    "no-attribute",
     "no-conflict",
     "no-old-names",
     "not-watched",

@@ -98,7 +98,8 @@ def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, 
         "       + connect(robot.wristAxis, motor); // robot.elbowAxis",
     ]
     assert "7 lines in 3 files written" in printed.lines
-    assert "unresolved" not in printed.err
+    assert "Arm has no" not in printed.err
+    assert "there is no class" not in printed.err
     assert texts() == RENAMED
     assert Path("modelica/Arm/Joints/Wrist.mo").exists()
     execute("build", "--check")

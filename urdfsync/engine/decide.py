@@ -82,9 +82,8 @@ def decide_package(generation: Generation) -> Decision:
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
-    numbers = (
-        _renumbered(generation, actions, merged) if any(action.kind is Kind.CONFLICT for action in actions) else ()
-    )
+    has_conflicts = any(action.kind is Kind.CONFLICT for action in actions)
+    numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
     return Decision(
@@ -215,13 +214,24 @@ def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapp
     return keep_needed(actions, generation.inputs.files.has_classes, used)
 
 
-def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:
-    """Return the records of which only numbers change."""
+def _renumbered(
+    generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
+) -> frozenset[str]:
+    """Return the records of which only numbers change, those in conflict included."""
     files, found = generation.inputs.files, set()
+    changes = generation.changes.by_element() if generation.changes else {}
     for action in actions:
-        if action.reason in (Reason.UPDATE, Reason.MERGE) and action.role is Role.RECORD:
+        if action.role is not Role.RECORD or action.origin is not None:
+            continue
+        if action.reason in (Reason.UPDATE, Reason.MERGE):
             text = merged.get(action.path) or generation.content(action.path).decode()
             if numbers_only(files.text(action.path) or "", text):
+                found.add(action.path)
+        elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
+            # the record of a whole robot has no changes of its own: a number in its tables may be its structure
+            own = changes.get(action.owner, ())
+            is_parameter = own and all(one.change_class.rank <= ChangeClass.PARAMETER.rank for one in own)
+            if is_parameter and numbers_only(base, conflicts[action.path].generated):
                 found.add(action.path)
     return frozenset(found)
 

@@ -149,10 +149,11 @@ def hold(
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
     `numbers_only`), imported files, and files that are restored or taken as they were; but none of `origins`, which
-    elements leave that have another name now. Nothing is if the package `moves`.
+    elements leave that have another name now. Nothing is if the package `moves`. Conflicts about numbers alone put off
+    nothing else.
     """
     actions = tuple(actions)
-    if not any(action.kind is Kind.CONFLICT for action in actions):
+    if all(action.path in numbers_only and not moves for action in actions if action.kind is Kind.CONFLICT):
         return actions
 
     def waits(action: Action) -> bool:
