@@ -215,7 +215,9 @@ def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
         for one in entries
         if not one.name.startswith(".") and (one.name.endswith(".mo") or one.is_dir(follow_symlinks=False))
     )
-    return len(names), hash(int.from_bytes("/".join(names).encode(errors="surrogateescape")))  # the same in each process
+    return len(names), hash(
+        int.from_bytes("/".join(names).encode(errors="surrogateescape"))
+    )  # the same in each process
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:

@@ -62,7 +62,7 @@ def test_edited_files_and_those_of_the_user_stay_and_are_named(plant: Path, exec
         f"  stays      {FILTER}/Elements/package.mo  your own files need it",
         f"  stays      {FILTER}/package.mo  your own files need it",
     ]
-    assert f"{FILTER}/Bench.mo:3: warning: `Elements.R1` is used here" in printed.err
+    assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.err
     execute(*REMOVE)
     assert "// mine" in Path(f"{FILTER}/Elements/C1.mo").read_text()
     assert Path(f"{FILTER}/Elements/package.order").read_text() == "C1Parameters\nC1\n"
