@@ -35,7 +35,7 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
         "arm.urdf: note: there is more to connect to: `handFrame` [connector-changed]",
         f"arm.urdf:4: note: link arm: its frame `arm_linkFrame` is gone; {hint} [connector-changed]",
     ]
-    assert execute("status").errors == notes
+    assert execute("status", code=1).errors == notes
     assert execute("build").errors == notes
     assert "arm_linkFrame" not in (project / "modelica/Arm/Arm.mo").read_text()
     assert "connector-changed" not in execute("build").words

@@ -12,6 +12,7 @@ import pytest
 
 from urdfsync import cli
 from urdfsync.check.cache import LIMIT
+from urdfsync.check.contents import MOST_BYTES
 from urdfsync.check.libraries import NEXT, OLDEST
 from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
@@ -70,7 +71,8 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     page = (REPOSITORY / "docs/checking.md").read_text(encoding="utf-8")
     defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
-    assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
+    assert f"The cache stays below {LIMIT / 2**30:.0f} GiB" in page
+    assert f"or to a folder, and {MOST_BYTES // 2**20} MB at most" in page
     oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
     assert f"has to be {oldest}.0 or later, below {following}." in page
     assert MOST_SINGLE_EDITS == 6

@@ -126,7 +126,7 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
         class_="Sample",
         folder="Sample",
         generator=Generator("sample", 1, ""),
-        snapshots=(case.snapshot,),
+        snapshot=case.snapshot,
         imports={key: (one,) for key, one in case.imports.items()},
     )
     assert statefile.loads(statefile.dumps(record), "sample.state") == record

@@ -28,9 +28,9 @@ CAN_CHANGE_MODES = os.name == "posix"
 
 
 def contents(folder: Path) -> Contents:
-    """Every file below a folder but for the lock and kept bases; links count with where they lead to."""
+    """Every file below a folder but for the lock; links count with where they lead to."""
     found = workplace.contents(folder).items()
-    return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/(lock$|base/)", n)}
+    return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/lock$", n)}
 
 
 @pytest.fixture

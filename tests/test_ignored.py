@@ -14,11 +14,13 @@ from urdfsync.urdf.domain import WARNINGS
 
 REPOSITORY = Path(__file__).parents[1]
 UNRELATED = {
+    "changed-meanwhile",
     "conflict",
     "conflicts-first",
     "edit-left",
     "old-name-left",
     "exec",
+    "written-in-part",
     "no-conflict",
     "no-old-names",
     "not-watched",

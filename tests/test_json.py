@@ -18,10 +18,9 @@ from support.commands import Execute
 
 from urdfsync import cli, config
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, SecondResult
-from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import FileStatus, Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.simulate import results as simulation

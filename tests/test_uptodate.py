@@ -66,7 +66,6 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
 
 
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
-    shutil.rmtree(".urdfsync/base")  # a clone: what its files are merged with is not there yet
     save(*CHECK)
     assert saved(*BUILD) is None
 
@@ -163,7 +162,7 @@ EDITS: dict[str, Edit] = {
     "a class that is a folder": lambda folder: (folder / LEG).rename(folder / "modelica/Leg/Links/package2.mo"),
     "a folder that is a class": _edit("modelica/Lab/Arm/Links/Base/package.mo", "absent"),
     "another stray state": _edit(".urdfsync/robots/other.state"),
-    "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/base/leg"),
+    "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/bases/leg"),
     "an interrupted build": _edit(".urdfsync/planned.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
     "a linked folder": _link_package,

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import msgspec
@@ -22,7 +23,7 @@ from support.xacros import EXPANDED, RECORD
 from urdfsync import dependencies
 from urdfsync.state.expansion import dumps, loads
 
-CHANGED = "inputs changed, not expanded"
+CHANGED = "inputs changed since the last build"
 
 
 @pytest.fixture
@@ -138,11 +139,11 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert "mass = 1.5" in Path(RECORD).read_text()
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
-        assert execute("status").lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
-        assert execute("status", "--json").json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
+        assert execute("status", "--json", code=1).json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
-        assert execute("status").lines[0] == f"arm: {CHANGED}, 15 files"
+        assert execute("status", code=1).lines[0] == f"arm: {CHANGED}, 15 files"
     execute("build")
     assert "mass = 2.5" in Path(RECORD).read_text()
     assert execute("status").lines == ["arm: in step, 15 files"]
@@ -176,6 +177,25 @@ def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, execute: Execute) -> None:
+    package, before = outputs(built), EXPANDED.read_bytes()
+    (built / "urdf/parts/other.xacro").write_text("nobody reads this")
+    (built / "urdf/masses.yaml").write_text("upper: 1.5\r\n", newline="")
+    (built / "urdf/arm.urdf.xacro").touch()
+    for command in (["build"], ["build", "--full"]):
+        execute(*command)
+        assert EXPANDED.read_bytes() == before
+    (built / "urdf/masses.yaml").write_text("upper: 1.50\n")
+    assert execute("status", code=1).lines[1:] == ["  urdf/masses.yaml"]
+    execute("build")
+    after = EXPANDED.read_bytes()
+    assert after != before
+    assert after.partition(b"<?xml")[2] == before.partition(b"<?xml")[2]
+    assert outputs(built) == package
+    execute("build")
+    assert EXPANDED.read_bytes() == after
+
+
 def test_line_ends_are_no_change(built: Path, execute: Execute) -> None:
     for path in (built / "urdf").rglob("*.*"):
         path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
@@ -188,10 +208,10 @@ def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, mon
     execute("build")
     assert "boxSize" not in execute("status").out
     monkeypatch.setenv("LONG", "3")
-    assert execute("status").lines[1:] == ["  $LONG"]
+    assert execute("status", code=1).lines[1:] == ["  $LONG"]
     execute("build")
     (project / "urdfsync.toml").write_text(xacros.CONFIG.replace("0.5", "0.75"))
-    assert execute("status").lines[1:2] == ["  arguments"]
+    assert execute("status", code=1).lines[1:2] == ["  arguments"]
 
 
 def test_a_variable_is_part_of_the_saved_answer(
@@ -224,7 +244,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
-    assert execute("status").lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+    assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 
@@ -242,7 +262,7 @@ def test_a_package_that_is_not_here_counts_as_unchanged(
     assert '"package://beams/beam.xacro"' in EXPANDED.read_text()
     assert str(elsewhere) not in EXPANDED.read_text()
     (elsewhere / "beams/beam.xacro").write_text(xacros.BEAM.replace("0.1 0.1", "0.2 0.2"))
-    assert execute("status").lines[1:] == ["  package://beams/beam.xacro"]
+    assert execute("status", code=1).lines[1:] == ["  package://beams/beam.xacro"]
     shutil.rmtree(elsewhere)
     (project / "urdfsync.toml").write_text(xacros.CONFIG)
     assert execute("status").lines == ["arm: in step, 15 files"]
@@ -268,7 +288,7 @@ def test_files_that_match_a_pattern_are_inputs(project: Path, execute: Execute) 
     xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("parts/beam.xacro", "parts/*.xacro")})
     execute("build")
     (project / "urdf/parts/more.xacro").write_text(f'{xacros.HEAD.format("more")}<link name="more"/></robot>')
-    assert execute("status").lines[:2] == [f"arm: {CHANGED}, 15 files", "  urdf/parts/*.xacro"]
+    assert execute("status", code=1).lines[:2] == [f"arm: {CHANGED}, 15 files", "  urdf/parts/*.xacro"]
 
 
 def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execute) -> None:
@@ -276,12 +296,12 @@ def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execu
     xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("</robot>", more)})
     execute("build")
     (project / "urdf/more.xacro").write_text(f"{xacros.HEAD.format('more')}</robot>")
-    assert execute("status").lines[1:] == ["  urdf/more.xacro"]
+    assert execute("status", code=1).lines[1:] == ["  urdf/more.xacro"]
 
 
 def test_status_before_the_first_build(project: Path, execute: Execute) -> None:
     with unchanged(project):
-        assert execute("status").lines == [
+        assert execute("status", code=1).lines[:2] == [
             "arm: not expanded, so its files were not compared",
             "  no expansion is recorded",
         ]
@@ -298,13 +318,35 @@ def test_a_damaged_expansion_is_none(built: Path, execute: Execute, damage: str)
 def test_an_expansion_of_a_stranger_is_only_compared(built: Path, execute: Execute) -> None:
     own = loads(EXPANDED.read_bytes())
     assert own is not None
-    files = {"a\0b": "1", "/dev/zero": "1", "package://../../etc/passwd": "1", "a" * 9999: "1", "\x1b[31mred": "1"}
+    files = {
+        "a\0b": "1",
+        "/dev/zero": "1",
+        "package://../../etc/passwd": "1",
+        "package://a\0b/c": "1",
+        "a" * 9999: "1",
+        "\x1b[31mred": "1",
+    }
     odd = msgspec.structs.replace(own, files={**own.files, **files}, places="x=1:2 7", variables={"a=b": "1", "": "1"})
     EXPANDED.write_bytes(dumps(odd))
     with unchanged(built):
-        said = execute("status", "-v").out
+        said = execute("status", "-v", code=1).out
     assert said.startswith(f"arm: {CHANGED}")
     assert "\x1b" not in said
+    execute("build")
+    assert EXPANDED.read_bytes() == dumps(own)
+
+
+def test_a_pattern_of_a_stranger_is_none_of_folders(built: Path, execute: Execute) -> None:
+    own = loads(EXPANDED.read_bytes())
+    assert own is not None
+    for name in ("a", "b"):
+        (built / name).symlink_to(".")
+    patterns = ["*/" * 30 + "x", "/*/*/*/*/*/*", "**/*", "a\0b/*", "/dev/zero/*", "/proc/self/fd/*"]
+    EXPANDED.write_bytes(dumps(msgspec.structs.replace(own, patterns=dict.fromkeys(patterns, "1"))))
+    begin = time.monotonic()
+    execute("status", code=1)
+    execute("build", "--check", code=None)
+    assert time.monotonic() - begin < 30
     execute("build")
     assert EXPANDED.read_bytes() == dumps(own)
 
@@ -425,6 +467,38 @@ def test_a_robot_of_another_name_takes_its_expansion_along(
     assert execute("status").lines == ["leg: in step, 15 files"]
 
 
+def test_xacro_is_noticed_whatever_its_name(project: Path, execute: Execute) -> None:
+    (project / "urdf/arm.urdf.xacro").rename(project / "urdf/arm.urdf")
+    (project / "urdfsync.toml").unlink()
+    execute("init", "urdf/arm.urdf", "length:=0.75")
+    assert 'arguments = { length = "0.75" }' in (project / "urdfsync.toml").read_text()
+    shutil.copy("urdf/arm.urdf", "urdf/second.urdf")
+    execute("add", "urdf/second.urdf")
+    execute("build")
+    assert "0.75" in EXPANDED.read_text()
+    assert "0.5" in EXPANDED.with_name("second.expanded").read_text()
+    assert "nothing changed" in execute("diff", "urdf/second.urdf", "--against", "urdf/arm.urdf").out
+    assert "0.25" in execute("record", "urdf/arm.urdf", "length:=0.25").out
+    (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
+    assert execute("status", "second", code=1).lines == [f"second: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "<!-- <xacro:macro name='leg'/> ${mass} -->",
+        '<xacro:include filename="$(find gone)/colors.xacro"/>',
+        '<gazebo reference="base"><xacro:grey/></gazebo>',
+    ],
+)
+def test_an_expanded_urdf_may_have_leftovers_of_xacro(folder: Path, execute: Execute, line: str) -> None:
+    (folder / "arm.urdf").write_text(f'{xacros.HEAD.format("arm")}{line}\n<link name="base"/>\n</robot>')
+    execute("init", "arm.urdf")
+    execute("build")
+    assert not EXPANDED.exists()
+    assert "no source is xacro" in execute("record", "arm.urdf", "a:=1", code=2).err
+
+
 def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:
     (built / "urdf/arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
     (built / "urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf"\npackage = "Arm"\n')
@@ -442,7 +516,9 @@ def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
     execute("add", "urdf/second.urdf.xacro", "name:=second")
     execute("build")
     assert "0.75" in execute("record", "urdf/arm.urdf.xacro", "length:=0.75").out
-    assert "is an argument of xacro" in execute("record", "urdf/arm.urdf", "length:=0.75", code=2).err
+    (project / "urdf/plain.urdf").write_text('<robot name="plain"><link name="base"/></robot>')
+    assert "is an argument of xacro" in execute("record", "urdf/plain.urdf", "length:=0.75", code=2).err
+    assert "can't be read" in execute("record", "urdf/gone.urdf", "length:=0.75", code=2).err
 
 
 @pytest.mark.slow
@@ -517,7 +593,7 @@ def test_a_file_that_comes_ends_a_failure(project: Path, execute: Execute) -> No
     (project / "urdf/masses.yaml").rename(project / "urdf/later.yaml")
     for _ in range(2):
         assert "masses.yaml can't be read" in execute("build", code=2).words
-        execute("status")
+        execute("status", code=1)
     (project / "urdf/later.yaml").rename(project / "urdf/masses.yaml")
     execute("build")
     assert execute("status").lines == ["arm: in step, 15 files"]
@@ -550,7 +626,7 @@ def test_a_command_is_run_only_with_the_users_word(
 ) -> None:
     with unchanged(commanded):
         assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
-        assert execute("status").lines == [
+        assert execute("status", code=1).lines[:2] == [
             "arm: not expanded, so its files were not compared",
             "  no expansion is recorded",
         ]
@@ -568,7 +644,7 @@ def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute
     assert execute("build").lines == execute("status").lines == ["arm: in step, 9 files"]  # which asks for no trust
     (commanded / "mass.txt").write_text("2.5")
     with unchanged(commanded):
-        assert execute("status").lines == [f"arm: {CHANGED}, 9 files", "  mass.txt"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 9 files", "  mass.txt"]
         assert execute("build", "--check", code=1).lines == [f"arm: {CHANGED}"]
     execute("build", "--trust")
     assert "mass = 2.5" in record.read_text()

@@ -35,7 +35,7 @@ _COMMANDS = (
     "resolve",
     "record",
     "hook",
-    "merge-file",
+    "merge-driver",
     "library",
 )
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
@@ -124,7 +124,7 @@ def _call(args: argparse.Namespace, console: Console) -> int:
 
 def _for_git(given: Sequence[str], error: int) -> int:
     """Return the exit code of an error as git's merge driver tells it: smaller ones are numbers of conflicts."""
-    return arguments.DRIVER_ERROR if _command(given) == "merge-file" else error
+    return arguments.DRIVER_ERROR if _command(given) == "merge-driver" else error
 
 
 def _command(given: Sequence[str]) -> str:

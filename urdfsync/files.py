@@ -65,14 +65,6 @@ def put(file: Path, content: bytes) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def rewrite(file: Path, content: bytes) -> None:
-    """Write a file that is there, as `put` does; a link to it stays one, and its permissions stay. Raises OSError."""
-    file = file.resolve()
-    mode = stat.S_IMODE(file.stat().st_mode)
-    put(file, content)
-    file.chmod(mode)
-
-
 def templates_digest(folders: Sequence[Path]) -> str:
     """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one.
 

@@ -1,4 +1,4 @@
-"""The index of git beside the working tree, for the hooks: only read, not even refreshed. Each commit imports this."""
+"""git around the working folder. Its index is only read, not even refreshed. Each commit imports this."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Index:
 
     def __init__(self) -> None:
         """Raises GitError if there is no working tree of a repository."""
-        self.top = _run("rev-parse", "--show-toplevel").removesuffix("\n")
+        self.top = run("rev-parse", "--show-toplevel").removesuffix("\n")
         entries = _list("ls-files", "-v", "--cached", "--modified", "--full-name", "--", ":/")
         self.tracked = {entry[2:] for entry in entries}
         unusual = [(entry[0], entry[2:]) for entry in entries if not entry.startswith("H ")]
@@ -62,10 +62,10 @@ class Index:
 
 def _list(command: str, *arguments: str) -> list[str]:
     """Run a command of git that lists paths. Raises GitError."""
-    return _run(command, "-z", *arguments).split("\0")[:-1]
+    return run(command, "-z", *arguments).split("\0")[:-1]
 
 
-def _run(*arguments: str) -> str:
+def run(*arguments: str) -> str:
     """Run git; return its output. Raises GitError.
 
     The variables of git's own caller count: GIT_DIR and GIT_INDEX_FILE name what is being committed.

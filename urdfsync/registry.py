@@ -18,8 +18,8 @@ _OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
 
 def domain(name: str) -> Domain:
     """The domain of this name. Raises ConfigError, without file and line, if there is none or it can't be loaded."""
-    place = _OWN.get(name) or _installed().get(name)
-    if place is None:
+    place = _place(name)
+    if not place:
         near = nearest(name, names())
         hint = f'did you mean "{near}"?' if near else f"installed are {', '.join(names())}"
         raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
@@ -31,9 +31,18 @@ def domain(name: str) -> Domain:
         raise ConfigError(Diagnostic(Severity.ERROR, "broken-domain", message, hint="install it again")) from problem
 
 
+def top_level(name: str) -> str:
+    """The top-level package or module that has the code of a domain; empty if there is no such domain."""
+    return _place(name).partition(":")[0].partition(".")[0]
+
+
 def names() -> list[str]:
     """The names of all domains that are installed, sorted."""
     return sorted(_OWN.keys() | _installed().keys())
+
+
+def _place(name: str) -> str:
+    return _OWN.get(name) or _installed().get(name, "")
 
 
 def _installed() -> dict[str, str]:

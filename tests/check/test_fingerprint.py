@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.networks import edit
+from support.networks import RC_FOLDER, edit
 
 from urdfsync import config
-from urdfsync.check import fingerprint as fingerprints
 from urdfsync.check.fingerprint import fingerprint
 from urdfsync.check.results import CheckOptions
 from urdfsync.engine.build import build
@@ -67,13 +67,56 @@ def test_what_a_check_rests_on_changes_it(project: Path, change: Callable[[], No
     assert (now() != before) == matters
 
 
-def test_so_do_another_tool_another_urdfsync_and_another_wish(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_so_do_another_tool_another_distribution_and_another_wish(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     found = [now(), now(physics=True)]
-    monkeypatch.setattr(fingerprints, "__version__", "99")
+    (tmp_path / "site/numbers-2.0.dist-info").mkdir(parents=True)
+    monkeypatch.syspath_prepend(tmp_path / "site")
     found.append(now())
-    monkeypatch.setattr("urdfsync.check.compilers.installed_version", lambda *_: "99")
+    monkeypatch.setattr("urdfsync.check.compilers.state", lambda _: ["99"])
     found.append(now())
     assert len(set(found)) == 4
+
+
+def test_so_does_another_line_of_a_domain(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which is no part of urdfsync, and says no version."""
+    before = now()
+    copy = tmp_path / "rc_domain.py"
+    copy.write_text((RC_FOLDER / "rc_domain.py").read_text() + "# a line\n")
+    monkeypatch.setattr("rc_domain.__file__", str(copy))
+    assert now() not in (before, None)
+
+
+def test_contents_count_and_neither_sizes_nor_times(project: Path) -> None:
+    before, file = now(), Path("path/Tanks.mo")
+    status = file.stat()
+    file.write_text(file.read_text().replace("package Tanks", "package tanks"))
+    os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert now() != before
+    file.write_text(file.read_text().replace("package tanks", "package Tanks"))
+    assert now() == before
+
+
+def test_a_library_of_the_users_counts_with_what_his_model_needs_of_it(project: Path) -> None:
+    """The part does not mention the robot, and is not where libraries are looked for."""
+    append("Plant/package.mo", "within;\npackage Plant\nend Plant;\n")
+    append("Plant/Cell.mo", "within Plant;\nmodel Cell\n  Ladder.Ladder it;\n  Part part;\nend Cell;\n")
+    append("Plant/Part.mo", "within Plant;\nmodel Part\nend Part;\n")
+    append("Plant/Resources/table.txt", "1 2\n")
+    before = now()
+    append("Plant/Part.mo", "// changed\n")
+    assert now() != before
+    before = now()
+    append("Plant/Resources/table.txt", "3 4\n")
+    assert now() != before
+
+
+def test_a_library_with_a_link_to_a_folder_is_not_known_whole(project: Path, tmp_path: Path) -> None:
+    """What is behind the link may change, and may be all of the disk: so nothing is remembered."""
+    (tmp_path / "elsewhere").mkdir()
+    Path("path/Pumps/Resources").symlink_to(tmp_path / "elsewhere", target_is_directory=True)
+    assert now() is None
 
 
 def test_what_can_not_be_read_has_none(project: Path) -> None:

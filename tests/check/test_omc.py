@@ -7,18 +7,17 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.io import savemat
 from support import corpus, fake_omc
+from support.trajectories import write_trajectory
 
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import installed_version, omc, run_job
+from urdfsync.check.compilers import omc, run_job, state
 from urdfsync.check.compilers.compiler import (
     CompileJob,
     CompilerError,
@@ -62,10 +61,7 @@ Ask = Callable[..., list[CompileResult]]
 def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
     """Do tasks with an `omc` on the PATH that gives these answers to calls that begin so."""
     folder = tmp_path / "bin"
-    folder.mkdir()
-    script = folder / "omc"
-    script.write_text(f"#!{sys.executable}\n{Path(fake_omc.__file__).read_text()}")
-    script.chmod(0o755)
+    fake_omc.install(folder)
     monkeypatch.setenv("PATH", str(folder), prepend=":")
     monkeypatch.delenv("OPENMODELICAHOME", raising=False)
 
@@ -136,25 +132,6 @@ def simulated(ask: Ask, tmp_path: Path, file: str, messages: str = "", said: str
     assert "stopTime=1, numberOfIntervals=4, tolerance=1e-09" in simulate
     assert 'simflags="-override=robot.k=2.0"' in simulate
     return result
-
-
-def write_trajectory(file: Path, constants: Mapping[str, float], series: Mapping[str, Sequence[float]]) -> None:
-    """Write a result as OpenModelica does; a name that begins with - is stored negated, as an alias is."""
-    names = [*series, *constants]
-    letters = zip(*(name.removeprefix("-").ljust(20) for name in names), strict=True)  # a column for each name
-    rows = {name: (2, number) for number, name in enumerate(series, 1)}
-    rows |= {name: (1, number) for number, name in enumerate(constants, 2)}
-    info = [[table, -row if name[0] == "-" else row, 0, -1] for name, (table, row) in rows.items()]
-    ends = [series["time"][0], series["time"][-1]]
-    tables = {
-        "data_1": np.array([ends, *([value, value] for value in constants.values())]),
-        "data_2": np.array([np.negative(one) if name[0] == "-" else one for name, one in series.items()]),
-    }
-    savemat(
-        file,
-        {"name": np.array(["".join(row) for row in letters]), "dataInfo": np.array(info, dtype=np.int32).T, **tables},
-        format="4",
-    )
 
 
 def test_the_result_of_a_simulation_is_read_from_its_file(ask: Ask, tmp_path: Path) -> None:
@@ -300,17 +277,29 @@ def test_an_omc_that_dies_or_says_what_nobody_knows_is_told_with_the_call(ask: A
     assert answer.strip() in str(caught.value)
 
 
-def test_another_omc_is_another_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """So that what one of them found right is not taken from the cache for the other."""
-    program = tmp_path / "bin" / "omc"
-    program.parent.mkdir()
+def test_another_omc_is_another_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that what one of them found right is not taken from the cache for the other.
+
+    It may say another version though the program is the same, or be built anew with the version that it had.
+    """
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
-    found = [installed_version(Tool("omc"))]
-    for version in ("1.24", "1.25"):
-        program.write_text(f"#!/bin/sh\necho OpenModelica {version}\n")
-        program.chmod(0o755)
-        found.append(installed_version(Tool("omc")))
-    assert len(set(found)) == 3
+    found = [state(Tool("omc"))]
+    for version in ("1.26", "1.27"):
+        fake_omc.install(tmp_path / "bin", {"getVersion": f'"{version}"\n""\n'})
+        found.append(state(Tool("omc")))
+    for file in ("lib/omc/libOpenModelicaCompiler.so", "lib/omlibrary/Modelica 4.1.0/Math.mo", "bin/omc"):
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        with (tmp_path / file).open("a") as stream:
+            stream.write("\n")
+        found.append(state(Tool("omc")))
+    assert len({tuple(one) for one in found}) == 6
+
+
+def test_an_omc_that_does_not_say_its_version_has_no_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
+    fake_omc.install(tmp_path / "bin", {"getVersion": ""})
+    with pytest.raises(OSError, match="exit code 3"):
+        state(Tool("omc"))
 
 
 @given(st.lists(st.text()))

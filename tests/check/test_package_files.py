@@ -87,16 +87,24 @@ def test_what_can_not_be_read_is_named_as_people_see_it(
             raise PermissionError(errno.EACCES, "Permission denied", path)
         return genuine(path, *rest)
 
-    owner, method = (Path, "read_bytes") if name.endswith(".mo") else (os, "scandir")
-    genuine = getattr(owner, method)
+    method = "open" if name.endswith(".mo") else "scandir"
+    genuine = getattr(os, method)
     monkeypatch.chdir(plant.root)
     with monkeypatch.context() as patch:
-        patch.setattr(owner, method, refuse)
+        patch.setattr(os, method, refuse)
         with pytest.raises(OutputError) as caught:
             files.package_texts(plant.root / "modelica" / "Plant")
     (found,) = caught.value.diagnostics
     assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
     assert found.hint
+
+
+def test_a_file_that_would_fill_the_memory_is_refused(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(plant.root)
+    with Path("modelica/Plant/Large.mo").open("wb") as file:
+        file.truncate(2**40)  # takes nothing on the disk, as in a repository
+    with pytest.raises(OutputError, match=r"modelica/Plant/Large\.mo: error: it can't be read: it has more than"):
+        files.package_texts(plant.root / "modelica/Plant")
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:

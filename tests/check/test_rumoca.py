@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 
 import pytest
 
 from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import find_missing, run_job
+from urdfsync.check.compilers import find_missing, run_job, state
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation, Tool
 from urdfsync.check.compilers.rumoca import METHODS
 from urdfsync.check.process import Limits
@@ -37,6 +38,18 @@ def results(tmp_path: Path, *tasks: CompileTask, roots: tuple[str, ...] = ()) ->
     return run_job(
         Tool("rumoca"), CompileJob(roots, tasks), UserCache(tmp_path / "cache"), Limits("the check", 60, 4e9)
     )
+
+
+def test_another_rumoca_is_another_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its version alone does not tell."""
+    module = tmp_path / "rumoca/__init__.py"
+    module.parent.mkdir()
+    module.write_text("")
+    monkeypatch.delitem(sys.modules, "rumoca", raising=False)
+    monkeypatch.syspath_prepend(tmp_path)
+    before = state(Tool("rumoca"))
+    module.write_text("# built anew\n")
+    assert state(Tool("rumoca")) != before
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from support.commands import Execute
+from support.crashes import Operation, before_each
 from support.files import unchanged
 
 ADD = ("add", "--domain", "rcnetwork")
@@ -60,3 +62,21 @@ def test_a_link_stays_a_link(project: Path, execute: Execute) -> None:
 
 def test_without_a_configuration(folder: Path, execute: Execute) -> None:
     assert "urdfsync init" in execute("add", "arm.urdf", code=2).err
+
+
+@pytest.mark.parametrize("operation", ["write", "sync", "exchange"])
+def test_a_save_in_between_stays(project: Path, execute: Execute, operation: str) -> None:
+    file = project / "urdfsync.toml"
+    (project / "other.json").write_text((project / "ladder.json").read_text())
+    saved = f"# saved\n{file.read_text()}"
+    once = iter([saved])
+
+    def save(found: Operation) -> None:
+        if found.name == operation and (text := next(once, "")):
+            file.write_text(text)
+
+    with before_each(save):
+        error = execute(*ADD, "other.json", code=2).err
+    assert "urdfsync.toml: error: it has changed meanwhile, and stays as it is now; run the command again" in error
+    assert file.read_text() == saved
+    assert not list(project.glob(".*urdfsync-tmp*"))

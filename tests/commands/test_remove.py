@@ -159,3 +159,17 @@ def test_a_removal_that_was_killed_goes_on(plant: Path, tmp_path: Path) -> None:
         os.waitpid(crashes.forked(work, kill, remove), 0)
         assert remove(work) == 0
         assert crashes.contents(work) == crashes.contents(clean), operation
+
+
+def test_what_is_saved_in_the_configuration_meanwhile_stays(plant: Path, execute: Execute) -> None:
+    file = plant / "urdfsync.toml"
+    saves = iter((f"# saved\n{file.read_text()}", f"# saved again\n{file.read_text()}"))
+
+    def save(found: crashes.Operation) -> None:
+        if found.name == "exchange" and file in found.paths and (text := next(saves, "")):
+            file.write_text(text)
+
+    with crashes.before_each(save):
+        execute(*REMOVE)
+    assert file.read_text().startswith("# saved again\n")
+    assert "[robots.filter]" not in file.read_text()

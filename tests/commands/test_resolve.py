@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 from support.commands import Execute
+from support.crashes import Operation, before_each
 from support.files import unchanged
-from support.networks import LADDER, RECORD, ROBOT, configure, edit, resistor
+from support.git import NEEDS_GIT
+from support.networks import LADDER, RC_FOLDER, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
+from urdfsync.commands.build import build_and_check
+from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 
 MODEL = f"{LADDER}/Ladder.mo"
@@ -343,10 +348,43 @@ def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute)
     assert (
         "it is no longer generated: there is nothing to merge" in execute("resolve", str(orphan), "--merge", code=2).err
     )
-    execute("resolve", str(orphan), "--take")
+    assert f"  accepted   {orphan.relative_to(Path.cwd())}  deleted" in execute("resolve", str(orphan), "--take").lines
     assert not orphan.exists()
     assert not orphan.with_name("R2Parameters.mo").exists()
     assert classes() == set()
+
+
+def test_an_orphan_that_was_deleted_can_be_given_back(orphan: Path, execute: Execute) -> None:
+    mine = orphan.read_text()
+    execute("resolve", str(orphan), "--take")
+    assert classes() == set()
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    execute("resolve", str(orphan), "--undo")
+    for _ in range(2):
+        assert orphan.read_text() == mine
+        assert classes() == {"R2"}
+        execute("build", "--check")
+    execute("resolve", str(orphan), "--undo", code=2)
+
+
+def test_a_file_that_took_the_place_of_a_deleted_one_stays(orphan: Path, execute: Execute) -> None:
+    execute("resolve", str(orphan), "--take")
+    orphan.write_text("model R2\nend R2;\n")
+    execute("resolve", str(orphan), "--undo", code=2)
+    assert orphan.read_text() == "model R2\nend R2;\n"
+
+
+def test_what_was_not_taken_along_by_a_rename_can_be_given_back(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(f"{LADDER}/Elements/R1.mo", "equation", "  Real mine;\nequation")
+    edit("ladder.json", '"R1"', '"R8"')
+    renamed = Path(f"{LADDER}/Elements/R8.mo")
+    execute("resolve", f"{LADDER}/Elements/R1.mo", "--take")
+    assert "Real mine;" not in renamed.read_text()
+    execute("resolve", str(renamed), "--undo")
+    assert "Real mine;" in renamed.read_text()
+    assert "end R8;" in renamed.read_text()
     execute("build", "--check")
 
 
@@ -418,7 +456,7 @@ def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: 
 def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     with unchanged(merged, but=".urdfsync/lock"):
-        assert "or the file was saved since" in execute("resolve", MODEL, "--undo", code=2).err
+        assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
 
 
 def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
@@ -440,7 +478,7 @@ def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -
     execute("build")
     more("R3")
     execute("build")
-    assert "there is nothing to give back" in execute("resolve", MODEL, "--undo", code=2).err
+    assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
 
 
 def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
@@ -448,6 +486,102 @@ def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: E
         (merged / ".urdfsync/replaced/ladder" / name).write_text("model X end X;")
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     execute("build")
+
+
+# What is saved meanwhile
+
+
+def save_before(monkeypatch: pytest.MonkeyPatch, path: Path, old: str, new: str) -> None:
+    """Let somebody save a file after `resolve` has looked at it, and before it builds."""
+
+    def save_and_build(*arguments: Any) -> Iterator[Result]:
+        edit(path, old, new)
+        return build_and_check(*arguments)
+
+    monkeypatch.setattr("urdfsync.commands.resolve.build_and_check", save_and_build)
+
+
+CHANGED = "it has changed since it was looked at, so your choice does not count for it; look at it, then choose again"
+
+
+@pytest.mark.parametrize("choice", ["--take", "--keep", "--edit", "--merge --prefer generated"])
+@pytest.mark.parametrize("named", [MODEL, "--all"])
+def test_a_file_that_is_saved_after_the_look_stays_in_conflict(
+    contradictory: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, choice: str, named: str, editor: Editor
+) -> None:
+    editor(SETTLE)
+    save_before(monkeypatch, Path(MODEL), MINE, '"Element R2, 2 %"')
+    printed = execute("resolve", named, *choice.split(), code=3)
+    assert CHANGED in printed.err
+    assert "accepted" not in printed.out
+    assert '"Element R2, 2 %"' in Path(MODEL).read_text()
+    assert conflicts(execute) == ["Ladder.mo"]
+
+
+def test_a_merge_is_not_taken_of_a_text_that_nobody_has_seen(
+    clean: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_before(monkeypatch, Path(MODEL), "Real mine = 1", "Real mine = 2")
+    assert CHANGED in execute("resolve", MODEL, "--merge", code=3).err
+    assert FRESH not in Path(MODEL).read_text()
+
+
+def test_an_export_after_the_look_is_not_taken(clean: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    save_before(monkeypatch, Path("ladder.json"), '"R3"', '"R4"')
+    assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert "Real mine" in Path(MODEL).read_text()
+
+
+def test_an_orphan_that_is_saved_after_the_look_is_not_deleted(
+    orphan: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_before(monkeypatch, orphan, "Real mine;", "Real mine, yours;")
+    assert CHANGED in execute("resolve", str(orphan), "--take", code=3).err
+    assert "Real mine, yours;" in orphan.read_text()
+
+
+def test_an_edit_without_conflict_that_is_saved_after_the_look_stays(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    execute("build")
+    edit(MODEL, "equation", "  Real mine;\n\nequation")
+    save_before(monkeypatch, Path(MODEL), "Real mine;", "Real mine, yours;")
+    assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert "Real mine, yours;" in Path(MODEL).read_text()
+
+
+@pytest.mark.parametrize("operation", ["write", "exchange", "sync"])
+def test_a_save_while_the_choice_is_carried_out_stays(contradictory: Path, execute: Execute, operation: str) -> None:
+    saved = Path(MODEL).read_text().replace("1 %", "2 %")
+
+    def save(found: Operation) -> None:
+        if found.name == operation:
+            Path(MODEL).write_text(saved)
+
+    with before_each(save):
+        assert CHANGED in execute("resolve", MODEL, "--take", code=3).err
+    assert Path(MODEL).read_text() == saved
+    assert conflicts(execute) == ["Ladder.mo"]
+
+
+@pytest.mark.slow
+def test_a_save_while_another_process_carries_out_the_choice_stays(contradictory: Path, rc_site: Path) -> None:
+    """Real processes: `resolve` has shown what goes, and waits for the build lock when the file is saved."""
+    saved = Path(MODEL).read_text().replace("1 %", "2 %")
+    command = [sys.executable, "-u", "-m", "urdfsync", "resolve", MODEL, "--take"]
+    program: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    program["env"] = {**os.environ, "PYTHONPATH": f"{rc_site}{os.pathsep}{RC_FOLDER}"}
+    with build_lock(contradictory / ".urdfsync", 0) as lock:
+        lock.acquire()
+        with subprocess.Popen(command, **program) as process:
+            assert process.stdout
+            assert process.stdout.readline() == "your edits go:\n"
+            Path(MODEL).write_text(saved)
+            lock.release()
+            error = process.communicate(timeout=60)[1]
+    assert process.returncode == 3
+    assert CHANGED in error
+    assert Path(MODEL).read_text() == saved
 
 
 # The user's editor
@@ -485,15 +619,34 @@ def test_an_editor_makes_one_text_of_both(
     assert not list(tmp_path.glob("urdfsync-edit-*"))
 
 
-def test_the_editor_sees_all_versions(contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path) -> None:
-    editor("print([Path(name).name for name in names]); print(Path(names[2]).read_text()); sys.exit(3)")
+def test_the_editor_sees_all_versions_in_one_file_outside_of_the_project(
+    contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path
+) -> None:
+    editor("print(len(names), Path.cwd() == file.parent); print(file.read_text()); sys.exit(3)")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
-    assert "the editor ended with exit code 3; nothing was changed" in error
+    assert "the editor ended with exit code 3; nothing was changed; what it saved is in " in error
     (folder,) = tmp_path.glob("urdfsync-edit-*")
-    names = sorted(path.name for path in folder.iterdir())
-    assert names == ["Ladder.base.mo", "Ladder.generated.mo", "Ladder.mine.mo", "Ladder.mo"]
-    assert (folder / "Ladder.mine.mo").read_text() == Path(MODEL).read_text()
+    (file,) = folder.iterdir()
+    assert file.name == "Ladder.mo"
+    lines = file.read_text().splitlines()
+    marks = [line for line in lines if line[:7] in ("<<<<<<<", "|||||||", "=======", ">>>>>>>")]
+    assert marks == ["<<<<<<< mine", "||||||| base", "=======", ">>>>>>> generated"]
+
+
+def test_without_a_base_the_editor_sees_both_texts(execute: Execute, editor: Editor, project: Path) -> None:
+    """The file that was there first is no edit of the generated one."""
+    Path(MODEL).parent.mkdir(parents=True)
+    Path(MODEL).write_text('model Ladder "of mine"\nend Ladder;\n')
+    execute("build", code=3)
+    own = 'within;\nmodel Ladder "of both"\nend Ladder;\n'
+    copy = project.parent / "seen"
+    editor(f"Path({str(copy)!r}).write_text(file.read_text()); file.write_text({own!r})")
+    assert f"  accepted   {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines
+    assert Path(MODEL).read_text() == own
+    seen = copy.read_text()
+    assert seen.startswith('<<<<<<< mine\nmodel Ladder "of mine"\n=======\nwithin ')
+    assert "\n>>>>>>> generated\nend Ladder;\n" in seen
 
 
 @pytest.mark.parametrize(
@@ -502,6 +655,7 @@ def test_the_editor_sees_all_versions(contradictory: Path, execute: Execute, edi
         ("", "has the conflict marker"),
         ('file.write_text("")', "is not one class called `Ladder`"),
         (SETTLE + 'file.write_text(file.read_text().replace("Ladder", "Other"))', "is not one class called `Ladder`"),
+        (SETTLE + 'file.write_bytes(file.read_text().replace("1 %", "\\xe4").encode("latin-1"))', "is not UTF-8"),
     ],
 )
 def test_an_edited_text_that_cannot_be_used_changes_nothing(
@@ -511,7 +665,18 @@ def test_an_edited_text_that_cannot_be_used_changes_nothing(
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
     assert words in error
-    assert "nothing was changed" in error
+    assert "nothing was changed; it stays in " in error
+    assert "; --edit begins anew" in error
+
+
+def test_an_edited_text_in_latin_1_is_no_bug_while_another_file_waits(
+    contradictory: Path, execute: Execute, editor: Editor
+) -> None:
+    edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
+    edit("ladder.json", '"R1"', '"R8"')
+    editor(SETTLE + 'file.write_bytes(file.read_text().replace("1 %", "\\xe4").encode("latin-1"))')
+    assert "the edited text is not UTF-8; nothing was changed" in execute("resolve", MODEL, "--edit", code=2).err
+    execute("build", code=3)
 
 
 def test_an_edited_text_waits_for_other_conflicts(contradictory: Path, execute: Execute, editor: Editor) -> None:
@@ -548,7 +713,7 @@ def test_a_header_and_other_line_ends_are_no_other_class(contradictory: Path, ex
 def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
     contradictory: Path, execute: Execute, editor: Editor
 ) -> None:
-    editor("file.write_text(Path(names[2]).read_text())")
+    editor(f"file.write_text(Path({str(Path(MODEL).absolute())!r}).read_text())")
     execute("resolve", MODEL, "--edit")
     assert Path(f"{LADDER}/Elements/R2.mo").exists(), "the file uses it"
 
@@ -556,25 +721,45 @@ def test_an_edit_that_is_ones_own_text_is_kept_as_by_keep(
 def test_a_text_that_is_not_taken_is_named(contradictory: Path, execute: Execute, editor: Editor) -> None:
     edit(f"{LADDER}/Elements/R1.mo", '"Resistor R1"', '"My resistor R1"')
     edit("ladder.json", '"R1"', '"R8"')
-    editor("if file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text(Path(names[3]).read_text())")
+    generated = "re.sub('<<<<<<<.*?=======\\n|>>>>>>>.*?\\n', '', file.read_text(), flags=re.S)"
+    editor(f"import re\nif file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text({generated})")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", "--all", "--edit", code=2).err
     assert "the editor ended with exit code 1" in error
     assert "R8.mo: note: this edited text was not taken over" in error
 
 
-def test_git_of_a_hook_does_not_lead_the_merge_tool_astray(
+HOSTILE = """
+[core]
+repositoryformatversion = 0
+bare = true
+editor = touch pwned
+[merge]
+tool = evil
+[mergetool "evil"]
+cmd = touch pwned
+trustExitCode = true
+"""
+
+
+@NEEDS_GIT
+def test_no_folder_of_the_project_chooses_what_is_started(
     contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    editor("file.write_text(Path(names[1]).read_text())")
-    settings, other = tmp_path / "gitconfig", tmp_path / "other.git"
-    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
-    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
-    monkeypatch.setenv("GIT_DIR", str(other))
-    execute("resolve", MODEL, "--edit")
-    assert FRESH in Path(MODEL).read_text()
-    assert not other.exists()
+    """It poses as a bare repository, or is one that somebody has copied with its settings."""
+    for folder in (contradictory, contradictory / ".git"):
+        for name in ("objects", "refs"):
+            (folder / name).mkdir(parents=True)
+        (folder / "HEAD").write_text("ref: refs/heads/main\n")
+        (folder / "config").write_text(HOSTILE)
+    for name in ("VISUAL", "EDITOR"):
+        monkeypatch.delenv(name, raising=False)
+    assert "there is no editor to open; set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
+    monkeypatch.setenv("VISUAL", "editor-of-nobody")
+    (contradictory / "editor-of-nobody").write_text("#!/bin/sh\ntouch pwned\n")
+    (contradictory / "editor-of-nobody").chmod(0o755)
+    assert "`editor-of-nobody` can't be started" in execute("resolve", MODEL, "--edit", code=2).err
+    assert not list(tmp_path.rglob("pwned"))
 
 
 def test_a_command_that_cannot_be_read_is_no_bug(
@@ -595,31 +780,12 @@ def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(
     assert Path(MODEL).read_text() == mine
 
 
-def test_the_merge_tool_of_git_goes_before_the_editor(
-    contradictory: Path,
-    execute: Execute,
-    editor: Editor,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-) -> None:
-    editor("file.write_text(Path(names[1]).read_text())")
-    settings = tmp_path / "gitconfig"
-    command = f'{sys.executable} {tmp_path}/editor.py \\"$MERGED\\" \\"$REMOTE\\"'
-    settings.write_text(f'[merge]\ntool = mine\n[mergetool "mine"]\ncmd = "{command}"\ntrustExitCode = true\n')
-    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(settings))
-    monkeypatch.setenv("VISUAL", "false")
-    execute("resolve", MODEL, "--edit")
-    assert MINE not in Path(MODEL).read_text()
-    assert FRESH in Path(MODEL).read_text()
-    execute("build", "--check")
-
-
 def test_without_an_editor_it_says_what_to_set(
     contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("VISUAL")
     monkeypatch.delenv("EDITOR", raising=False)
-    assert "set $VISUAL, or git's `merge.tool`" in execute("resolve", MODEL, "--edit", code=2).err
+    assert "set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
 
 
 # Robots, locks, programs

@@ -11,9 +11,9 @@ from support.files import unchanged
 from support.networks import LADDER, configure, edit
 
 from urdfsync.changes import Change, Changes
-from urdfsync.commands.status import FileStatus, file_status, is_in_step, lines, summary
+from urdfsync.commands.status import lines, summary
 from urdfsync.domain import ChangeClass, ChangeKind, Role
-from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 
@@ -27,8 +27,8 @@ def built(project: Path, execute: Execute) -> Path:
 
 def test_never_built(project: Path, execute: Execute) -> None:
     with unchanged(project):
-        assert execute("status").lines == ["ladder: not built yet", "  next build: 14 files to write"]
-        assert len(execute("status", "--verbose").lines) == 2 + 14
+        assert execute("status", code=1).lines == ["ladder: not built yet", "  next build: 14 files to write"]
+        assert len(execute("status", "--verbose", code=1).lines) == 2 + 14
 
 
 def test_files_of_every_kind(built: Path, execute: Execute) -> None:
@@ -38,7 +38,7 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
     edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
     (built / LADDER / "Elements/C1.mo").unlink()
     with unchanged(built):
-        assert execute("status").lines == [
+        assert execute("status", code=1).lines == [
             "ladder: out of step, 14 files: 1 missing, 1 stale, 1 edited",
             "  1 parameter change in the source",
             "  next build: 1 file to write, 1 to restore",
@@ -46,7 +46,7 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
             "  missing    modelica/Ladder/Elements/C1.mo  you deleted it",
             "  stale      modelica/Ladder/Elements/R2Parameters.mo  its generated text changed",
         ]
-        everything = execute("status", "--verbose").lines
+        everything = execute("status", "--verbose", code=1).lines
         assert len(everything) == 3 + 14
         assert "  in step    modelica/Ladder/Elements/C1Parameters.mo" in everything
 
@@ -64,11 +64,11 @@ def test_a_conflict(built: Path, execute: Execute) -> None:
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:
     elements = [{"name": f"R{n}", "between": ["in", "ground"], "ohm": 1.0} for n in range(10, 30)]
     (built / "ladder.json").write_text(json.dumps({"name": "many", "elements": elements}))
-    found = execute("status").lines
+    found = execute("status", code=1).lines
     stale = int(found[0].partition(": ")[2].split("files: ")[1].split()[0])
     assert sum(line.startswith("  stale ") for line in found) == 19
     assert found[-1] == f"  … and {stale - 19} more stale files; --verbose shows them"
-    assert sum(line.startswith("  stale ") for line in execute("status", "--verbose").lines) == stale
+    assert sum(line.startswith("  stale ") for line in execute("status", "--verbose", code=1).lines) == stale
 
 
 def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute) -> None:
@@ -89,12 +89,15 @@ def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, execu
     assert "the state of `ladder` is still there" in found.err
 
 
-def test_without_its_state_a_package_is_not_known_as_built(built: Path, execute: Execute) -> None:
+def test_without_its_state_a_package_is_out_of_step(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
-    (robot,) = execute("status", "--json").json["robots"]
-    assert (robot["built"], robot["in_step"]) == (False, True)
-    assert execute("status").lines[0] == "ladder: in step, 14 files"
+    (robot,) = execute("status", "--json", code=1).json["robots"]
+    assert (robot["built"], robot["in_step"]) == (True, False)
+    assert execute("status", code=1).lines == [
+        "ladder: out of step, 14 files",
+        "  next build: 12 already equal to the generated text",
+    ]
 
 
 def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) -> None:
@@ -106,12 +109,14 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
 # Each action
 
 
-def action(kind: Kind, held: bool = False, path: str = "") -> Action:
-    return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
+def action(reason: Reason, held: bool = False, path: str = "") -> Action:
+    return Action(path or f"Arm/{reason.word}.mo", reason, Role.MODEL, "link tip", base="b", held=held)
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
-    return Result("arm", "Arm", Path("/project/Arm"), Path("/project"), Actions(actions), changes=changes, dry=True)
+    writes = any(one.writes or one.reason is Reason.ADOPT for one in actions)
+    place = Path("/project/Arm"), Path("/project")
+    return Result("arm", "Arm", *place, Actions(actions), changes=changes, dry=True, writes=writes)
 
 
 def said(result: Result, *, verbose: bool = False) -> list[str]:
@@ -123,20 +128,19 @@ def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
     return Changes(tuple(Change(("link tip", "mass"), ChangeKind.CHANGED, one, 1.0, new) for one in classes))
 
 
-@pytest.mark.parametrize("kind", [kind for kind in Kind if kind is not Kind.FORGET])
-def test_every_action_says_how_its_file_stands(kind: Kind) -> None:
-    status = file_status(action(kind))
-    assert (status is FileStatus.CONFLICT) == (kind in CONFLICTS)
-    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
-    (shown,) = (line for line in said(result_of(action(kind)), verbose=True) if f"Arm/{kind}.mo" in line)
+@pytest.mark.parametrize("reason", [reason for reason in Reason if reason is not Reason.FORGET])
+def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
+    status = reason.status
+    assert (status is FileStatus.CONFLICT) == (reason.kind is Kind.CONFLICT)
+    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (reason.kind in (Kind.WRITE, Kind.DELETE))
+    (shown,) = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
     assert shown.startswith(f"  {status}")
-    assert not shown.endswith(".mo") or kind in (Kind.UNCHANGED, Kind.KEEP)
-    assert file_status(action(Kind.FORGET)) is None
+    assert not shown.endswith(".mo") or reason in (Reason.UNCHANGED, Reason.KEEP)
 
 
 def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
-    conflict = Action("Arm/New.mo", Kind.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
-    move = Action("Arm/Other.mo", Kind.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
+    conflict = Action("Arm/New.mo", Reason.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
+    move = Action("Arm/Other.mo", Reason.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
     shown = "\n".join(said(result_of(conflict, move)))
     assert "conflict   /project/Arm/Old.mo" in shown
     assert "stale      /project/Arm/Other.mo" in shown
@@ -145,50 +149,58 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
 @pytest.mark.parametrize(
     ("kinds", "words"),
     [
-        ([Kind.UNCHANGED], "in step, 1 file"),
-        ([Kind.UNCHANGED, Kind.ADOPT, Kind.KEEP, Kind.ORPHAN, Kind.FORGET], "in step, 4 files: 1 edited, 1 orphan"),
-        ([Kind.UPDATE, Kind.RESTORE, Kind.KEEP, Kind.CREATE], "out of step, 4 files: 1 missing, 2 stale, 1 edited"),
-        ([Kind.CONFLICT, Kind.UNOWNED, Kind.UNCHANGED], "out of step, 3 files: 2 conflicts"),
+        ([Reason.UNCHANGED], "in step, 1 file"),
+        ([Reason.UNCHANGED, Reason.KEEP, Reason.ORPHAN, Reason.FORGET], "in step, 3 files: 1 edited, 1 orphan"),
+        ([Reason.UNCHANGED, Reason.ADOPT], "out of step, 2 files"),
+        (
+            [Reason.UPDATE, Reason.RESTORE, Reason.KEEP, Reason.CREATE],
+            "out of step, 4 files: 1 missing, 2 stale, 1 edited",
+        ),
+        ([Reason.CONFLICT, Reason.UNOWNED, Reason.UNCHANGED], "out of step, 3 files: 2 conflicts"),
     ],
 )
-def test_a_robot_in_one_line(kinds: list[Kind], words: str) -> None:
+def test_a_robot_in_one_line(kinds: list[Reason], words: str) -> None:
     found = result_of(*map(action, kinds))
     assert summary(found) == words
-    assert is_in_step(found) == words.startswith("in step")
+    assert found.in_step == words.startswith("in step")
 
 
 def test_a_conflict_in_a_package_that_was_never_built() -> None:
-    new = [Action(f"Arm/{name}.mo", Kind.CREATE, Role.MODEL) for name in "ab"]
-    assert summary(result_of(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
+    new = [Action(f"Arm/{name}.mo", Reason.CREATE, Role.MODEL) for name in "ab"]
+    assert summary(result_of(*new, Action("Arm/c.mo", Reason.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
 
 
 @pytest.mark.parametrize(
     ("kinds", "changes", "words"),
     [
-        ([Kind.UNCHANGED, Kind.KEEP], None, []),
-        ([Kind.DELETE, Kind.DELETE], None, ["next build: 2 to delete"]),
+        ([Reason.UNCHANGED, Reason.KEEP], None, []),
+        ([Reason.DELETE, Reason.DELETE], None, ["next build: 2 to delete"]),
         (
-            [Kind.UPDATE, Kind.CREATE, Kind.DELETE],
+            [Reason.UPDATE, Reason.CREATE, Reason.DELETE],
             changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
             ["1 structural and 2 parameter changes in the source", "next build: 2 files to write, 1 to delete"],
         ),
-        ([Kind.UNCHANGED], changed(ChangeClass.UNMODELLED), ["1 unmodelled change in the source"]),
-        ([Kind.UNCHANGED], changed(ChangeClass.PARAMETER, noise=True), ["1 parameter change in the source (rounding)"]),
+        ([Reason.UNCHANGED], changed(ChangeClass.UNMODELLED), []),
         (
-            [Kind.UPDATE],
+            [Reason.UPDATE],
+            changed(ChangeClass.PARAMETER, noise=True),
+            ["1 parameter change by rounding in the source", "next build: 1 file to write"],
+        ),
+        (
+            [Reason.UPDATE],
             Changes(generator=True),
             ["a template, an option or urdfsync itself changed", "next build: 1 file to write"],
         ),
     ],
 )
-def test_what_the_next_build_does(kinds: list[Kind], changes: Changes | None, words: list[str]) -> None:
+def test_what_the_next_build_does(kinds: list[Reason], changes: Changes | None, words: list[str]) -> None:
     shown = said(result_of(*map(action, kinds), changes=changes))
     assert [line.strip() for line in shown[1:] if ".mo" not in line] == words
 
 
 def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
-    held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
-    found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
+    held = [action(Reason.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
+    found = result_of(action(Reason.CONFLICT), *held, action(Reason.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
     assert shown[2] == "  next build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
     assert sum("waits until the conflicts are resolved" in line for line in shown) == 2
@@ -201,6 +213,6 @@ def test_robots_are_meant_by_their_sources_and_outputs_too(built: Path, execute:
     ladder, other = "ladder: in step, 14 files", "other: not built yet"
     for arguments in (["ladder"], ["ladder.json"], [LADDER], [f"{LADDER}/Elements/R1.mo"]):
         assert execute("status", *arguments).lines == [ladder]
-    assert execute("status", "modelica", "ladder.json").lines[:2] == [ladder, other]
-    assert execute("status", "ladder", "other.json").lines[:2] == [ladder, other]
+    assert execute("status", "modelica", "ladder.json", code=1).lines[:2] == [ladder, other]
+    assert execute("status", "ladder", "other.json", code=1).lines[:2] == [ladder, other]
     assert "no robot `laddr.json`" in execute("status", "laddr.json", code=2).err

@@ -8,10 +8,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from support import fake_omc
 from support.commands import Execute
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
 from support.networks import configure
+
+NEEDS_SCRIPTS = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
 
 
 @pytest.fixture(autouse=True)
@@ -69,7 +72,7 @@ def test_watch_needs_the_users_word(outside: Path, rc_site: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "code"), [("status", 0), ("build --check", 1), ("build --dry-run", 0), ("diff", 1)]
+    ("command", "code"), [("status", 1), ("build --check", 1), ("build --dry-run", 0), ("diff", 1)]
 )
 def test_other_commands_read_and_tell(outside: Path, execute: Execute, command: str, code: int) -> None:
     assert "warning: `output` leads out of the configuration's folder" in execute(*command.split(), code=code).words
@@ -119,3 +122,55 @@ def test_a_hook_takes_the_word_from_the_users_own_file(
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")
     execute("hook", "build", code=1)  # the state is to be added
     assert (outside / "Ladder/package.mo").exists()
+
+
+# --- OpenModelica, which runs what models and libraries name ----------------------------------------------------------
+
+
+@pytest.fixture
+def asked(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A configuration that chooses OpenModelica for checks after builds; the file that tells what this was asked."""
+    configure('on_build = "check"\n\n[check]\ntool = "omc"\n')
+    balanced = '"Check of it completed successfully.\nClass it has 4 equation(s) and 4 variable(s)."\n""\n'
+    fake_omc.install(tmp_path / "bin", {"checkModel": balanced})
+    monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return tmp_path / "bin/asked.txt"
+
+
+@NEEDS_SCRIPTS
+def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: Path, execute: Execute) -> None:
+    """A build in a stranger's repository would call its libraries, which may hold programs."""
+    said = execute("build", code=2).words
+    assert "urdfsync.toml:8: error: `tool` in the table `[check]`: OpenModelica was not run" in said
+    assert "use --trust" in said
+    assert "[untrusted-command]" in execute("check", code=2).err
+    assert "[untrusted-command]" in execute("simulate", code=2).err
+    Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text().replace('"omc"', '"both"'))
+    assert "[untrusted-command]" in execute("check", code=2).err
+    assert not asked.exists()
+
+
+@NEEDS_SCRIPTS
+@pytest.mark.parametrize("command", ["build --trust", "check --trust", "check --tool omc"])
+def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command: str) -> None:
+    execute("build", code=2)
+    execute(*command.split(), code=None)
+    assert "checkModel(" in asked.read_text()
+
+
+@NEEDS_SCRIPTS
+def test_a_trusted_folder_may_choose_openmodelica(asked: Path, trusted: Path, execute: Execute) -> None:
+    trusted.write_text(f"folders = ['{Path.cwd()}']\n")
+    execute("build", code=None)
+    assert "checkModel(" in asked.read_text()
+
+
+@NEEDS_SCRIPTS
+def test_its_program_in_a_configuration_needs_the_users_word_in_any_case(
+    asked: Path, tmp_path: Path, execute: Execute
+) -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write(f"omc = '{tmp_path / 'bin/omc'}'\n")
+    assert "`omc` in the table `[check]`: OpenModelica was not run" in execute("check", "--tool", "omc", code=2).words
+    assert not asked.exists()

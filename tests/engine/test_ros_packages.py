@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.engine.ros_packages import find, find_package, libraries
+from urdfsync.engine.ros_packages import Packages, find, libraries
 
 IGNORED = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
 
@@ -50,7 +50,7 @@ def test_one_package_is_found(tmp_path: Path, packages: dict[str, str], place: s
         (tmp_path / folder).mkdir(parents=True, exist_ok=True)
         if name:
             (tmp_path / folder / "package.xml").write_text(f"<package><name>{name}</name></package>")
-    found = find_package("arm", [tmp_path / "search"], tmp_path / "ws/cad/urdf/arm.xacro")
+    found = Packages([tmp_path / "search"], tmp_path / "ws/cad/urdf/arm.xacro").folder("arm")
     assert found == (tmp_path / place if place else None)
 
 

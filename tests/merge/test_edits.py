@@ -46,3 +46,31 @@ def test_edits(name: str) -> None:
 
 def test_what_is_no_class() -> None:
     assert find_edits(BASE, "x") is None
+
+
+ORDERED = """\
+model Arm
+  function f
+    input Real x;
+    input Real y;
+  end f;
+  Real w[2] = {b.m, c.m};
+  Real z;
+end Arm;
+"""
+ORDERS = {
+    "items": ("b.m, c.m", "c.m, b.m", [("component `w`", "w {b.m, c.m} → {c.m, b.m}")]),
+    "inputs": ("x;\n    input Real y", "y;\n    input Real x", [("class `f`", "order of inputs and outputs changed")]),
+    "declarations": ("  Real z;\nend Arm;", "end Arm;", []),
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_an_order_that_counts_is_an_edit(name: str) -> None:
+    old, new, expected = ORDERS[name]
+    mine = ORDERED.replace(old, new)
+    if not expected:
+        mine = mine.replace("  Real w", "  Real z;\n  Real w")
+    edits = find_edits(ORDERED, mine)
+    assert edits is not None
+    assert in_words(edits) == expected

@@ -183,9 +183,17 @@ BODIES = {
         "  Real a;\n  Real b = 1;\n  Real c;\n",
         "  Real c;\n  Real b = 1;\n  Real a;\n",
     ),
-    "another order by the export is no change": (
+    "another order by the export": (
         "  Real a;\n  Real b;\n", "  Real a;\n  Real b; // m\n", "  Real b;\n  Real a;\n",
-        "  Real a;\n  Real b; // m\n",
+        "  Real b; // m\n  Real a;\n",
+    ),
+    "another order by the export, a component of mine behind one that moves": (
+        "  Real a;\n  Real b;\n  Real c;\n", "  Real a;\n  Real m;\n  Real b;\n  Real c;\n",
+        "  Real c;\n  Real g;\n  Real a;\n  Real b;\n", "  Real c;\n  Real g;\n  Real a;\n  Real m;\n  Real b;\n",
+    ),
+    "another order by both, mine where I moved something": (
+        "  Real a;\n  Real b;\n  Real c;\n  Real d;\n", "  Real a;\n  Real c;\n  Real d;\n  Real b;\n",
+        "  Real d;\n  Real a;\n  Real b;\n  Real c;\n", "  Real d;\n  Real b;\n  Real a;\n  Real c;\n",
     ),
     "removed by me, the same in the export": (
         "  Real a;\n  Real b;\n", "  Real a;\n", "  Real a = 1;\n  Real b;\n", "  Real a = 1;\n",
@@ -320,7 +328,31 @@ BODIES = {
     "a difference is no list": ("  Real m = a - b;\n", "  Real m = a - b + m;\n", "  Real m = a - b + g;\n", None),
     "arrays of names": (
         "  R r(v = {a.x, b.x});\n", "  R r(v = {a.x, b.x, mine});\n", "  R r(v = {b.x, c.x});\n",
-        "  R r(v = {b.x, mine, c.x});\n",
+        None,
+    ),
+    "arrays of names, in different places": (
+        "  R r(v = {a.x, b.x});\n", "  R r(v = {a.x, b.x, mine});\n", "  R r(v = {c.x, a.x, b.x});\n",
+        "  R r(v = {c.x, a.x, b.x, mine});\n",
+    ),
+    "an array in another order": (
+        "  R r(v = {a.x, b.x, c.x}, w = 1);\n", "  R r(v = {a.x, b.x, c.x}, w = 2);\n",
+        "  R r(v = {b.x, c.x, a.x}, w = 1);\n", "  R r(v = {b.x, c.x, a.x}, w = 2);\n",
+    ),
+    "an array in another order, an item of it": (
+        "  R r(v = {a.x, b.x, c.x});\n", "  R r(v = {a.x, 5, c.x});\n", "  R r(v = {b.x, c.x, a.x});\n", None,
+    ),
+    "an array in which items are alike": (
+        "  R r(v = {a.x, a.x, b.x, c.x});\n", "  R r(v = {a.x, m, a.x, b.x, c.x});\n",
+        "  R r(v = {a.x, a.x, b.x, c.x, d.x});\n", None,
+    ),
+    "an array that both add": ("  R r;\n", "  R r(v = {a, b});\n", "  R r(v = {b, c});\n", None),
+    "arguments in lines": (
+        "  Real r = f(\n    1,\n    0,\n    0,\n    0);\n", "  Real r = f(\n    2,\n    0,\n    0,\n    0);\n",
+        "  Real r = f(\n    1,\n    0,\n    0,\n    7,\n    0);\n", None,
+    ),
+    "a matrix in lines": (
+        "  R r(m = [1, 2;\n    2, 3;\n    3, 4]);\n", "  R r(m = [1, 9;\n    2, 3;\n    3, 4]);\n",
+        "  R r(m = [1, 2;\n    2, 3;\n    3, 5]);\n", None,
     ),
     "arrays of graphics": (
         "  G g(v = {Line(p = 1), Text(s = 1)});\n", "  G g(v = {Line(p = 1), Text(s = 1), Bitmap(m = 1)});\n",
@@ -331,14 +363,19 @@ BODIES = {
         "  B b(m = 12, n = 3);\n",
     ),
     "the same number": ("  B b(m = 1);\n", "  B b(m = 2.0);\n", "  B b(m = 2);\n", "  B b(m = 2.0);\n"),
-    "rounding beside an edit": ("  B b(m = 11.5, v = {1, 2});\n", "  B b(m = 99, v = {1, 3});\n",
-        "  B b(m = 11.50000001, v = {1, 2.0000001});\n", "  B b(m = 99, v = {1, 3});\n"),
-    "rounding by the user": (
-        "  B b(m = 11.5); // 1\n", "  B b(m = 11.50000001); // 1\n", "  B b(m = 12); // 1\n", "  B b(m = 12); // 1\n",
+    "a small change by the user beside one of the export": (
+        "  B b(m = 11.5, n = 1);\n", "  B b(m = 11.50000001, n = 1);\n", "  B b(m = 11.5, n = 2);\n",
+        "  B b(m = 11.50000001, n = 2);\n",
+    ),
+    "a large Integer that both change by one": (
+        "  B b(seed = 3000001);\n", "  B b(seed = 3000002);\n", "  B b(seed = 3000003);\n", None,
+    ),
+    "protected by the user, removed by the export": (
+        "  Real x;\n  Real y;\n", "  Real x;\nprotected\n  Real y;\n", "  Real x;\n", None,
     ),
     "what the user has already": (
         "  B b(m = 1);\n", "  B b(m = 2, x = 3) \"d\"; // m\n", "  B b(x = 3, m = 2.0) \"d\";\n",
-        "  B b(m = 2, x = 3) \"d\"; // m\n",
+        "  B b(x = 3, m = 2) \"d\"; // m\n",
     ),
     "nothing but brackets": ("  B b;\n", "  B b();\n", "  B b(y = 2);\n", "  B b(y = 2);\n"),
     "all modifiers gone": ("  B b(x = 1);\n", '  B b(x = 1) "m";\n', "  B b;\n", '  B b "m";\n'),
@@ -356,6 +393,57 @@ def test_bodies(base: str, mine: str, generated: str, expected: str | None) -> N
     assert result.flaw == ""
     assert result.text == (None if expected is None else model(expected)), result.proposal
     assert (merged(*map(model, (base, generated, mine))).text is None) == (expected is None)
+
+
+def test_rounding_is_what_an_export_does() -> None:
+    """The same digits are an edit if the user typed them."""
+    base, mine = model("  B b(m = 11.5, v = {1, 2});\n"), model("  B b(m = 99, v = {1, 3});\n")
+    rounded = model("  B b(m = 11.50000001, v = {1, 2.0000001});\n")
+    assert merged(base, mine, rounded).text == mine
+    assert merged(base, rounded, mine).text is None
+
+
+FUNCTION = """\
+model A
+  function f
+    input Real x;
+    input Real y "second";
+    output Real z;
+  algorithm
+    z := x + y;
+  end f;
+  Real a = 1;
+end A;
+"""
+SIGNATURES: dict[str, tuple[Edit, Edit, bool]] = {
+    "another order by mine": (
+        ("x;\n    input Real y \"second\";", "y \"second\";\n    input Real x;"), ("a = 1", "a = 2"), True,
+    ),
+    "another order by the export": (
+        ("a = 1", "a = 2"), ("x;\n    input Real y \"second\";", "y \"second\";\n    input Real x;"), True,
+    ),
+    "another order, an input more": (
+        ("x;\n    input Real y \"second\";", "y \"second\";\n    input Real x;"),
+        ("second\";\n", "second\";\n    input Real g;\n"), False,
+    ),
+    "both an input in one place": (
+        ("second\";\n", "second\";\n    input Real m;\n"), ("second\";\n", "second\";\n    input Real g;\n"), False,
+    ),
+    "both an input, in two places": (
+        ("second\";\n", "second\";\n    input Real m;\n"),
+        ("    input Real x;\n", "    input Real g;\n    input Real x;\n"), True,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("mine", "generated", "fits"), SIGNATURES.values(), ids=SIGNATURES)
+def test_inputs_of_a_function_are_a_sequence(mine: Edit, generated: Edit, fits: bool) -> None:
+    edited = changed(FUNCTION, mine)
+    found = merged(FUNCTION, edited, changed(FUNCTION, generated))
+    assert found.text == (changed(edited, generated) if fits else None)
+    assert fits or [one.what[:62] for one in found.conflicts] == [
+        "class `f`: you changed the order of inputs and outputs to `inp"
+    ]
 
 
 # --- comments and blanks --------------------------------------------------------------------------------------------

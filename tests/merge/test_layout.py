@@ -101,7 +101,7 @@ def test_a_part_without_a_place_needs_none() -> None:
 
 
 def test_what_the_export_removes_goes_also_if_it_was_moved() -> None:
-    assert merged(BASE, MOVED, model(A)) == "model A\n" + A + "end A;\n"
+    assert merged(BASE, MOVED, model(A)) == model(A)
 
 
 def test_icons_stay_and_other_annotations_do_not() -> None:
@@ -124,3 +124,56 @@ def test_a_diagram_full_of_boxes_upon_each_other_takes_no_minutes() -> None:
     boxes = "".join(placed(f"n{number}", 0, 0) for number in range(2_000))
     text = merged(model(A), model(placed("a", 7, 7)), model(A + boxes))
     assert text.count("  B n") == 2_000
+
+
+def text(name: str, y: int) -> str:
+    return f'Text(extent={{{{0, {y}}}, {{9, {y + 9}}}}}, textString="{name}")'
+
+
+def drawing(*graphics: str, extent: int = 100) -> str:
+    inner = ", ".join(graphics)
+    system = f"coordinateSystem(extent={{{{0, 0}}, {{1, {extent}}}}})"
+    return f"  annotation (Icon({system}, graphics={{{inner}}}));\n"
+
+
+def frame(name: str, y: int) -> str:
+    places = f"transformation(x = {y}), iconTransformation(extent={{{{0, {y}}}, {{9, {y + 9}}}}})"
+    return f"  F {name} annotation (Placement({places}));\n"
+
+
+DRAWN = model(frame("a", 0) + frame("b", 20), "", drawing(text("a", 0), text("b", 20)))
+LARGER = model(
+    *(frame("a", 20) + frame("c", 40) + frame("b", 60), ""),
+    drawing(text("a", 20), text("c", 40), text("b", 60), extent=150),
+)
+
+
+@pytest.mark.parametrize("export", [LARGER, LARGER.replace(text("b", 60), f"{text('b', 60)}, {text('d', 80)}")])
+def test_graphics_of_the_user_stand_in_an_icon_that_grows(export: str) -> None:
+    """What he only adds leaves all the rest to the export."""
+    logo = 'Text(extent={{0, 0}, {1, 1}}, textString="mine")'
+    mine = DRAWN.replace(text("b", 20), f"{text('b', 20)}, {logo}")
+    assert merged(DRAWN, mine, export) == export.replace(text("b", 60), f"{text('b', 60)}, {logo}")
+
+
+def test_graphics_of_the_export_come_to_an_icon_that_the_user_has_arranged() -> None:
+    mine = DRAWN.replace(text("a", 0), text("a", 7)).replace(text("b", 20), text("label of b", 20))
+    found = merged(DRAWN, mine, LARGER)
+    assert drawing(text("a", 7), text("label of b", 20), text("c", 40)) in found
+    assert frame("a", 0) in found.replace("x = 20", "x = 0"), "what is on the icon stays there"
+
+
+def test_graphics_of_the_export_go_from_an_icon_that_the_user_has_arranged() -> None:
+    mine = LARGER.replace(text("a", 20), text("a", 7)).replace(text("c", 40), text("c", 47))
+    assert drawing(text("a", 7), text("b", 60), extent=150) in merged(LARGER, mine, DRAWN)
+
+
+def test_an_icon_follows_the_export_where_the_diagram_is_the_users() -> None:
+    mine = DRAWN.replace("x = 0", "x = 5")
+    assert merged(DRAWN, mine, LARGER) == LARGER.replace("x = 20", "x = 5").replace("x = 60", "x = 20")
+
+
+def test_a_component_with_a_place_of_its_own_leaves_the_layout_to_the_export() -> None:
+    mine = BASE.replace("equation\n", placed("m", 0, 90) + "equation\n" + line("m.f", "a.f", (0, 90), (0, 0)))
+    found = merged(BASE, mine, EXPORT)
+    assert found.replace(placed("m", 0, 90), "").replace(line("m.f", "a.f", (0, 90), (0, 0)), "") == EXPORT

@@ -8,12 +8,19 @@ from __future__ import annotations
 import io
 import json
 import math
+import os
+import sys
+import tempfile
+import tracemalloc
 import zipfile
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support.commands import Execute
 from support.simulation import Compiler
 
 from urdfsync import cli, config
@@ -21,7 +28,7 @@ from urdfsync.check.compilers import omc
 from urdfsync.check.compilers.compiler import CompileResult, Export, Tool
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.simulate import fmu
-from urdfsync.simulate.export import Exported, export
+from urdfsync.simulate.export import Exported, export, is_exported
 from urdfsync.simulate.fmu import Trial, try_out
 from urdfsync.simulate.results import SimulateOptions, SimulateResult
 
@@ -139,6 +146,71 @@ def test_a_file_of_the_users_is_replaced_only_if_it_is_named(
     assert Path("ArmRun.fmu").read_text() == "mine"
     assert cli.main(["fmu", "-q", "--output", "ArmRun.fmu"]) == 0
     assert zipfile.is_zipfile("ArmRun.fmu")
+
+
+def test_a_stranger_s_file_at_the_default_name_is_read_within_limits(tmp_path: Path) -> None:
+    """A bomb of 5 MB has a description of 5 GB; the first 64 KB of it tell."""
+    file, words = tmp_path / "ArmRun.fmu", b'<a description="Arm.ArmRun, exported by urdfsync 0.1.0">'
+    for compression, is_ours in ((zipfile.ZIP_DEFLATED, True), (zipfile.ZIP_BZIP2, False), (zipfile.ZIP_LZMA, False)):
+        with zipfile.ZipFile(file, "w", compression) as bomb, bomb.open("modelDescription.xml", "w") as entry:
+            entry.write(words)
+            for _ in range(200):
+                entry.write(bytes(2**20))
+        tracemalloc.start()
+        try:
+            assert is_exported(file) is is_ours
+            assert tracemalloc.get_traced_memory()[1] < 2**20
+        finally:
+            tracemalloc.stop()
+    with file.open("wb") as large:
+        large.truncate(2**40)
+    assert not is_exported(file)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pipes there")
+def test_a_pipe_at_the_default_name_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "ArmRun.fmu")
+    assert not is_exported(tmp_path / "ArmRun.fmu")
+
+
+@given(st.binary(max_size=8), st.integers(0, 10**6), st.booleans())
+def test_damage_to_an_fmu_makes_it_no_error(damage: bytes, place: int, is_cut: bool) -> None:
+    content = archive()
+    place %= len(content)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "a.fmu"
+        file.write_bytes(content[:place] + damage + (b"" if is_cut else content[place + len(damage) :]))
+        assert is_exported(file) in (True, False)
+
+
+def test_bad_motions_and_missing_programs_are_told_before_the_export(
+    openmodelica: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With nothing that this command has not: it has no `--tool` and no `--method`."""
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    Path("m.csv").symlink_to(os.devnull)
+    assert "m.csv: error: the file can't be read" in execute("fmu", "--check", "--input", "m.csv", code=2).words
+    assert openmodelica.jobs == []
+
+
+def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(openmodelica: Compiler, execute: Execute) -> None:
+    known = CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))
+    openmodelica.results = [CompileResult("Error: Modified element dampin not found."), known]
+    said = execute("fmu", "--set", "robot.elbow.dampin=1", code=2).words
+    assert "`Arm.ArmRun` has no parameter `robot.elbow.dampin`" in said
+    assert "did you mean `robot.elbow.parameters.dynamics.damping`?" in said
+    openmodelica.results = [CompileResult("Error: Too few equations."), CompileResult()]
+    assert "Too few equations" in execute("fmu", "--set", "robot.elbow.dampin=1", code=2).words
+
+
+def test_no_other_compiler_is_proposed_for_what_only_openmodelica_can(
+    arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(arm))
+    monkeypatch.delenv("OPENMODELICAHOME", raising=False)
+    said = execute("fmu", code=2).words
+    assert "`omc` is not on the PATH; install OpenModelica" in said
+    assert "rumoca" not in said
 
 
 class Fmpy:

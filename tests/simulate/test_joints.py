@@ -41,9 +41,13 @@ def test_what_a_motor_gives_through_its_gear_is_a_part_of_the_effort() -> None:
     assert [(one.quantity, one.time) for one in found.passed] == [("effort", 3.0)]
 
 
-@pytest.mark.parametrize(("value", "passes"), [(1.0, False), (1 + 9e-7, False), (1 + 2e-6, True), (-5.0, False)])
-def test_rounding_passes_no_limit(value: float, passes: bool) -> None:
-    series = {"time": (0.0, 1.0), "elbow.phi": (0.0, value)}
+@pytest.mark.parametrize(("first", "last", "passes"), [
+    (1.0, 1.0, False), (1 + 9e-7, 1 + 9e-7, False), (1 + 2e-6, 1 + 2e-6, True), (0.0, -5.0, False),
+    (0.0, 1 + 2e-5, False), (0.0, 1 + 2e-4, True), (0.999, 1 + 2e-5, True),
+])  # fmt: skip
+def test_rounding_and_integration_pass_no_limit(first: float, last: float, passes: bool) -> None:
+    """The integration errs by a share of the way that a joint goes: one that hardly moves does not."""
+    series = {"time": (0.0, 1.0), "elbow.phi": (first, last)}
     (found,) = joint_results([[ELBOW]], series, {"elbow.upper": 1.0, "elbow.lower": -math.inf})
     assert bool(found.passed) is passes
     assert found.position is not None

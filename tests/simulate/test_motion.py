@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -68,6 +70,30 @@ def test_what_is_no_motion_is_refused_with_its_line(tmp_path: Path, text: str | 
     assert words in str(found)
     assert found.line == line
     assert found.file == str(tmp_path / "motion.csv")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such files there")
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder", "large"])
+def test_only_a_regular_file_of_limited_size_is_a_motion(kind: str, tmp_path: Path) -> None:
+    """A pipe would wait for ever, and `/dev/zero` has no end."""
+    file = tmp_path / "motion.csv"
+    match kind:
+        case "pipe":
+            os.mkfifo(file)
+        case "device":
+            file.symlink_to("/dev/zero")
+        case "folder":
+            file.mkdir()
+        case "large":
+            with file.open("wb") as stream:
+                stream.truncate(2**40)
+    with pytest.raises(SourceError, match=r"motion\.csv: error: the file can't be read: .*; name a CSV file"):
+        read_motion(file, INPUTS)
+
+
+def test_a_model_without_inputs_follows_no_motion(tmp_path: Path) -> None:
+    with pytest.raises(SourceError, match="the model has no inputs that a motion could drive; leave `--input` out"):
+        read(tmp_path, "time\n0\n1\n", ())
 
 
 numbers = st.floats(-10, 10)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import msgspec
 import pytest
+from lxml import etree
 
 from urdfsync.simulate.results import JointResult, Range, SimulateResult
 
@@ -65,6 +67,15 @@ def test_what_no_joint_of_a_column_has_gets_no_panel() -> None:
 def test_joints_units_and_robots_are_named() -> None:
     found: Any = texts(joint(1), joint(2, "m", robot="cell.left"))
     assert {"Arm.ArmTest", "joint j1", "cell.left: joint j2", "position [rad]", "speed [m/s]", "time [s]"} <= {*found}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [r"$\frac$", "$", "a_b^{c", "%s", "<!-- -->"])
+def test_a_name_is_no_formula(name: str) -> None:
+    named = JointResult(f"joint {name}", name, quantity("q", "rad"), None)
+    content = draw(msgspec.structs.replace(result(named), model=name), "svg").decode()
+    etree.fromstring(content.encode())
+    assert draw(msgspec.structs.replace(result(named), model=name), "png")
 
 
 @pytest.mark.slow

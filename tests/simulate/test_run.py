@@ -131,7 +131,8 @@ MOTION = "time,shoulder_phi,elbow_phi\n0,0,0\n2,2,2\n"
         (None, {"model": "Links"}, "it is a package"),
         (None, {"model": "ArmRun"}, "`Arm.ArmRun` has inputs; give a CSV file with `--input`; its first line is "
          "time,shoulder_phi,elbow_phi"),
-        (write(MOTION), {"model": "ArmTest", "motion": Path("m.csv")}, "`Arm.ArmTest` has no inputs"),
+        (write(MOTION), {"model": "ArmTest", "motion": Path("m.csv")}, "the model has no inputs that a motion could "
+         "drive; leave `--input` out"),
         (write(MOTION), {"motion": Path("m.csv"), "stop": 3.0}, "the motion ends at 2 s, before the stop time, 3 s"),
         (None, {"method": "bdff"}, "did you mean `bdf`?"),
         (None, {"values": ("a",)}, "gives no value"),

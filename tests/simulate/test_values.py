@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfsync.diagnostics import ConfigError
-from urdfsync.simulate.values import modifiers, read_values
+from urdfsync.simulate.values import modifiers, nearest_parameter, read_values
 
 
 def test_names_become_nested_modifiers() -> None:
@@ -45,3 +45,22 @@ def test_what_is_no_value_is_refused(given: list[str], words: str) -> None:
 def test_a_part_and_the_whole_contradict_each_other(given: list[str]) -> None:
     with pytest.raises(ConfigError, match="what it is a part of"):
         modifiers(read_values(given))
+
+
+DAMPING = "robot.elbow.parameters.dynamics.damping"
+
+
+@pytest.mark.parametrize(("name", "meant"), [
+    ("robot.elbow.parameters.dynamics.dampin", DAMPING),
+    ("elbow.damping", DAMPING),
+    ("elbo.dampin", DAMPING),
+    ("wrist.damping", "robot.wrist.parameters.dynamics.damping"),
+    ("damping", DAMPING),
+    ("robot.checkLimit", "robot.checkLimits"),
+    ("robot.elbow.colour", ""),
+    ("", ""),
+])  # fmt: skip
+def test_the_parameter_that_was_meant_is_found_also_where_parts_of_its_name_are_missing(name: str, meant: str) -> None:
+    known = [DAMPING, "robot.checkLimits", DAMPING.replace("elbow", "wrist"), "robot.elbow.friction.steepness"]
+    assert nearest_parameter(name, known) == meant
+    assert nearest_parameter(name, []) == ""

@@ -12,12 +12,13 @@ from unittest import mock
 
 import msgspec
 import pytest
+from support.crashes import Operation, before_each
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
 from urdfsync.state import file_operations, planned
 from urdfsync.state.planned import is_interrupted
-from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError
+from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError, save
 
 
 @pytest.fixture
@@ -189,3 +190,39 @@ def test_planned_hashes_that_were_cut_short_before_anything_changed_leave_no_tra
     assert transactions.is_pending()
     assert transactions.recover() == ()
     assert not transactions.is_pending()
+
+
+@pytest.mark.parametrize("can_exchange", [True, False])
+@pytest.mark.parametrize("replaces", [True, False])
+def test_a_file_that_no_build_owns_is_not_lost_either(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, can_exchange: bool, replaces: bool
+) -> None:
+    """However somebody saves it, and whatever the file system can do."""
+    file, once = tmp_path / "mine.toml", iter(["save"])
+    if not can_exchange:
+        monkeypatch.setattr(file_operations, "rename", lambda path, target, flag: False)
+
+    def save_before(found: Operation) -> None:
+        if found.name == "exchange" and next(once, None):
+            (tmp_path / "new").write_text("saved")
+            if replaces:
+                (tmp_path / "new").replace(file)
+            else:
+                file.write_text("saved")
+
+    file.write_text("old")
+    with before_each(save_before), pytest.raises(OutputError, match="it has changed meanwhile"):
+        save(file, b"old", b"new")
+    assert file.read_text() == "saved"
+    save(file, b"saved", b"new")
+    assert file.read_text() == "new"
+    assert {path.name for path in tmp_path.iterdir()} <= {"mine.toml", "new"}
+
+
+def test_a_full_disk_leaves_a_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text("old")
+    monkeypatch.setattr(os, "write", mock.Mock(side_effect=OSError(errno.ENOSPC, "No space left on device")))
+    with pytest.raises(OSError, match="No space"):
+        save(file, b"old", b"new")
+    assert contents(tmp_path) == {"mine.toml": b"old"}

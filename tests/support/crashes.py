@@ -17,10 +17,10 @@ from random import Random
 from typing import Any
 
 from support import edits
+from support.choices import options
 from support.urdfs import joint, limit, link, robot
 from urdfsync import config
 from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 from urdfsync.state.store import Store
@@ -79,7 +79,7 @@ def before_each(hook: Hook) -> Iterator[None]:
 def run(project: Path, **request: Any) -> Result:
     """Build the only robot of a project, wherever it is built to."""
     loaded = config.load(project / "urdfsync.toml")
-    (result,) = build(loaded, loaded.robots, BuildOptions(trusted=True, **request))
+    (result,) = build(loaded, loaded.robots, options(loaded, trusted=True, **request))
     return result
 
 
@@ -188,16 +188,16 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     files were replaced.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = {".urdfsync/lock", ".urdfsync/base", ".urdfsync/replaced"}
+    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/replaced"}
     names = [name for name in found if left_out.isdisjoint((name, *map(str, PurePosixPath(name).parents)))]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
-    return contents | {f".urdfsync/base/{robot}": _needed(project, robot) for robot in Store(project).names()}
+    return contents | {f".urdfsync/bases/{robot}": _needed(project, robot) for robot in Store(project).names()}
 
 
 def _needed(project: Path, robot: str) -> bytes:
     """The bases that a record needs, by their hashes."""
     store = Store(project)
-    state, bases = store.load(robot), store.bases(robot)
+    state = store.load(robot)
     assert state is not None
     needed = {sha256 for file in state.files.values() for sha256 in file.hashes}
-    return repr([(digest, bases.get(digest)) for digest in sorted(needed)]).encode()
+    return repr([(digest, store.base(robot, digest)) for digest in sorted(needed)]).encode()

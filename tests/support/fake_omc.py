@@ -9,9 +9,19 @@ from __future__ import annotations
 import json
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 VERSION = '"OpenModelica 1.26.0"\n""\n'
+
+
+def install(folder: Path, answers: Mapping[str, str] | None = None) -> None:
+    """Write the program `omc` into a folder, with its answers."""
+    folder.mkdir(parents=True, exist_ok=True)
+    program = folder / "omc"
+    program.write_text(f"#!{sys.executable}\n{Path(__file__).read_text()}")
+    program.chmod(0o755)
+    (folder / "answers.json").write_text(json.dumps(answers or {}))
 
 
 def main() -> None:

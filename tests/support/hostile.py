@@ -17,6 +17,7 @@ from pathlib import Path
 
 from support.meshes import write_hostile
 from support.urdfs import joint, limit, link, robot
+from urdfsync.state.expansion import Expansion, dumps
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 MANIFEST = ".urdfsync/robots/arm.state"
@@ -150,13 +151,28 @@ class Stranger:
         text, name = b"\xff\xfe", Path(RECORD).relative_to("modelica/Arm")
         manifest = (self.project / MANIFEST).read_text()
         self.write(MANIFEST, re.sub(rf"file \w+  {name}", f"file {_digest(text)}  {name}", manifest))
-        self.write(f".urdfsync/base/arm/{_digest(text)}", text)
+        line = f'{_digest(text)} "'.encode() + text + b'"\n'
+        self.write(f".urdfsync/bases/arm/{_digest(text)[0]}", line)
 
     def entities(self) -> None:
         declared = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(12))
         head = f'<!DOCTYPE robot [<!ENTITY e0 "ha"><!ENTITY x SYSTEM "file://{self.outside}/victim.mo">{declared}]>'
         text = (self.project / "arm.urdf").read_text().replace('name="base"', 'name="&e12;&x;"')
         self.write("arm.urdf", head + text.partition("?>")[2])
+
+    def xacro(self, expression: str) -> None:
+        """A source of xacro with an expression."""
+        head = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        self.write("arm.urdf", f'{head}<link name="${{{expression}}}"/></robot>')
+
+    def patterns(self) -> None:
+        """A recorded expansion with patterns that match more than anybody can wait for: each link doubles it."""
+        self.xacro("'base'")
+        for name in ("more", "and_more"):
+            (self.project / name).symlink_to(".")
+        patterns = {"*/" * 30 + "*": "1", "**/*.xacro": "1", "/*/*/*/*/*/*": "1"}
+        found = Expansion(source="arm.urdf", files={"arm.urdf": "1"}, patterns=patterns, text=urdf())
+        self.write(".urdfsync/robots/arm.expanded", dumps(found))
 
     def deep_chain(self) -> None:
         """A robot that is a chain of joints, deeper than Python calls."""
@@ -191,6 +207,11 @@ def _digest(content: bytes) -> str:
 
 
 _SHELL = "cycler.__init__.__globals__.os.popen('touch {outside}/template').read()"
+_TRUNCATE = (
+    "(lambda: [c for c in ().__class__.__base__.__subclasses__() if c.__name__ == '_wrap_close'][0]"
+    ".__init__.__globals__['sys'].modules['os'].open('{outside}/victim.mo', 512))()"
+)
+"""An expression that empties a file, inside of a function."""
 _STRANGE = urdf().replace('"tip"', '"\x9b31m\u202etip"').replace('"turn"', '"&#x9b;2J\u2028turn"')
 """Names that a terminal would obey: as an 8-bit control sequence, and as text that runs backwards."""
 
@@ -220,7 +241,7 @@ COMMITTED: Mapping[str, Attack] = {
     "temporary planned hashes that are a link": lambda one: one.link(
         ".urdfsync/.planned.json.urdfsync-tmp", "victim.mo"
     ),
-    "bases that are a link": lambda one: one.link(".urdfsync/base/arm", "folder"),
+    "bases that are a link": lambda one: one.link(".urdfsync/bases/arm", "folder"),
     "an answer that is a link": lambda one: one.link(".urdfsync/stamp", "victim.mo"),
     "a lock that is a link": lambda one: one.link(".urdfsync/lock", "victim.mo"),
     "conflicts that are a link": lambda one: one.link(".urdfsync/conflicts", "folder"),
@@ -232,6 +253,8 @@ COMMITTED: Mapping[str, Attack] = {
     "a base that is no text": Stranger.base_that_is_no_text,
     "a deep manifest": lambda one: one.append(MANIFEST, 'option ["a",' + "[" * 200_000),
     "entities": Stranger.entities,
+    "a source of xacro that empties a file": lambda one: one.xacro(_TRUNCATE.format(outside=one.outside)),
+    "a source of xacro with recorded patterns": Stranger.patterns,
     "a deep source": lambda one: one.write(
         "arm.urdf", "<robot>" + "<link>" * 100_000 + "</link>" * 100_000 + "</robot>"
     ),

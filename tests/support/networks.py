@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from support.choices import options
 from urdfsync import config
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
@@ -63,7 +63,7 @@ def own_model(declarations: str) -> None:
 def run_all(**request: Any) -> list[Result]:
     """Build all robots."""
     loaded = config.load(Path("urdfsync.toml"))
-    return list(build(loaded, loaded.robots, BuildOptions(**request)))
+    return list(build(loaded, loaded.robots, options(loaded, **request)))
 
 
 def run(**request: Any) -> Result:
@@ -81,7 +81,7 @@ def failure(**request: Any) -> str:
     return "\n".join(map(str, result.diagnostics)).replace("\\", "/")
 
 
-def kinds(result: Result, folder: str = "") -> dict[str, Kind]:
+def kinds(result: Result, folder: str = "") -> dict[str, Reason]:
     """What happens to each file that does not just stay and does not wait, by its path below a folder."""
-    actions = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.held)
-    return {action.path.removeprefix(folder): action.kind for action in actions}
+    actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.held)
+    return {action.path.removeprefix(folder): action.reason for action in actions}

@@ -12,13 +12,14 @@ import shutil
 import struct
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 from support import corpus
+from support.choices import options
 from support.packages import proposed_base, read
 from urdfsync import config
 from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 
@@ -84,10 +85,10 @@ class Project:
         if self._meshes:
             _put_meshes(self.root, content)
 
-    def build(self, **request: object) -> Result:
+    def build(self, **request: Any) -> Result:
         """Build once."""
         loaded = config.load(self.root / config.FILE_NAME)
-        (result,) = build(loaded, loaded.robots, BuildOptions(**request))  # type: ignore[arg-type]
+        (result,) = build(loaded, loaded.robots, options(loaded, **request))
         return result
 
     def files(self) -> Files:
@@ -109,7 +110,7 @@ class Project:
         cloned.__dict__ |= self.__dict__ | {"root": root, "package": root / PACKAGE}
         shutil.copytree(self.root, root)
         for path in (root / ".urdfsync").glob("*"):
-            if path.name not in (".gitignore", "robots"):
+            if path.name not in (".gitignore", ".gitattributes", "robots", "bases"):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
         return cloned
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import msgspec
 from urdfsync.check import compilers, libraries
 from urdfsync.check.cache import UserCache, cache_errors
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
+from urdfsync.check.contents import copy_library
 from urdfsync.check.package import write_package
 from urdfsync.check.process import Limits
 from urdfsync.config import RobotConfig, find_own_library
@@ -57,7 +57,7 @@ class Jobs:
         """Do tasks with a package in a process. Problems name the files that people know, and not their copies.
 
         `label` names the copy; `changed` are files of other libraries that have another content there. Raises
-        CompilerError, LimitError and CacheError.
+        CompilerError, LimitError and CacheError, and as `copy_library`.
         """
         cache, folder = UserCache.default(), self._folder / label.replace("/", "-")
         originals, roots = dict(self._originals), list(self._roots)
@@ -103,7 +103,7 @@ def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
             return str(path)
     copy = folder / path.name
     folder.mkdir(parents=True, exist_ok=True)
-    (shutil.copytree if path.is_dir() else shutil.copyfile)(path, copy)
+    copy_library(path, copy)
     for file, content in inside.items():
         (copy / file.relative_to(path)).write_bytes(content)
     return str(copy)

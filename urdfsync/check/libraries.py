@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
-import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -14,8 +12,10 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, digest
-from urdfsync.check.package import package_texts, stored_files
+from urdfsync.check.contents import content_hash, copy_library
+from urdfsync.check.package import package_texts
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
@@ -24,6 +24,9 @@ Version: TypeAlias = tuple[int, ...]
 OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
 NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
 
+RESOURCES = "Resources"
+"""The folder of a library with all that is no Modelica."""
+
 # The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
 _COPIED = tuple(
     tuple(part.split("."))
@@ -31,7 +34,7 @@ _COPIED = tuple(
         "Blocks Constants Icons Math Mechanics Units Utilities Thermal.HeatTransfer Electrical.Machines.Thermal"
     ).split()
 )
-_LEFT_OUT = frozenset({"Examples", "UsersGuide", "Resources"})
+_LEFT_OUT = frozenset({"Examples", "UsersGuide", RESOURCES})
 _COPY_REVISION = 2  # raised when other parts are copied
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
@@ -102,6 +105,16 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
 
 
+def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
+    """Each version of the libraries of the Modelica Standard Library: a compiler with means of its own may take any."""
+    return [
+        path
+        for place in library_folders(environment)
+        for name in STANDARD_LIBRARIES
+        for _, path in _versions(place, name)
+    ]
+
+
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
     """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
@@ -115,10 +128,6 @@ class Libraries(msgspec.Struct, frozen=True):
     others: Mapping[str, Path]
     problem: Diagnostic | None = None
     """Why there is no Modelica Standard Library."""
-
-    def state(self) -> list[tuple[str, str, str]]:
-        """What changes whenever one of them does."""
-        return [(name, str(path), library_state(path)) for name, path in {**self.others, **self.standard}.items()]
 
 
 def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], wanted: Iterable[str] = ()) -> Libraries:
@@ -160,33 +169,23 @@ def needed_libraries(
 
 def library_texts(path: Path) -> Mapping[str, bytes]:
     """The files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
-    return {path.name: path.read_bytes()} if path.suffix == ".mo" else package_texts(path)
-
-
-def library_state(path: Path) -> str:
-    """SHA-256 (hex) over names, sizes and times of change of a library's files; changes whenever one of them does."""
-    found = []
-    for file in [path] if path.is_file() else stored_files(path, onerror=None):  # the compiler says what can't be read
-        with contextlib.suppress(OSError):  # somebody replaces it at this moment
-            status = file.stat()
-            found.append((str(file), status.st_size, status.st_mtime_ns))
-    return digest(sorted(found))
+    return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
     """A copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
 
-    It is made once for each state of the library. The whole is copied as well, without its resources: the compiler
-    wants all parts in one folder, and would read all that is in this one. Raises CacheError.
+    It is made once for each content of the library. The whole is copied as well, without its resources: the compiler
+    wants all parts in one folder, and would read all that is in this one. Raises CacheError, and as `copy_library`.
     """
     whole = not all(map(_is_in_copy, texts))
-    key = digest(_COPY_REVISION, sorted(map(library_state, parts.values())))[:16]
-    target = cache.libraries / f"{'whole' if whole else 'part'}-{key}"
+    key = digest(_COPY_REVISION, [content_hash(path, [RESOURCES]) for _, path in sorted(parts.items())])[:16]
+    target, top = cache.libraries / f"{'whole' if whole else 'part'}-{key}", parts["Modelica"].resolve()
 
     def ignored(folder: str, names: list[str]) -> list[str]:
-        left_out = [name for name in names if name in ("Resources", "package.order") or name.startswith(".")]
-        if not whole and Path(folder).is_relative_to(parts["Modelica"]):
-            below = Path(folder).relative_to(parts["Modelica"]).parts
+        left_out = [name for name in names if name in (RESOURCES, "package.order") or name.startswith(".")]
+        if not whole and Path(folder).is_relative_to(top):
+            below = Path(folder).relative_to(top).parts
             for name in names:
                 path = (*below, name.removesuffix(".mo"))
                 is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
@@ -201,10 +200,7 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
                 made = Path(folder) / "library"
                 made.mkdir()
                 for name, path in parts.items():
-                    if path.suffix == ".mo":
-                        shutil.copyfile(path, made / f"{name}.mo")
-                    else:
-                        shutil.copytree(path, made / name, ignore=ignored)
+                    copy_library(path, made / (f"{name}.mo" if path.suffix == ".mo" else name), ignored)
                 try:
                     made.rename(target)
                 except OSError:

@@ -9,12 +9,13 @@ from __future__ import annotations
 import codecs
 import contextlib
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -244,7 +245,7 @@ def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes
     try:
         for path in stored_files(folder, without):
             with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                found[path] = path.read_bytes()
+                found[path] = read_unrecorded(path)
     except OSError as error:
         message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
         file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
@@ -257,15 +258,13 @@ def _refuse(error: OSError) -> None:
         raise error
 
 
-def stored_files(
-    folder: Path, without: Collection[Path] = (), onerror: Callable[[OSError], None] | None = _refuse
-) -> Iterator[Path]:
+def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
     """The Modelica files of a package and of those in it, but for the folders in `without`.
 
     Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
-    OSError for a folder that can't be read, unless `onerror` passes over it.
+    OSError for a folder that can't be read.
     """
-    for place, folders, names in os.walk(folder, onerror=onerror):
+    for place, folders, names in os.walk(folder, onerror=_refuse):
         visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
         folders[:] = [name for name in visible if Path(place, name) not in without]
         for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some

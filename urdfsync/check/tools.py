@@ -15,16 +15,19 @@ BOTH = "both"
 def chosen_tools(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
     """Return the compilers that are meant by `--tool` (None: by the configuration), one or both.
 
-    `trusted` says whether the user trusts the program that the configuration names.
+    `trusted` says whether the user trusts the configuration, which may choose OpenModelica, or name its program: both
+    run what is not the user's. Who gives `--tool omc` has chosen it himself.
     """
-    name = name or config.check.tool
-    return tuple(_tool(config, one, trusted) for one in (COMPILERS if name == BOTH else [name]))
+    names = COMPILERS if (name or config.check.tool) == BOTH else [name or config.check.tool]
+    return tuple(_tool(config, one, is_trusted=trusted or (bool(name) and not config.check.omc)) for one in names)
 
 
-def _tool(config: Config, name: str, trusted: bool) -> Tool:
-    program = config.check.omc if name == "omc" else ""
+def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
+    if name != "omc":
+        return Tool(name)
+    program = config.check.omc
     try:
-        problem = find_untrusted_compiler(config) if program and not trusted else None
+        problem = None if is_trusted else find_untrusted_compiler(config)
     except ConfigError as error:  # the user's file of trusted folders can't be read
         problem = error.diagnostics[0]
     return Tool(name, program, problem)

@@ -11,8 +11,9 @@ from urdfsync.commands import arguments
 from urdfsync.commands.init import guess_lines, guess_robots, robot_table, write_errors
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
-from urdfsync.files import rewrite, shown
+from urdfsync.files import shown
 from urdfsync.output.console import Console, line
+from urdfsync.state.transaction import save
 
 
 def add(commands: arguments.Commands) -> None:
@@ -47,7 +48,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             message = f"{guess.source} is the source of `{known[source]}` already"
             hint = "write a table by hand for a second package of one source"
             raise ConfigError(Diagnostic(Severity.ERROR, "source-in-use", message, shown(loaded.file), hint=hint))
-    text = loaded.file.read_bytes().decode()
+    content = loaded.file.read_bytes()
+    text = content.decode()
     tables = "".join(f"\n{robot_table(guess, domain)}" for guess in guesses)
     ending = "\r\n" if "\r\n" in text else "\n"
     new = f"{text}{'' if text.endswith(chr(10)) else ending}{tables.replace(chr(10), ending)}"
@@ -60,7 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         message, hint = "no table can follow `robots = {…}`", "write each robot as a table `[robots.NAME]`"
         raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, shown(loaded.file), hint=hint)) from None
     with write_errors(loaded.file):
-        rewrite(loaded.file, new.encode())
+        save(loaded.file, content, new.encode())
     console.warnings(warnings)
     if console.json:
         values = {"config": str(loaded.file), "robots": msgspec.to_builtins(guesses)}

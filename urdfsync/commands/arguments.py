@@ -12,12 +12,13 @@ from typing import Any, NoReturn, TypeAlias
 
 from urdfsync import config
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
 CODES = (
-    "exit codes: 0 in step, 1 out of step (diff, build --check), 2 error, 3 conflict, "
+    "exit codes: 0 in step, 1 out of step (status, diff, build --check), 2 error, 3 conflict, "
     "4 another build is running, 130 interrupted"
 )
 DRIVER_ERROR = 255
@@ -75,7 +76,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--trust": {
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, and run a robot's `command` and, for "
-        "checks, the `omc` that the configuration names",
+        "checks, OpenModelica if the configuration chooses it",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
     # never from the configuration: workers may do whatever they want
@@ -113,7 +114,7 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
 
 def add_program_trust(parser: Parser) -> None:
     """Add the option that trusts a program of the configuration."""
-    trust = "start the program that `omc` in the configuration names"
+    trust = "start OpenModelica though the configuration chooses it, or names its program with `omc`"
     parser.add_argument("--trust", action="store_true", help=trust)
 
 
@@ -169,9 +170,19 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tupl
         if is_argument and name.isidentifier():
             values[name] = value
     sources = [Path(text) for text in texts if text.partition(":=")[0] not in values]
-    if values and not any(source.suffix == ".xacro" for source in sources):
-        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is a .xacro file")
+    if values and sources and not any(map(_may_be_xacro, sources)):
+        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is xacro")
     return sources, values
+
+
+def _may_be_xacro(source: Path) -> bool:
+    """Return whether a source is xacro, as far as that can be told: whoever reads it says why it can't be read."""
+    from urdfsync.engine.source import is_xacro
+
+    try:
+        return is_xacro(source, read_unrecorded(source))
+    except OSError:
+        return True
 
 
 def is_confirmed(question: str, done: str, console: Console) -> bool:

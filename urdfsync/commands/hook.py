@@ -21,7 +21,7 @@ from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import LSTAT, STAT, VARIABLE, Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError, UrdfsyncError
 from urdfsync.engine import parents
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -35,7 +35,7 @@ from urdfsync.state.store import Store
 
 _FEW = 4
 """So many files are named one by one."""
-_UNNEEDED = (Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
+_UNNEEDED = (Reason.ORPHAN, Reason.NEEDED, Reason.FORGET)
 """Actions on files that a clone can do without."""
 _ADD, _BUILD = "add to the commit:", "build, and see what to add:"
 _ADD_REST = "add the rest, or put it aside with `git stash push --keep-index`:"
@@ -147,7 +147,8 @@ class RobotFiles:
         self._commit, self.config, self.robot, self.planned = commit, config, robot, planned
         state = config.root / STATE_FOLDER
         store = Store(config.root)
-        kept = [store.path(robot.name), store.expansion(robot.name), state / ".gitignore", state / ".gitattributes"]
+        recorded = [store.path(robot.name), store.expansion(robot.name), *store.base_files(robot.name)]
+        kept = [*recorded, state / ".gitignore", state / ".gitattributes"]
         self.outputs = commit.paths([*kept, *parents.files(robot)])
         """Files that a commit has to have if they exist."""
         found = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
@@ -159,34 +160,31 @@ class RobotFiles:
         )
         """These, and files that could have been there."""
         self.note(planned)
-        self.states = f"{commit.path(state / 'robots')}/"
+        self.states = f"{commit.path(state / 'robots')}/", f"{commit.path(state / 'bases')}/"
         self._others = {one.name for one in config.robots} - {robot.name}
         folders = [robot.folder, *([robot.templates] if robot.templates else [])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
     def note(self, result: Result) -> None:
         """Add the outputs of a plan or a build."""
-        places = [f"{result.root}/{one.path}" for one in result.actions if one.kind not in _UNNEEDED]
+        places = [f"{result.root}/{one.path}" for one in result.actions if one.reason not in _UNNEEDED]
         whole = [f"{place.removesuffix('.mo')}/package.mo" for place in places]  # of classes that are folders now
         self.outputs |= self._commit.paths([*places, *whole])
         self.known |= self.outputs
 
     def select(self, paths: Iterable[str]) -> set[str]:
         """Return those of the paths that are the robot's, or a state of a robot that is no more."""
-        found = {path for path in paths if path in self.known or path.startswith((*self.folders, self.states))}
+        found = {path for path in paths if path in self.known or path.startswith((*self.folders, *self.states))}
         others = {path for path in found - self.known if path.startswith(self.states)}
-        return found - {path for path in others if PurePosixPath(path).stem in self._others}
+        bases = self.states[1]
+        robots = {path: path.removeprefix(bases).partition("/")[0] for path in others if path.startswith(bases)}
+        return found - {path for path in others if robots.get(path, PurePosixPath(path).stem) in self._others}
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""
         index = self._commit.index
         untracked = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
         return self.select(index.unstaged) | untracked | (self.inputs & index.untracked)
-
-    @property
-    def needs_build(self) -> bool:
-        """Whether a build would change files, or what is recorded of them."""
-        return not self.planned.in_step or self.planned.renews_state
 
 
 def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[CommitFault]:
@@ -199,8 +197,8 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(config.file), hint=hint))
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
-    if not any(one.needs_build or one.find_unstaged() or one.select(index.hidden) for one in robots):
-        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, one.states)}
+    if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
+        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, *one.states)}
         uptodate.save_answer(file, key, sorted(needed), everything)
         return []
     faults, to_build = [], []
@@ -214,9 +212,9 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
         elif partly := one.select(commit.files & index.unstaged):
             message = f"staged in part only: {', '.join(sorted(partly))}"
             faults.append(CommitFault(one, "partly-staged", message, _ADD_REST, partly))
-        elif one.needs_build and writing:
+        elif not one.planned.in_step and writing:
             to_build.append(one)
-        elif one.needs_build:
+        elif not one.planned.in_step:
             faults.append(_fault_of_build(one, one.planned, _BUILD))
         elif unstaged := one.find_unstaged():
             message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
@@ -247,7 +245,7 @@ def _plan(
     commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions, everything: Dependencies
 ) -> RobotFiles:
     """Plan a build of one robot in the working tree, and find its files; add what was read to `everything`."""
-    dry = msgspec.structs.replace(options, dry=True, compares_state=True, trusted=True)
+    dry = msgspec.structs.replace(options, dry=True, trusted=True)
     with Dependencies() as dependencies:
         (result,) = build(config, [robot], dry)
     for (check, path), found in dependencies.entries.items():
@@ -259,8 +257,7 @@ def _plan(
 def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
     if result.failed or result.conflicts or result.is_broken:
         return CommitFault(files, "out-of-step", summary(result), result=result)
-    what = "its recorded state is out of date" if result.in_step else summary(result)
-    return CommitFault(files, "out-of-step", f"out of step: {what}", step, paths, result)
+    return CommitFault(files, "out-of-step", f"out of step: {summary(result)}", step, paths, result)
 
 
 def _show(

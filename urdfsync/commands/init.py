@@ -151,8 +151,7 @@ def _guess(
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
-    values = given if source.suffix == ".xacro" else {}
-    text = source_files.read_file_source(source, values, config.ros_package_path(os.environ))
+    text = source_files.read_file_source(source, given, config.ros_package_path(os.environ))
     with text.locating():
         snapshot, reading = source_files.read(domain, domain.permissive_options(), text.content, text.name)
     stem = source.name.partition(".")[0][:_LONGEST]
@@ -162,6 +161,7 @@ def _guess(
     counts = ("", *map(str, range(2, len(taken) + 2)))
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
     proposals = tuple(domain.propose(snapshot, reading.diagnostics))
+    values = text.expansion.arguments if text.expansion else {}
     guess = Guess(name + count, path.as_posix(), values, package + count, proposals)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
 

@@ -11,17 +11,20 @@ from urdfsync import tomlfile
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.files import rewrite, shown
+from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines
 from urdfsync.output.phrases import action_counts
 from urdfsync.output.results import action_word, file_line, headline, show_result
+from urdfsync.state.transaction import save
 
-_STAYS = (Kind.ORPHAN, Kind.NEEDED)
+_STAYS = (Reason.ORPHAN, Reason.NEEDED)
+_ATTEMPTS = 5
+"""So often the configuration is written, if somebody saves it in between."""
 _FILES = 20
 """So many files that go are listed at most, without --verbose."""
 
@@ -52,7 +55,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if len(robots) > 1:
         raise arguments.UsageError(args.parser, f"{args.robot!r} means {len(robots)} robots: name one")
     name = robots[0].name
-    _without_robot(configuration, name)  # refuses a table that can't be taken out
+    _without_robot(configuration, name, configuration.file.read_bytes())  # refuses a table that can't be taken out
     if not args.yes:
         (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
         _show(console, result, f"its table in {shown(configuration.file)} goes", with_files=True)
@@ -60,8 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
         for result in build(configuration, robots, arguments.request(args, console, removes=True)):
             if not result.failed:
-                with write_errors(configuration.file):
-                    rewrite(configuration.file, _without_robot(configuration, name))
+                _take_out(configuration, name)
             _show(console, result, "removed", with_files=args.yes)
     code = exit_code([result])
     console.end("remove", code)
@@ -85,7 +87,7 @@ def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     lines = [file_line(shown_path(result, one.path), *action_word(one)) for one in changed]
     yield from first_lines(lines, _FILES, "file", verbose=verbose)
     paths = {os.path.normpath(result.root / one.path) for one in changed}
-    kept = (action for action in result.actions if action.kind in _STAYS)
+    kept = (action for action in result.actions if action.reason in _STAYS)
     reasons = {os.path.normpath(result.root / one.path): _reason(one) for one in kept}
     there = {str(path) for path in result.folder.rglob("*") if not path.is_dir()}
     for path in sorted(there.union(reasons) - paths):
@@ -94,14 +96,28 @@ def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
 def _reason(action: Action) -> str:
     """Why a file stays."""
-    if action.kind is Kind.NEEDED:
+    if action.reason is Reason.NEEDED:
         return "your own files need it"
     return "you edited it" if action.mine != action.base else "it is in a former folder, and may be yours"
 
 
-def _without_robot(configuration: Config, robot: str) -> bytes:
-    """Return the configuration's text without the robot. Raises ConfigError if it has no table."""
-    text = configuration.file.read_bytes().decode()
+def _take_out(configuration: Config, robot: str) -> None:
+    """Write the configuration without the robot; what is saved in it meanwhile stays. Raises UrdfsyncError."""
+    for attempt in range(1, _ATTEMPTS + 1):
+        try:
+            with write_errors(configuration.file):
+                content = configuration.file.read_bytes()
+                save(configuration.file, content, _without_robot(configuration, robot, content))
+        except OutputError:
+            if attempt == _ATTEMPTS:
+                raise
+        else:
+            return
+
+
+def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:
+    """Return the configuration's content without the robot. Raises ConfigError if it has no table."""
+    text = content.decode()
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     plain, name = text.removeprefix(mark), shown(configuration.file)
     new = tomlfile.without_table(plain, "robots", robot)

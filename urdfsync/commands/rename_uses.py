@@ -13,10 +13,11 @@ from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.rename_uses import RenamedUses, rename_uses
 from urdfsync.engine.result import Exit, exit_code
-from urdfsync.files import failure, rewrite, shown
+from urdfsync.files import failure, shown
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted
 from urdfsync.output.results import show_results
+from urdfsync.state.transaction import save
 
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
@@ -30,8 +31,12 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
     told, code = [*_conflicting(found), *_left(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
     if not (found.texts or found.conflicting or found.left):
-        hint = "" if given else "what an earlier build renamed has to be named: --rename-uses OLD=NEW"
-        told.append(Diagnostic(Severity.NOTE, "no-old-names", "no model of yours uses an old name", hint=hint))
+        hint = "" if given else "for a rename before the last build, give both names: --rename-uses OLD=NEW"
+        told.append(
+            Diagnostic(
+                Severity.NOTE, "no-old-names", "none of your models uses a name that the last build renamed", hint=hint
+            )
+        )
     console.warnings([*told, *(_notes(found) if console.json else ())])
     if not (console.json or console.quiet):
         console.print(_lines(found))
@@ -104,17 +109,27 @@ def _lines(found: RenamedUses) -> Iterator[StyledLine]:
 
 
 def _write(texts: Mapping[Path, tuple[bytes, bytes]]) -> None:
-    """Write all files, unless one of them is not what was shown. Raises OutputError."""
+    """Write all files, or none if one of them is not what was shown. Raises OutputError.
+
+    One that is saved while the others are written stays as it was saved.
+    """
     for path, (old, _) in texts.items():
         try:
             is_same = read_unrecorded(path) == old
         except OSError as error:
             raise failure(error, path, "it can't be read") from error
         if not is_same:
-            message, hint = "it has changed since it was read, so nothing was written", "save it, then try again"
+            message, hint = "it has changed since it was read, so nothing was written", "run the command again"
             raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(path), hint=hint))
-    for path, (_, new) in texts.items():
+    problems, written = list[Diagnostic](), 0
+    for path, (old, new) in texts.items():
         try:
-            rewrite(path, new)
+            save(path, old, new)
+            written += 1
+        except OutputError as error:
+            problems += error.diagnostics
         except OSError as error:
-            raise failure(error, path) from error
+            problems += failure(error, path).diagnostics
+    if problems:
+        note = Diagnostic(Severity.NOTE, "written-in-part", f"{counted(written, 'other file')} written, nothing built")
+        raise OutputError(*problems, note)

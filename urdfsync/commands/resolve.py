@@ -3,34 +3,47 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import os
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from urdfsync import config
-from urdfsync.commands import arguments, merge_tool
+from urdfsync.commands import arguments, editor
 from urdfsync.commands.build import build_and_check
 from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.conflicts import BOTH_SIDES, MERGES, Conflict
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import encode
+from urdfsync.engine.package_files import encode, key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, line
-from urdfsync.output.results import show_result, show_results
-from urdfsync.state.record import Choice, sides_hash
+from urdfsync.output.console import Console, first_lines, line
+from urdfsync.output.results import file_line, show_result, show_results
+from urdfsync.state.record import Choice
 
+_LINES = 20
+"""So many files are listed at most, without --verbose."""
+_MEANINGS = {
+    Choice.KEEP: "your file as it is",
+    Choice.TAKE: "the generated file",
+    Choice.MERGE: "both sides' changes",
+    Choice.MERGE_MINE: "both sides' changes, yours in doubt",
+    Choice.MERGE_GENERATED: "both sides' changes, generated in doubt",
+    Choice.EDIT: "as you edited it",
+    Choice.UNDO: "as you had it before",
+}
 _FEW = 5
 """So many conflicts are named in a message; of more, only the first ones and their number."""
 
@@ -57,8 +70,8 @@ def add(commands: arguments.Commands) -> None:
         Choice.KEEP: "leave your file as it is, until something new is generated",
         Choice.TAKE: "replace your file by the generated one",
         Choice.MERGE: "take both sides' changes, if they do not contradict each other",
-        Choice.EDIT: "make one text of both sides in git's merge tool, or in the editor of $VISUAL",
-        Choice.UNDO: "give a file back as you had it before it was merged or replaced",
+        Choice.EDIT: "make one text of both sides in the editor of $VISUAL or $EDITOR",
+        Choice.UNDO: "bring back what you had before a file was merged, replaced or deleted",
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
@@ -91,29 +104,46 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if args.all:
         concerned |= {result.robot for result in found if result.failed or result.conflicts}
     robots = [robot for robot in loaded.robots if robot.name in concerned]
-    choices = {target.action.path: choice for target in targets}
+    choices = {(target.action.path, target.action.sides): choice for target in targets}
     planned = arguments.request(args, console, dry=True, choices=choices)
     if choice is Choice.TAKE and not console.json and not console.quiet:
         _show_losses(loaded, robots, targets, planned, console)
     if choice is Choice.UNDO:
         _refuse_undo(targets, build(loaded, robots, planned))
-    edited = _edit(loaded, targets, list(build(loaded, robots, planned))) if choice is Choice.EDIT else {}
-    texts = {sides: file.read_bytes().decode(errors="surrogateescape") for sides, file in edited.items()}
+    edited = _edit(targets, list(build(loaded, robots, planned))) if choice is Choice.EDIT else {}
+    texts = {key: file.read_bytes().decode() for key, file in edited.items()}
     request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=texts)
     results = show_results(console, build_and_check(loaded, robots, request))
-    in_conflict = {target.action.path for target in find_conflicts(results)}
-    failed = {target.action.path for target in targets if target.result.robot in _failed(results)}
-    left = [file for (path, _), file in edited.items() if path in in_conflict | failed]
-    for file in edited.values() if not args.dry_run else ():
-        if file not in left:
-            shutil.rmtree(file.parent)
+    actions = {one.path: one for result in results for one in result.actions if not result.failed}
+    now = [(target, actions[target.action.path]) for target in targets if target.action.path in actions]
+    accepted = [one for target, one in now if one.sides == target.action.sides and one.kind is not Kind.CONFLICT]
+    changed = [_changed(target) for target, one in now if one.sides != target.action.sides]
+    taken = set() if args.dry_run else {action.path for action in accepted}
+    left = [file for (path, _), file in edited.items() if path not in taken]
+    for file in set(edited.values()).difference(left):
+        shutil.rmtree(file.parent)
+    if not (args.dry_run or console.json or console.quiet):
+        lines = [file_line(shown(loaded.root / one.path), "accepted", "green", _meaning(one)) for one in accepted]
+        console.print(first_lines(lines, _LINES, "file", verbose=console.verbose))
     code = exit_code(results)
-    console.end("resolve", code, list(map(_left, left)))
+    code = Exit.CONFLICT if changed and code is Exit.IN_STEP else code
+    console.end("resolve", code, [*changed, *map(_left, left)])
     return code
 
 
-def _failed(results: Iterable[Result]) -> set[str]:
-    return {result.robot for result in results if result.failed}
+def _changed(target: DisputedFile) -> Diagnostic:
+    """A file that was saved, or generated anew, after the choice was made."""
+    message = "it has changed since it was looked at, so your choice does not count for it"
+    hint = "look at it, then choose again"
+    return Diagnostic(Severity.WARNING, "changed-meanwhile", message, target.shown, hint=hint)
+
+
+def _meaning(action: Action) -> str:
+    """What a choice makes of a file."""
+    words = _MEANINGS[action.choice] if action.choice else "your file has both sides' changes already"
+    if action.generated is None and action.choice is not Choice.UNDO:
+        words = "deleted" if action.reason is Reason.DELETE else "yours from now on"
+    return f"{words}, once the other conflicts are resolved" if action.held else words
 
 
 def _choice(args: argparse.Namespace, conflicts: Sequence[DisputedFile]) -> Choice:
@@ -164,9 +194,9 @@ def _refuse(console: Console, found: Sequence[Result], unknown: Sequence[str]) -
 
 def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> None:
     """Raise UrdfsyncError for files of which nothing can be given back."""
-    undone = {one.path for result in planned for one in result.actions if one.kind is Kind.UNDO}
-    message = "there is nothing to give back: no build replaced what you had, or the file was saved since"
-    hint = "--keep, --take and --merge are for conflicts"
+    undone = {one.path for result in planned for one in result.actions if one.reason is Reason.UNDO}
+    message = "nothing to undo: no build has merged, replaced or deleted your text here, or you saved the file since"
+    hint = "--keep, --take and --merge settle conflicts"
     found = [
         Diagnostic(Severity.ERROR, "no-undo", message, target.shown, hint=hint)
         for target in targets
@@ -176,35 +206,48 @@ def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> 
         raise UrdfsyncError(*found)
 
 
-def _edit(loaded: Config, targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
-    """Let the user edit each file; where its text is then, by key and `sides_hash`.
+def _edit(targets: Sequence[DisputedFile], planned: Sequence[Result]) -> dict[tuple[str, str], Path]:
+    """Let the user edit each file; where its text is then, by key and `Action.sides`.
 
     Raises UrdfsyncError if one can't be used; it names those that could, too.
     """
     texts = {one.path: one for result in planned for one in result.conflict_texts}
-    sides = {one.path: sides_hash(one.mine, one.generated) for result in planned for one in result.actions}
     edited = dict[tuple[str, str], Path]()
     try:
         for target in targets:
             path = target.action.path
-            edited[path, sides[path]] = _edit_one(texts[path], target.shown, loaded.root)
+            if path in texts:  # else it has changed since
+                edited[path, target.action.sides] = _edit_one(texts[path], target.shown)
     except UrdfsyncError as error:
         raise UrdfsyncError(*error.diagnostics, *map(_left, edited.values())) from error
     return edited
 
 
-def _edit_one(conflict: Conflict, place: str, root: Path) -> Path:
-    proposal = conflict.merge.proposal if conflict.merge else conflict.mine
-    texts = (conflict.base or "", conflict.mine, conflict.generated, proposal)
-    file = merge_tool.edit(PurePosixPath(conflict.path).name, merge_tool.Versions(*map(encode, texts)), root)
-    if flaw := _flaw(file.read_bytes().decode(errors="surrogateescape"), conflict):
-        message = f"the edited text {flaw}; nothing was changed"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, place, hint=f"it is in {file}"))
+def _edit_one(conflict: Conflict, place: str) -> Path:
+    proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
+    file = editor.edit(PurePosixPath(conflict.path).name, encode(proposal))
+    if flaw := _flaw(file.read_bytes(), conflict):
+        message, hint = f"the edited text {flaw}; nothing was changed", f"it stays in {file}; --edit begins anew"
+        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, place, hint=hint))
     return file
 
 
-def _flaw(text: str, conflict: Conflict) -> str:
+def _both(mine: str, generated: str) -> str:
+    """Return both texts as one, with markers around what differs: there is no base to merge with."""
+    sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
+    lines: list[str] = []
+    for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
+        own, new = sides[0][places[0] : places[1]], sides[1][places[2] : places[3]]
+        lines += own if what == "equal" else ["<<<<<<< mine", *own, "=======", *new, ">>>>>>> generated"]
+    return ("\r\n" if "\r\n" in mine else "\n").join([*lines, ""])
+
+
+def _flaw(content: bytes, conflict: Conflict) -> str:
     """Why an edited text can't be used, as the end of a sentence; empty if it can."""
+    try:
+        text = content.decode()
+    except UnicodeDecodeError:
+        return "is not UTF-8"
     wanted, found = ([str(one.name) for one in parse(one).classes] for one in (conflict.generated, text))
     if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
         return flaw
@@ -248,22 +291,29 @@ def _find_targets(
                 by_place.setdefault(place, []).append(target)
     for target in (DisputedFile(result, action) for result in results for action in result.actions):
         action = target.action
-        takes = choice is Choice.TAKE and action.kind is Kind.KEEP
-        is_known = action.kind is Kind.ORPHAN or target.is_decided
+        takes = choice is Choice.TAKE and action.reason is Reason.KEEP
+        is_known = action.reason is Reason.ORPHAN or target.is_decided
         if is_known or takes or (choice is Choice.UNDO and action.mine):
             for file in _places(target.action, root):
                 by_place.setdefault(file, []).append(target)
     chosen: dict[str, DisputedFile] = {}
     unknown = []
+    robots = results if choice is Choice.UNDO else ()
     for text in typed:
         path = Path(os.path.normpath(config.working_folder() / text))
         real, real_root = Path(os.path.realpath(path)), Path(os.path.realpath(root))
         # links may lead to a file of the configuration's folder
         places = [path, *([root / real.relative_to(real_root)] if real.is_relative_to(real_root) else [])]
-        found = [target for place in places if text for target in by_place.get(place, ())]
+        found = [target for place in places if text for target in by_place.get(place) or _deleted_files(robots, place)]
         chosen |= {target.action.path: target for target in found}
         unknown += [] if found else [text]
     return list(chosen.values()), unknown
+
+
+def _deleted_files(results: Sequence[Result], place: Path) -> list[DisputedFile]:
+    """Return a file that is not there, and that a build may have deleted."""
+    robots = (one for one in results if place.is_relative_to(one.folder) and not os.path.lexists(place))
+    return [DisputedFile(one, Action(key_of(place, one.root), Reason.FORGET, Role.MODEL)) for one in robots]
 
 
 def _places(action: Action, root: Path) -> set[Path]:
@@ -272,16 +322,16 @@ def _places(action: Action, root: Path) -> set[Path]:
 
 def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
-    if choice is Choice.TAKE and not target.replaceable:
+    if choice is Choice.TAKE and not target.is_on_disk:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
-    elif choice in BOTH_SIDES and target.action.kind is Kind.ORPHAN:
+    elif choice in BOTH_SIDES and target.action.reason is Reason.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
-    elif choice is Choice.EDIT and not (target.replaceable and (target.texts or target.is_decided)):
+    elif choice is Choice.EDIT and not (target.is_on_disk and (target.texts or target.is_decided)):
         message, hint = f"it can't be edited: {describe(target)}", "use --keep or --take"
     elif choice in MERGES and not target.offers(choice):
         message = f"it can't be merged: {describe(target)}"
-        hint = "use --keep or --take" if target.replaceable else "use --keep"
+        hint = "use --keep or --take" if target.is_on_disk else "use --keep"
         if target.offers(Choice.MERGE_MINE):
             hint = "`--prefer mine` or `--prefer generated` says which side counts there"
         elif merge := saved_texts(target).get("merge"):

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import enum
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -22,7 +21,7 @@ from urdfsync.output.phrases import (
     NOT_EXPANDED,
     RESOLVE_HINT,
     action_counts,
-    change_classes,
+    change_counts,
     counted,
     error_count,
     generator_change,
@@ -36,34 +35,7 @@ _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
 
 
-class FileStatus(enum.StrEnum):
-    """How a file stands, what asks for most attention first."""
-
-    CONFLICT = "conflict"
-    """The user and urdfsync want different things of it."""
-    MISSING = "missing"
-    """It was written and somebody deleted it."""
-    STALE = "stale"
-    """The next build writes or deletes it."""
-    EDITED = "edited"
-    """The user changed it, and there is nothing new for it."""
-    ORPHAN = "orphan"
-    """Nothing generates it any longer, and it stays because it is the user's or something of the user's needs it."""
-    IN_STEP = "in step"
-
-
-_STATUSES = {
-    **dict.fromkeys((Kind.UNCHANGED, Kind.ADOPT), FileStatus.IN_STEP),
-    **dict.fromkeys(
-        (Kind.CREATE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.LEAVE), FileStatus.STALE
-    ),
-    **dict.fromkeys((Kind.KEEP, Kind.INCLUDED), FileStatus.EDITED),
-    **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), FileStatus.CONFLICT),
-    **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), FileStatus.ORPHAN),
-    Kind.RESTORE: FileStatus.MISSING,
-}
-"""Status by what a build would do; FORGET is left out, since its file is gone for good."""
-_QUIET = (Kind.UNCHANGED, Kind.KEEP)
+_QUIET = (Reason.UNCHANGED, Reason.KEEP)
 """Actions of which the status says all."""
 _STYLES = {
     FileStatus.CONFLICT: "bold red",
@@ -86,7 +58,7 @@ def add(commands: arguments.Commands) -> None:
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
         epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 no conflict, in step or not; 1 broken, 2 error, 3 conflict, 4 another build is running, "
+        "exit codes: 0 in step, 1 out of step or broken, 2 error, 3 conflict, 4 another build is running, "
         "130 interrupted",
     )
 
@@ -110,53 +82,40 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
-    code = exit_code(results)
+    code = exit_code(results, check=True)
     console.end("status", code)
     return code
 
 
-def file_status(action: Action) -> FileStatus | None:
-    """How a file stands; None for one that is gone for good."""
-    return _STATUSES.get(action.kind)
-
-
 def is_built(result: Result) -> bool:
-    """Whether a build has written any file of the package."""
-    return any(action.base is not None for action in result.actions)
-
-
-def is_in_step(result: Result) -> bool:
-    """Whether a build would write nothing, no file is in conflict, and every edit fits."""
-    if result.stale or result.is_broken:
-        return False
-    off = {FileStatus.CONFLICT, FileStatus.MISSING, FileStatus.STALE}
-    return not result.failed and off.isdisjoint(map(file_status, result.actions))
+    """Whether a build has written any file of the package, its record lost or not."""
+    return any(action.base is not None or action.reason is Reason.ADOPT for action in result.actions)
 
 
 def _path(action: Action) -> str:
     """Where the user's file is: that of a conflict may wait for its new name."""
-    return action.origin or action.path if file_status(action) is FileStatus.CONFLICT else action.path
+    return action.origin or action.path if action.kind is Kind.CONFLICT else action.path
 
 
 def _reason(action: Action, result: Result) -> str:
-    return "" if action.kind in _QUIET and not action.held else reason_of(action, result.changes)
+    return "" if action.reason in _QUIET and not action.held else reason_of(action, result.effective_changes)
 
 
 def _values(result: Result) -> dict[str, Any]:
     """The robot in the JSON document."""
     values = result_values(result)
-    actions = sorted((action for action in result.actions if file_status(action)), key=_path)
+    actions = sorted((one for one in result.actions if one.reason.status), key=_path)
     extra = {
         "built": is_built(result),
-        "in_step": is_in_step(result),
+        "in_step": result.in_step,
         "summary": summary(result),
         "not_expanded": list(result.stale),
         "files": [
             {
                 **action_values(action),
                 "path": _path(action),
-                "status": file_status(action),
-                "reason": _reason(action, result),
+                "status": action.reason.status,
+                "text": _reason(action, result),
             }
             for action in actions
         ],
@@ -170,22 +129,23 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
     Stale files come last. New files of a robot that was never built are not named.
     """
-    yield headline(result, summary(result), is_fine=is_in_step(result))
+    yield headline(result, summary(result), is_fine=result.in_step)
     if result.stale:
         yield from first_lines([line((f"  {name}", "")) for name in result.stale], _INPUTS, "input", verbose=verbose)
-    changes = result.changes
+    changes = result.effective_changes
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
-        yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
-    if (actions := action_counts(result, {Kind.KEEP})) and not (is_in_step(result) or result.failed):
+        yield line((f"  {change_counts(changes)} in the source", ""))
+    if (actions := action_counts(result, {Reason.KEEP})) and not (result.in_step or result.failed):
         yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
-        status = file_status(action)
+        status = action.reason.status
         is_stale = status is FileStatus.STALE
-        if status and (verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))):
+        is_listed = verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))
+        if status and is_listed:
             path = shown_path(result, _path(action))
             found[is_stale].append(file_line(path, status, _STYLES[status], _reason(action, result)))
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
@@ -200,12 +160,12 @@ def summary(result: Result) -> str:
         return f"{error_count(result.diagnostics)}, so its files were not compared"
     if result.stale and not result.actions:
         return "not expanded, so its files were not compared"
-    counts = Counter(filter(None, map(file_status, result.actions)))
+    counts = Counter(filter(None, (action.reason.status for action in result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
-    stand = "in step" if is_in_step(result) else NOT_EXPANDED if result.stale else "out of step"
+    stand = "in step" if result.in_step else NOT_EXPANDED if result.stale else "out of step"
     stand = BROKEN if result.is_broken else stand
     head = f"{stand}, {counted(counts.total(), 'file')}"
-    if not (is_built(result) or is_in_step(result)):
+    if not (is_built(result) or result.in_step):
         head = "not built yet"
         told.pop(FileStatus.STALE, None)
     nouns = (FileStatus.CONFLICT, FileStatus.ORPHAN)

@@ -167,7 +167,7 @@ class _Reader:
         library = None if keys.library is None else _absolute(self._root / keys.library)
         is_path = Path(keys.omc).name != keys.omc  # else a name, which is looked for on the PATH
         omc = str(_absolute(self._root / keys.omc)) if is_path else keys.omc
-        return CheckConfig(library, keys.tool, omc, table.lines.get("omc", 0))
+        return CheckConfig(library, keys.tool, omc, table.lines)
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a record or a package's folder, nor may one stand in the other's."""

@@ -60,8 +60,8 @@ class CheckConfig(msgspec.Struct, frozen=True):
     """The compiler: `rumoca`, `omc`, or `both`."""
     omc: str = ""
     """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
-    omc_line: int = 0
-    """The line of the configuration that names it."""
+    lines: Mapping[str, int] = {}
+    """Line of every key in the configuration."""
 
 
 class RobotConfig(msgspec.Struct, frozen=True):
@@ -87,7 +87,7 @@ class RobotConfig(msgspec.Struct, frozen=True):
     ignored: frozenset[str] = frozenset()
     """Codes of warnings and notes that nobody wants to see."""
     arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None for a source that only its suffix may give to xacro."""
+    """Arguments of xacro; None for a source whose name or content may give it to xacro."""
     command: tuple[str, ...] = ()
     """The command that writes the source; empty for none."""
     command_inputs: tuple[Path, ...] = ()
@@ -101,11 +101,6 @@ class RobotConfig(msgspec.Struct, frozen=True):
     def folder(self) -> Path:
         """The folder of the generated package."""
         return self.output.joinpath(*self.target.package.split("."))
-
-    @property
-    def is_xacro(self) -> bool:
-        """Whether xacro expands the source."""
-        return self.arguments is not None or self.source.suffix == ".xacro"
 
     def is_at(self, place: Path) -> bool:
         """Whether a path is the robot's source, or is in its package or around it."""

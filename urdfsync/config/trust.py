@@ -40,9 +40,15 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
 
 
 def find_untrusted_compiler(config: Config) -> Diagnostic | None:
-    """An error if the configuration names a compiler, and the user has not named its folder. Raises ConfigError."""
-    message = f"`omc` was not run: {config.check.omc}"
-    return _find_untrusted(config, message, config.check.omc_line, "untrusted-command")
+    """An error if the user has not named the folder of a configuration that chooses OpenModelica. Raises ConfigError.
+
+    OpenModelica runs what external functions of models and libraries name, whoever has written these.
+    """
+    key, reason = "tool", "models can start programs by it"
+    if config.check.omc:
+        key, reason = "omc", config.check.omc
+    message = f"`{key}` in the table `[check]`: OpenModelica was not run: {reason}"
+    return _find_untrusted(config, message, config.check.lines.get(key, 0), "untrusted-command")
 
 
 def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:

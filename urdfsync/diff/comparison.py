@@ -23,7 +23,7 @@ from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
-from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
@@ -39,7 +39,9 @@ from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
-_MINE = frozenset({Kind.CONFLICT, Kind.UNOWNED, Kind.MERGE, Kind.MOVE, Kind.LEAVE, Kind.INCLUDED, Kind.ORPHAN})
+_MINE = frozenset(
+    {Reason.CONFLICT, Reason.UNOWNED, Reason.MERGE, Reason.MOVE, Reason.MOVED_AWAY, Reason.INCLUDED, Reason.ORPHAN}
+)
 """Actions on files that the user edited, and that the changes concern."""
 
 
@@ -171,7 +173,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
             effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
-    edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
+    edited = frozenset(action.path for action in result.actions.decided if action.reason in _MINE)
     return Comparison(result, shown(robot.source), None, missing, effects, edited)
 
 
@@ -195,13 +197,12 @@ def _with_version(
         source, file = robot.source, folder / against
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if file.is_file():
-            given = arguments if file.suffix == source.suffix else {}
-            other = _VersionedSource(source_files.read_file_source(file, given, folders), (file, source))
+            other = _VersionedSource(source_files.read_file_source(file, arguments, folders), (file, source))
         else:
             revision = Revision(source.parent, against)
             text = _in_revision(revision, robot, config)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
-        if config and robot.is_xacro and not robot.command:  # it may be expanded already
+        if config and not robot.command:  # it may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(source, arguments, folders)
@@ -226,14 +227,14 @@ def _with_version(
     for path, (role, owner, _) in (older | newer).items():
         if path in older and path in newer and older[path][2] == newer[path][2]:
             continue
-        kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
+        kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
     if config:  # a dry build knows which files are others than the last one wrote
         (dry,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
-        edited = frozenset(action.path for action in dry.actions.decided if action.kind in {*_MINE, Kind.KEEP})
+        edited = frozenset(action.path for action in dry.actions.decided if action.reason in {*_MINE, Reason.KEEP})
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 
@@ -241,8 +242,11 @@ def _with_version(
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
     label = revision.label(robot.source)
-    if not robot.is_xacro or config is None:
-        return Source(revision.read(robot.source), label)
+    # the source may have had another name then, its expansion has that of the robot
+    if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
+        content = revision.read(robot.source)
+        if config is None or not source_files.is_xacro(robot.source, content):
+            return Source(content, label)
     path = Store(config.root).expansion(robot.name)
     if (found := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"

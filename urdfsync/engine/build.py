@@ -17,7 +17,7 @@ from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
-from urdfsync.engine.actions import DELETES, Actions, Kind
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -85,7 +85,6 @@ class _Builder:
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
             return msgspec.structs.replace(result, diagnostics=found, failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        state_folder = self._state_folder / "robots"
         return msgspec.structs.replace(
             result,
             actions=plan.actions,
@@ -95,7 +94,7 @@ class _Builder:
             stale=plan.stale,
             is_broken=plan.is_broken,
             drawing=plan.drawing,
-            renews_state=any(change.path.parent == state_folder for change in reversed(plan.writes)),
+            writes=not plan.is_noop,
         )
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:
@@ -109,8 +108,7 @@ class _Builder:
                     return plan
                 continue
             told = _joined(first, plan) if first else plan
-            writes = plan.writes or any(action.writes for action in plan.actions)
-            if not writes and not self._transactions.is_pending():
+            if plan.is_noop and not plan.writes and not self._transactions.is_pending():
                 return told
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)
@@ -167,9 +165,9 @@ def _joined(first: Plan, second: Plan) -> Plan:
     """
     known = {action.path for action in second.actions}
     done = {action.path: action for action in first.actions if action.writes}
-    in_order = (Kind.UNCHANGED, Kind.ADOPT, Kind.INCLUDED, Kind.FORGET)
-    actions = [done.get(one.path, one) if one.kind in in_order else one for one in second.actions]
-    deleted = [one for path, one in done.items() if path not in known and one.kind in DELETES]
+    in_order = (Reason.UNCHANGED, Reason.ADOPT, Reason.INCLUDED, Reason.FORGET)
+    actions = [done.get(one.path, one) if one.reason in in_order else one for one in second.actions]
+    deleted = [one for path, one in done.items() if path not in known and one.kind is Kind.DELETE]
     return msgspec.structs.replace(
         second,
         actions=Actions([*actions, *deleted]),

@@ -10,22 +10,22 @@ import msgspec
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
+from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.fit import LostNames, Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices
+from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices, valid_choices
 from urdfsync.engine.undo import apply_undo
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import Choice, sides_hash
+from urdfsync.state.record import Choice
 
-_GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+_GONE = frozenset({Reason.DELETE, Reason.MOVED_AWAY, Reason.ORPHAN, Reason.NEEDED, Reason.FORGET})
 """Actions on files that are not generated any more."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
@@ -39,6 +39,8 @@ class Decision(msgspec.Struct, frozen=True):
     """New texts of every `package.order` and of merged files, by key."""
     conflicts: tuple[Conflict, ...] = ()
     """The texts of the files in conflict."""
+    moved: Mapping[str, Conflict] = {}
+    """The texts of edited files that move with their elements, by key."""
     shared: tuple[SharedFile, ...] = ()
     """What to do with files around the package."""
     misfits: tuple[Misfit, ...] = ()
@@ -47,7 +49,7 @@ class Decision(msgspec.Struct, frozen=True):
     @property
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
-        return not any(action.held or action.kind in CONFLICTS for action in self.actions)
+        return not any(action.held or action.kind is Kind.CONFLICT for action in self.actions)
 
 
 def decide_package(generation: Generation) -> Decision:
@@ -62,16 +64,17 @@ def decide_package(generation: Generation) -> Decision:
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
     if inputs.options.adopts:
-        actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
-    actions, undone = apply_undo(generation, actions, inputs.options.choices)
+        actions = tuple(_as_edit(action) if action.reason is Reason.UNOWNED else action for action in actions)
+    chosen = valid_choices(inputs.options.choices, actions)
+    actions, undone = apply_undo(generation, actions, chosen)
 
-    disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
     keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
     remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
-    choices = {**remembered, **inputs.options.choices}
+    choices = {**remembered, **chosen}
     conflicts = _without_misfits(generation, actions, conflicts, choices)
     actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     merged |= undone
@@ -79,13 +82,22 @@ def decide_package(generation: Generation) -> Decision:
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
-    numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
+    numbers = (
+        _renumbered(generation, actions, merged) if any(action.kind is Kind.CONFLICT for action in actions) else ()
+    )
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
     return Decision(
         held,
         {**orders, **merged},
-        tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
+        tuple(
+            conflicts[action.path] for action in actions if action.kind is Kind.CONFLICT and action.path in conflicts
+        ),
+        {
+            action.path: conflicts[action.path]
+            for action in actions
+            if action.reason is Reason.MOVE and action.path in conflicts
+        },
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(find_misfits(generation, held, merged)),
     )
@@ -93,7 +105,7 @@ def decide_package(generation: Generation) -> Decision:
 
 def _as_edit(action: Action) -> Action:
     """Keep a file that urdfsync did not write as an edit of the generated one."""
-    return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated)
+    return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
 
 
 def renamed(generation: Generation) -> Mapping[str, str]:
@@ -111,7 +123,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     mine, generated = files.text(key), generation.content(action.path).decode()
     record = generation.inputs.recorded_files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    bases = [base for one in hashes if one and (base := generation.base(key, one)) is not None]
+    bases = [base for one in hashes if one and (base := generation.inputs.base(one)) is not None]
     if mine is not None:
         found = find_conflict(action, bases, mine, generated, names)
         package = ".".join((generation.inputs.robot.target.package, *class_parts(generation.inputs.path(action.path))))
@@ -125,8 +137,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
 
 def _edited_text(inputs: Inputs, action: Action) -> str | None:
     """Return what the user has made of both sides of a file, as they are: now, or while the file waited."""
-    if action.path in inputs.options.choices:
-        return inputs.options.edited.get((action.path, sides_hash(action.mine, action.generated)))
+    if (action.path, action.sides) in inputs.options.choices:
+        return inputs.options.edited.get((action.path, action.sides))
     waiting = inputs.record.open.edited if inputs.record and inputs.record.open else {}
     return waiting.get(inputs.path(action.path))
 
@@ -148,8 +160,8 @@ def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple
         return generation.is_rendered(path, (action.base or "",))
 
     return tuple(
-        msgspec.structs.replace(action, kind=Kind.ORPHAN)
-        if action.kind in DELETES and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
+        msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        if action.kind is Kind.DELETE and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
         else action
         for action in actions
     )
@@ -196,7 +208,7 @@ def _without_misfits(
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
     """Keep what texts of the user's need."""
     used: Collection[str] = ()
-    if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
+    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
         from urdfsync.engine.needed import mentioned_files
 
         used = mentioned_files(generation, actions, merged)
@@ -207,7 +219,7 @@ def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mappi
     """Return the records of which only numbers change."""
     files, found = generation.inputs.files, set()
     for action in actions:
-        if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+        if action.reason in (Reason.UPDATE, Reason.MERGE) and action.role is Role.RECORD:
             text = merged.get(action.path) or generation.content(action.path).decode()
             if numbers_only(files.text(action.path) or "", text):
                 found.add(action.path)
@@ -238,9 +250,9 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
     staying = set()
     for action in actions:
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-        if action.kind in (Kind.ORPHAN, Kind.NEEDED) or (action.kind in _GONE and action.released):
+        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or (action.reason in _GONE and action.handed_to_user):
             staying.add((f"{folder}/package.order", name))
-        elif action.kind in _GONE and f"{folder}/package.order" in lines:
+        elif action.reason in _GONE and f"{folder}/package.order" in lines:
             lines[f"{folder}/package.order"].append(name)
     return {key: tuple(name for name in names if (key, name) not in staying) for key, names in lines.items()}
 
@@ -249,7 +261,7 @@ def _lines_of_gone_classes(
     inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
 ) -> dict[str, tuple[str, ...]]:
     """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
-    deleted, inside, found = {one.path for one in actions if one.kind in DELETES}, f"{inputs.folder}/", {}
+    deleted, inside, found = {one.path for one in actions if one.kind is Kind.DELETE}, f"{inputs.folder}/", {}
     for key, names in lines.items():
         folder = key.removesuffix("package.order")
         files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
@@ -270,6 +282,14 @@ def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[s
     return sorted(name for name in found.difference(names) if is_identifier(name))
 
 
+def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
+    """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
+    files = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
+    folder = order.removesuffix("package.order")
+    names = (path.removeprefix(folder).removesuffix(".mo") for path in files if path.startswith(folder))
+    return [name for name in names if is_identifier(name)]
+
+
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
@@ -288,11 +308,12 @@ def _decide_orders(
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         if inputs.options.adopts and old is None:
             names = (*names, *_users_classes(inputs, key, names))
+        names = (*names, *_returning_classes(actions, key))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
-            kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE
+            kind = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:
-            kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
+            kind = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
         found.append(Action(key, kind, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, owned))
@@ -300,8 +321,8 @@ def _decide_orders(
         key = files.key(one.path)
         if one.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
-            found.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
+            found.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, one.names):
-            kind = Kind.CREATE if old is None else Kind.UPDATE
+            kind = Reason.CREATE if old is None else Reason.UPDATE
             found.append(Action(key, kind, Role.ORDER, "parent package"))
     return found, texts, [*shared, *inputs.parents.shared]

@@ -6,7 +6,6 @@ has changed.
 
 from __future__ import annotations
 
-import glob
 import os
 import re
 import shlex
@@ -17,10 +16,10 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import depend_on, mark_incomplete, read_file, read_variable
+from urdfsync.dependencies import read_file, read_variable
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine import ros_packages
-from urdfsync.engine.xacro_worker import Answer, Problem, Request
+from urdfsync.engine.xacro_worker import Answer, Problem, Request, find_matches
 from urdfsync.extras import install_command
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.processes import exit_cause, importable, python_module
@@ -49,16 +48,14 @@ class Inputs:
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
         self.root, self.source, self.package_paths = root, source, tuple(package_paths)
-        self._packages: dict[str, Path | None] = {}
+        self._packages = ros_packages.Packages(self.package_paths, source)
 
     def path(self, name: str) -> Path | None:
         """Return the path of a file by its name; None if its package is not on this machine."""
         if not name.startswith(_PACKAGE):
             return Path(os.path.normpath(self.root / name))
         package, _, rest = name.removeprefix(_PACKAGE).partition("/")
-        if package not in self._packages:
-            self._packages[package] = ros_packages.find_package(package, self.package_paths, self.source)
-        folder = self._packages[package]
+        folder = self._packages.folder(package)
         return folder / rest if folder else None
 
     def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
@@ -126,11 +123,8 @@ def file_hash(path: Path) -> str | None:
 
 def names_hash(pattern: Path) -> str:
     """Return a hash of the names of files that match a pattern."""
-    if glob.has_magic(str(pattern.parent)):
-        mark_incomplete()  # which folders are looked through is not recorded
-    depend_on(pattern.parent)
-    names = sorted(Path(path).name for path in glob.glob(str(pattern)))  # noqa: PTH207 - as xacro does
-    return digest("\0".join(names).encode(errors="surrogateescape"))
+    names = "\0".join(os.path.basename(path) for path in find_matches(str(pattern)))  # noqa: PTH119
+    return digest(names.encode(errors="surrogateescape"))
 
 
 def variable_hash(name: str) -> str | None:

@@ -5,24 +5,22 @@ Of the package of the last complete build, texts whose template and data are sti
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from functools import cached_property
-from typing import Any
 
 import msgspec
 
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ElementKey, Role, Snapshot, Target, Version
+from urdfsync.domain import ElementKey, Role, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import NO_MODEL, Inputs
 from urdfsync.engine.renames import check_declared, find_renames_since
 from urdfsync.engine.rules import DesiredFile
-from urdfsync.files import normalised, shown, text_digest
+from urdfsync.files import shown
 from urdfsync.state.record import role_of
 
 
@@ -38,15 +36,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
-    last_packages: tuple[Package, ...]
-    """The package of the recorded model, from today's templates; several if it is not known which model that is."""
     changed: frozenset[str]
     """Paths below the package whose text may differ from that of the last complete build."""
-
-    @property
-    def last_package(self) -> Package | None:
-        """The package of the last complete build; None if it is not known."""
-        return self.last_packages[0] if len(self.last_packages) == 1 and self.inputs.last else None
 
     def _recorded_hash(self, path: str) -> str | None:
         """Return the recorded hash of a text that is as in the last complete build."""
@@ -63,40 +54,23 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         """Return what would be written."""
         path = self.inputs.path(key)
         recorded = self._recorded_hash(path)
-        known = None if recorded is None else self.inputs.bases.get(recorded)
+        known = None if recorded is None else self.inputs.base(recorded)
         return self.package.content(path) if known is None else known.encode()
 
-    def base(self, key: str, sha256: str) -> str | None:
-        """Return the text with this hash that was written last at a key of the last build; None if it is lost.
-
-        It may be kept, recorded, on disk, or rendered again. A file that the user moved has its base under the key that
-        it had.
-        """
-        # from the cheapest to the dearest; what does not have the hash is never taken, so the order changes no result
-        inputs = self.inputs
-        known = inputs.bases.get(sha256) or (inputs.record.texts.get(sha256) if inputs.record else None)
-        if known is not None and text_digest(known.encode()) == sha256:
-            return known
-        same = [other for other, record in inputs.recorded_files.items() if sha256 in record.hashes]
-        for place in dict.fromkeys((key, *same)):
-            mine, path = inputs.files.read(place), inputs.old_path(place)
-            if mine is not None and text_digest(mine) == sha256:
-                return normalised(mine).decode(errors="surrogateescape")
-            for package in (*self.last_packages, self.package):
-                if path in package.artifacts and package.hash(path) == sha256:
-                    return package.content(path).decode()
-        return None
-
     def is_rendered(self, path: str, hashes: Collection[str]) -> bool:
-        """Whether one of these hashes is that of a text that was written last, as it is rendered here."""
-        packages = (package for package in (*self.last_packages, *self._seen_packages) if path in package.artifacts)
+        """Whether one of these hashes is that of a text which the recorded models give at a path of the last build.
+
+        That proves that urdfsync wrote it. Hashes in the record, and texts in the bases, may be a stranger's.
+        """
+        packages = (package for package in self._recorded_packages if package and path in package.artifacts)
         return any(package.hash(path) in hashes for package in packages)
 
     @cached_property
-    def _seen_packages(self) -> tuple[Package, ...]:
-        """The package of the model last seen: builds that are not complete have renewed files from it."""
+    def _recorded_packages(self) -> tuple[Package | None, ...]:
+        """The packages of the last complete build, and of the model last seen, by which later builds renewed files."""
         record = self.inputs.record
-        return tuple(_recorded_packages(self.inputs, [record.open.seen])) if record and record.open else ()
+        seen = self.inputs.recorded_package(record.open.seen) if record and record.open else None
+        return self.inputs.last_package, seen
 
     def desired_files(self) -> dict[str, DesiredFile]:
         """Return every file that the package should have, by key."""
@@ -110,10 +84,10 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     def recorded_roles(self) -> dict[str, tuple[Role, str]]:
         """Return role and owner of each recorded file, by key."""
-        found = {}
+        found, last = {}, self.inputs.last_package
         for key in self.inputs.recorded_files:
             path = self.inputs.old_path(key)
-            artifact = next((p.artifacts[path] for p in self.last_packages if path in p.artifacts), None)
+            artifact = last.artifacts.get(path) if last else None
             found[key] = (artifact.role, artifact.owner) if artifact else (role_of(path), "")
         return found
 
@@ -126,12 +100,21 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return orders
 
     def recorded_orders(self) -> dict[str, tuple[str, ...]]:
-        """Return the lines of each `package.order` that follow from the last complete build, by key."""
+        """Return the lines of each `package.order` that follow from the last complete build, by key.
+
+        Without its model they are those of the recorded files: their order is lost then.
+        """
         inputs, found = self.inputs, dict[str, tuple[str, ...]]()
-        if inputs.record is None or not inputs.record.snapshots:
+        if inputs.record is None or (inputs.record.snapshot is None and not inputs.record.is_united):
             return found
-        for package in self.last_packages:
-            found |= {inputs.old_key(path): names for path, names in package.orders.items()}
+        if inputs.last_package:
+            found = {inputs.old_key(path): names for path, names in inputs.last_package.orders.items()}
+        else:
+            for key in inputs.recorded_files:
+                folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+                if f"{folder}/".startswith(inputs.old_key("")) and key.endswith(".mo"):
+                    order = f"{folder}/package.order"
+                    found[order] = (*found.get(order, ()), name)
         if "." in inputs.old_target.package:
             above, _, name = inputs.old_folder.rpartition("/")
             found[f"{above}/package.order" if above else "package.order"] = (name,)
@@ -174,7 +157,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def moves(self) -> dict[str, str]:
         """New and old key of text files whose element was renamed, or whose package moved."""
-        inputs, last = self.inputs, self.last_package
+        inputs, last = self.inputs, self.inputs.last_package
         hashes = {inputs.old_path(key): one.hashes for key, one in inputs.recorded_files.items() if not one.is_users}
         texts = set(hashes)
         if inputs.has_moved:  # the record may be a stranger's, and the folder the user's
@@ -194,10 +177,9 @@ def generate_robot(inputs: Inputs) -> Generation:
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
     domain, robot, options = inputs.domain, inputs.robot, inputs.options
-    last_packages = tuple(_recorded_packages(inputs, inputs.record.snapshots if inputs.record else ()))
     if options.removes:
         nothing = Package((), inputs.templates, robot.target.package)
-        return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, last_packages, frozenset())
+        return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, frozenset())
     snapshot, reading = source.read(domain, robot.options, inputs.source.content, shown(robot.source))
     found = (
         *inputs.source.diagnostics,
@@ -223,25 +205,9 @@ def generate_robot(inputs: Inputs) -> Generation:
         ),
     )
     now = Version(snapshot, imported.imports)
-    package = _package(inputs, now, robot.target, robot.options)
-    changed = frozenset(package.artifacts)
-    is_complete = inputs.record is not None and inputs.record.open is None and not inputs.written
-    if is_complete and last_packages and inputs.has_same_generator and not options.full:
-        changed = package.changed_since(last_packages[0])
-    return Generation(inputs, now, reading.lines, tuple(found), imported, package, last_packages, changed)
-
-
-def _recorded_packages(inputs: Inputs, snapshots: Iterable[Snapshot]) -> Iterator[Package]:
-    """Yield the package of each recorded model, as far as it can be generated."""
-    record = inputs.record
-    if record is None or record.generator.domain != inputs.robot.domain:
-        return
-    for snapshot in snapshots:
-        with contextlib.suppress(*NO_MODEL):
-            options = inputs.recorded_options or inputs.robot.options
-            yield _package(inputs, inputs.version(record, snapshot), inputs.old_target, options)
-
-
-def _package(inputs: Inputs, version: Version, target: Target, options: Any) -> Package:
-    """Generate the package of a model."""
-    return generate(inputs.domain, version.snapshot, version.imports or {}, target, options, inputs.templates)
+    package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
+    changed, record = frozenset(package.artifacts), inputs.record
+    is_known = record is not None and record.open is None and not record.is_united and not inputs.written
+    if is_known and inputs.last_package and inputs.has_same_generator and not options.full:
+        changed = package.changed_since(inputs.last_package)
+    return Generation(inputs, now, reading.lines, tuple(found), imported, package, changed)

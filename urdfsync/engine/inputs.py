@@ -15,8 +15,9 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, 
 from urdfsync.domain import Dependency, Domain, Lookup, Snapshot, Target, Templates, Version
 from urdfsync.engine import imports, parents, source
 from urdfsync.engine.actions import Action
+from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import Parents
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
@@ -99,7 +100,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
         `actions` are those on all files of urdfsync's; `written` are texts that files are about to get.
         """
-        own = self.files.classes(self.folder) - {action.path for action in actions if not action.released}
+        own = self.files.classes(self.folder) - {action.path for action in actions if not action.handed_to_user}
         keys = {action.path for action in edited} | own
         return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
 
@@ -110,17 +111,19 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         return find_users_files(self.config, self.robot, names, former)
 
-    @cached_property
-    def bases(self) -> Mapping[str, str]:
-        """The texts that urdfsync wrote last, by their hashes, as far as they are kept: those of edited files."""
-        kept = self.store.bases(self.former_name or self.robot.name)
-        aside = (one.base for one in self.replaced.values() if one.base)
-        return {text_hash(text): text for text in aside} | kept
+    @property
+    def last_name(self) -> str:
+        """The robot's name in the last build."""
+        return self.former_name or self.robot.name
+
+    def base(self, sha256: str) -> str | None:
+        """Return the text with this hash that was generated last; None if it is lost."""
+        return self.store.base(self.last_name, sha256)
 
     @cached_property
     def replaced(self) -> Mapping[str, Replaced]:
         """What stood in files that the last build wrote over, by path below the package."""
-        return replaced.read(self.store.contents(REPLACED, self.former_name or self.robot.name))
+        return replaced.read(self.store.contents(REPLACED, self.last_name))
 
     @property
     def has_same_generator(self) -> bool:
@@ -128,7 +131,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         record = self.record
         return bool(
             record
-            and not record.is_ambiguous
             and record.generator == self.generator
             and self.old_target == self.robot.target
             and record.options == option_values(self.robot.options)
@@ -136,10 +138,28 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def last(self) -> Version | None:
-        """The model of the last complete build; None if there was none, or it is lost."""
-        if self.record is None or self.record.snapshot is None:
+        """The model of the last complete build; None if there was none, or it is lost, or united and not whole."""
+        record = self.record
+        if record is None or record.snapshot is None or (record.is_united and self.last_package is None):
             return None
-        return self.version(self.record, self.record.snapshot)
+        return self.version(record, record.snapshot)
+
+    @cached_property
+    def last_package(self) -> Package | None:
+        """The package of the last complete build, from today's templates; None if it is not known."""
+        return self.recorded_package(self.record.snapshot) if self.record and self.record.snapshot is not None else None
+
+    def recorded_package(self, snapshot: Snapshot) -> Package | None:
+        """Return the package of a recorded model; None if there can't be one, as of a model that is not whole."""
+        record = self.record
+        if record is None or record.generator.domain != self.robot.domain:
+            return None
+        options = self.recorded_options or self.robot.options
+        try:
+            imported = self.version(record, snapshot).imports or {}
+            return generate(self.domain, snapshot, imported, self.old_target, options, self.templates)
+        except (*NO_MODEL, OutputError):
+            return None
 
     def version(self, record: Record, snapshot: Snapshot) -> Version:
         """Return a recorded model with its imports."""
@@ -201,7 +221,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         former = next((name for name, its_folder in orphaned_robots(store, config) if its_folder == folder), None)
         record = store.load(former) if former else None
-    if options.adopts and record and record.snapshots:
+    if options.adopts and record and (record.snapshot is not None or record.is_united):
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]
         raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))

@@ -32,8 +32,6 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
     expansions: dict[str, Expansion] = msgspec.field(default_factory=dict)
     """Sources that this command, or the daemon, has expanded, by robot: the daemon judges a source, then builds it."""
-    compares_state: bool = False
-    """Find out in a dry run, too, whether a build would write to the recorded state: `Result.renews_state`."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False
@@ -44,10 +42,10 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Where to look for packages after the configured folders."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
-    choices: Mapping[str, Choice] = msgspec.field(default_factory=dict)
-    """The user's decisions about files in conflict, by their keys."""
+    choices: Mapping[tuple[str, str], Choice] = msgspec.field(default_factory=dict)
+    """The user's decisions about files, by their keys and by `Action.sides`: each holds for the texts that he saw."""
     edited: Mapping[tuple[str, str], str] = msgspec.field(default_factory=dict)
-    """What the user has made of files in conflict, by their keys and by `sides_hash` of the texts that he had."""
+    """What the user has made of files in conflict, by their keys and by `Action.sides`."""
     jobs: int | None = None
     """Processes that may work at once; None for one per core."""
     executor: str = ""

@@ -36,7 +36,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
         return {}
     keys = [key for key, record in inputs.recorded_files.items() if record.hashes and key.endswith(".mo")]
     tops = (key for key in keys if "/" not in inputs.old_path(key))
-    texts = (generation.base(key, inputs.recorded_files[key].generated) or "" for key in tops)
+    texts = (inputs.base(inputs.recorded_files[key].generated) or "" for key in tops)
     known, declared_before = known_names(generation), declared_names(texts)
     old = (declared_before | frozenset(map(class_of, keys))) - known
     # the same name is the class of a link, and of a joint: only names of parts are those of one element alone

@@ -20,11 +20,11 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
-        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale)
+        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale, is_noop=True)
     with inputs.source.locating():
         generation = generate_robot(inputs)
     decision = decide_package(generation)
-    is_still = decision.is_complete and not any(action.writes for action in decision.actions)
-    if options.full or options.draw or not is_still:
+    plan = stage(generation, decision, find_all(generation, decision))
+    if options.full or options.draw or not plan.is_noop:
         dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
-    return stage(generation, decision, find_all(generation, decision))
+    return plan

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, IN_STEP, Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind, Reason
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -54,15 +54,15 @@ class Result(msgspec.Struct, frozen=True):
     """It failed half way, and what was begun could not be put back: the next build does that."""
     dry: bool = False
     """Nothing was written, whatever the actions say."""
-    renews_state: bool = False
-    """A build writes to the recorded state that is committed; see `BuildOptions.compares_state`."""
+    writes: bool = False
+    """The build has written files or the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
     """What has changed since the source was expanded, if it was not expanded now: the rest goes by the old text."""
     is_broken: bool = False
     """A file of the package that the user edited does not fit it, or is no Modelica."""
     drawing: Path | None = None
     changes: Changes | None = None
-    """What changed in the model since the last build; None if nothing did, or there is none to compare with."""
+    """What changed in the model since the last build that wrote; None if nothing did, or nothing is known of it."""
     conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
@@ -71,27 +71,30 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def conflicts(self) -> list[Action]:
         """The files that were left alone although they should be otherwise."""
-        return [action for action in self.actions.decided if action.kind in CONFLICTS]
+        return [action for action in self.actions.decided if action.kind is Kind.CONFLICT]
 
     @property
     def in_step(self) -> bool:
-        """Whether every file was what it should be before the build, and every edit fits."""
+        """Whether the package is in step now: a build would write nothing, and nothing is in conflict or broken.
+
+        All commands, hooks and documents read this one value.
+        """
         return self.are_files_in_step and not self.is_broken
 
     @property
     def are_files_in_step(self) -> bool:
-        """Whether every file was what it should be before the build, edits apart."""
-        return not (self.failed or self.stale) and all(action.kind in IN_STEP for action in self.actions.decided)
+        """The same, whether the user's edits fit or not."""
+        return not (self.failed or self.stale or self.conflicts or (self.dry and self.writes))
 
     @property
-    def is_in_step_now(self) -> bool:
-        """The same of the time after it: a build that wrote has brought all in step but for conflicts and misfits."""
-        return self.in_step if self.dry else not (self.failed or self.conflicts or self.is_broken)
+    def effective_changes(self) -> Changes | None:
+        """The changes of the model that a build writes, or that wait for a conflict; `diff` shows the others, too."""
+        return self.changes if self.writes or self.conflicts else None
 
     @property
     def is_first(self) -> bool:
         """Whether no build has written any file of the package before."""
-        new = any(action.kind is Kind.CREATE for action in self.actions)
+        new = any(action.reason is Reason.CREATE for action in self.actions)
         return new and all(action.base is None for action in self.actions)
 
 
@@ -109,4 +112,4 @@ def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
         return Exit.CONFLICT
     if any(result.is_broken for result in results):
         return Exit.OUT_OF_STEP
-    return Exit.OUT_OF_STEP if check and not all(result.in_step for result in results) else Exit.IN_STEP
+    return Exit.IN_STEP if not check or all(result.in_step for result in results) else Exit.OUT_OF_STEP

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -31,17 +32,33 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
     return found
 
 
-def find_package(name: str, folders: Sequence[Path], source: Path) -> Path | None:
-    """Return the folder of a ROS package: around `source`, beside it, below `folders`; None if there is none.
+class Packages:
+    """The ROS packages that one source may name. All folders are looked through once, however many names there are."""
 
-    A folder without `package.xml` counts if it has the name and nothing else does, as for meshes.
-    """
-    named = [folder / name for folder in (*folders, *source.parents)]
-    near = [*source.parents, *named]
-    if found := next((folder for folder in near if _package_name(folder) == name), None):
-        return found
-    plain = [*named, *(folder for folder in source.parents if folder.name == name)]
-    return find(folders, source).get(name) or next(filter(is_folder, plain), None)
+    def __init__(self, folders: Sequence[Path], source: Path) -> None:
+        self.folders, self.source = folders, source
+        self._named: dict[str, Path | None] = {}
+
+    def folder(self, name: str) -> Path | None:
+        """Return the folder of a package: around the source, beside it, below the folders; None if there is none.
+
+        A folder without `package.xml` counts if it has the name and nothing else does, as for meshes.
+        """
+        if name not in self._named:
+            self._named[name] = None if "\0" in name else self._find(name)  # it may be a stranger's
+        return self._named[name]
+
+    @functools.cached_property
+    def _all(self) -> Mapping[str, Path]:
+        return find(self.folders, self.source)
+
+    def _find(self, name: str) -> Path | None:
+        named = [folder / name for folder in (*self.folders, *self.source.parents)]
+        near = [*self.source.parents, *named]
+        if found := next((folder for folder in near if _package_name(folder) == name), None):
+            return found
+        plain = [*named, *(folder for folder in self.source.parents if folder.name == name)]
+        return self._all.get(name) or next(filter(is_folder, plain), None)
 
 
 def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:

@@ -29,10 +29,23 @@ if TYPE_CHECKING:
 MAX_TEMPLATE = 10_000_000
 """Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
 
+_COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
+_XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """Lines that a message names."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
 """Why a source is stale of which there is no expansion."""
+
+
+def is_xacro(file: Path, content: bytes) -> bool:
+    """Return whether a file is xacro, by its name or since it has elements that URDF does not explain.
+
+    A URDF that xacro has expanded may have such elements, in comments and as leftovers: beside links, without `${…}`.
+    """
+    if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
+        return file.suffix == ".xacro"
+    text = _COMMENT.sub(b"", content)
+    return b"<xacro:" in text and (b"<link" not in text or _XACRO.search(text) is not None)
 
 
 class Source(msgspec.Struct, frozen=True):
@@ -92,8 +105,10 @@ def read_source(
     Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
     that is not trusted.
     """
-    if not (robot.is_xacro or robot.command):
-        return Source(_read(config, robot), shown(robot.source))
+    if not robot.command:
+        content = _read(config, robot)  # says what is wrong with a file that xacro can't read
+        if robot.arguments is None and not is_xacro(robot.source, content):
+            return Source(content, shown(robot.source))
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
@@ -102,9 +117,7 @@ def read_source(
         if not (stale := inputs.find_changes(robot, one)):
             known = one
             break
-    if not robot.command:
-        _read(config, robot)  # says what is wrong with a file that xacro can't read
-    elif not is_file(robot.source):
+    if robot.command and not is_file(robot.source):
         known, stale = None, stale or (robot.source.name,)
     # a dry run writes nothing, and a command writes the source
     if options.expands and not (robot.command and options.dry) and (known is None or options.full):
@@ -140,13 +153,13 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
 
 
 def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
-    """Read a source that is no robot's. Raises SourceError."""
+    """Read a source that is no robot's, with these arguments if it is xacro. Raises SourceError."""
     try:
         content = read_unrecorded(file)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
-    if not (arguments or file.suffix == ".xacro"):
+    if not is_xacro(file, content):
         return Source(content, shown(file))
     from urdfsync.engine import expansion
 
@@ -154,7 +167,7 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
     inputs = expansion.Inputs(place.parent, place, package_paths)
     known = expansion.expand(inputs, arguments)
     told = expansion.warnings(known, file, (shown(file), 0))
-    return Source(known.text.encode(), shown(file), inputs.places(known), told)
+    return Source(known.text.encode(), shown(file), inputs.places(known), told, known)
 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:

@@ -10,20 +10,22 @@ import msgspec
 from urdfsync.changes import Changes
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.domain import Role
-from urdfsync.engine.actions import DELETES, USERS, Action, Actions, Kind
+from urdfsync.domain import ChangeClass, Role
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import option_values
-from urdfsync.engine.package_files import encode
+from urdfsync.engine.package_files import encode, text_hash
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.rules import files_after, pending_choices, renewed_files
 from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
 from urdfsync.state import replaced
-from urdfsync.state.record import RESOURCES, Choice, FileRecord, Open, Record, role_of
-from urdfsync.state.store import BASE, CONFLICTS, REPLACED, Witness
+from urdfsync.state.bases import DIGITS
+from urdfsync.state.record import Choice, FileRecord, Open, Record
+from urdfsync.state.replaced import Replaced
+from urdfsync.state.store import CONFLICTS, REPLACED, Witness
 from urdfsync.state.transaction import FileChange
 
 
@@ -40,7 +42,9 @@ class Plan(msgspec.Struct, frozen=True):
     changes: Changes | None = None
     """What is new in the model."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write, the record last; none in a dry run, unless it compares the recorded state."""
+    """The files to write but for the shared ones, the record last."""
+    is_noop: bool = False
+    """The build writes nothing that version control has: no file of the package, and no recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
     is_broken: bool = False
@@ -52,7 +56,7 @@ class Plan(msgspec.Struct, frozen=True):
 
 
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
-    """Return the plan, with all that is to be written unless the run is dry."""
+    """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
     store, former, news = inputs.store, inputs.former_name, generation.changes
     if news and not (news.changes or news.generator):
@@ -60,15 +64,12 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
     is_broken = any(one.is_broken for one in decision.misfits)
     plan = msgspec.structs.replace(plan, stale=inputs.source.stale, is_broken=is_broken)
-    if inputs.options.dry and not inputs.options.compares_state:
-        return plan
     record = _record(generation, decision)
-    changes = _file_changes(generation, decision, record.files if record else {})
+    files_changed = _file_changes(generation, decision, record.files if record else {})
     versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
     aside = {path: encode(text) for version in versions for path, text in version}
-    changes += store.fill(CONFLICTS, robot.name, aside, former)
-    changes += store.fill(BASE, robot.name, _bases(generation, decision, record) if record else {}, former)
-    before = put_aside(generation, decision.actions, decision.texts) if record else {}
+    changes = store.fill(CONFLICTS, robot.name, aside, former)
+    before = put_aside(generation, decision.actions, decision.texts, decision.moved) if record else {}
     changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
 
     drawing = None
@@ -79,9 +80,11 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing, more = store.drawing(robot.name, picture)
             changes += more
 
+    state = _base_changes(generation, decision, record, before)
     if record and not inputs.source.stale:
-        changes += store.save_expansion(robot.name, inputs.source.expansion)
-    changes += store.changes(robot.name, record, former)
+        state += store.save_expansion(robot.name, inputs.source.expansion)
+    state += store.changes(robot.name, record, former)
+    changes = [*files_changed, *changes, *state]
     above = {files.path(inputs.old_folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
     emptied = [one for one in folders if not above.isdisjoint(one.parents)]
@@ -89,6 +92,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         plan,
         witness=store.witness(),  # again: more of the recorded state has been read since
         writes=tuple(changes),
+        is_noop=not state and not any(action.writes for action in decision.actions),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         drawing=drawing,
     )
@@ -98,7 +102,24 @@ def _record(generation: Generation, decision: Decision) -> Record | None:
     """Return the record after a build; None for a robot that is removed."""
     if generation.inputs.options.removes:
         return None
-    return _complete_record(generation, decision) if decision.is_complete else _open_record(generation, decision)
+    if not decision.is_complete:
+        return _open_record(generation, decision)
+    record = _complete_record(generation, decision)
+    old = generation.inputs.record
+    return old if old is not None and _serves(old, record, generation) else record
+
+
+def _serves(old: Record, new: Record, generation: Generation) -> bool:
+    """Return whether all later decisions are the same with the record that is there.
+
+    What no file of the package says is not worth a commit: extensions that nothing models, options without effect.
+    """
+    changes = generation.changes
+    if old.open or old.is_united or old.snapshot is None or changes is None:
+        return False
+    is_said = any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in changes.changes)
+    like_old = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    return not is_said and like_old == old
 
 
 def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[str, FileRecord]) -> list[FileChange]:
@@ -110,7 +131,7 @@ def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
         if action.writes and action.path not in shared:
-            content = None if action.kind in DELETES else _content(generation, decision, action)
+            content = None if action.kind is Kind.DELETE else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
             old, file = state.sha256 if state else None, recorded.get(action.path)
@@ -137,28 +158,21 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
 
 def _complete_record(generation: Generation, decision: Decision) -> Record:
     """Return the record of a build after which nothing is open."""
-    inputs, texts = generation.inputs, dict[str, str]()
+    inputs = generation.inputs
     inside = inputs.key("")
     old = {
         key: one for key, one in inputs.recorded_files.items() if not one.is_users or is_file(inputs.files.path(key))
     }
     files = files_after(decision.actions, old)
-    for action in decision.actions:
-        is_left = action.kind in (Kind.ORPHAN, Kind.NEEDED)
-        if is_left and action.path.startswith(inside) and action.role is not Role.IMPORT:
-            for base in files[action.path].hashes:
-                if (text := generation.base(action.origin or action.path, base)) is not None:
-                    texts[base] = text
     return Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
         folder=inputs.folder,
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        snapshots=(generation.now.snapshot,),
+        snapshot=generation.now.snapshot,
         imports={key: (one,) for key, one in generation.imported.imports.items()},
         files={key: one for key, one in files.items() if key.startswith(inside)},
-        texts=texts,
     )
 
 
@@ -175,10 +189,6 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
     renewed = {} if inputs.has_moved else renewed_files(decision.actions)
     renewed = {key: one for key, one in renewed.items() if key.startswith(inside) and record.files.get(key) != one}
     files = {**record.files, **renewed}
-    imported = inputs.key(RESOURCES)
-    texts = {one.hashes[0]: generation.content(key).decode() for key, one in renewed.items() if imported not in key}
-    hashes = {sha256 for file in files.values() for sha256 in file.hashes}
-    texts = {sha256: text for sha256, text in {**record.texts, **texts}.items() if sha256 in hashes}
     known = record.open.imports if record.open else {}
     imports = {
         key: one
@@ -193,24 +203,38 @@ def _open_record(generation: Generation, decision: Decision) -> Record:
     }
     seen = generation.now.snapshot
     open_ = Open(choices, seen, generation.recognised_renames, edited, {**known, **imports})
-    return msgspec.structs.replace(record, files=files, texts=texts, open=open_)
+    return msgspec.structs.replace(record, files=files, open=open_)
 
 
-def _bases(generation: Generation, decision: Decision, record: Record) -> dict[str, bytes]:
-    """Return the bases of edited files by their hashes, as far as they are not lost: templates may change."""
-    inputs, found = generation.inputs, dict[str, bytes]()
-    for action in decision.actions:
-        if not (action.kind in USERS or (action.held and action.choice)):
-            continue
-        key = action.path if action.writes else action.origin or action.path
-        text_after = (action.result or action.generated) if action.writes else action.mine
-        if key not in record.files or text_after in record.files[key].hashes:
-            continue
-        path = key.removeprefix(f"{record.folder}/")
-        for sha256 in record.files[key].hashes if role_of(path) is not Role.IMPORT else ():
-            text = generation.base(key, sha256)
-            if text is None and path in generation.package.artifacts and generation.hash(path) == sha256:
-                text = generation.content(inputs.key(path)).decode()
-            if text is not None and sha256 not in record.texts:
-                found[sha256] = encode(text)
+def _base_changes(
+    generation: Generation, decision: Decision, record: Record | None, aside: Mapping[str, Replaced]
+) -> list[FileChange]:
+    """Return how the texts that the record mentions get to the bases, and how old ones go.
+
+    Looked at are the files of bases for new hashes, and those that are not there; all in a full build, and where git
+    has united states. Once no state mentions a text, neither the record before nor the one after, it goes when its file
+    is written; that alone is no reason to write it.
+    """
+    inputs, store, name = generation.inputs, generation.inputs.store, generation.inputs.robot.name
+    if record is None:
+        names = {name, inputs.last_name}
+        return [one for robot in names for digit in DIGITS for one in store.save_bases(robot, digit, None)]
+    before = [*(inputs.record.files if inputs.record else {}).values(), *inputs.written.values()]
+    old = {sha256 for file in before if file for sha256 in file.hashes}
+    new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
+    is_whole = inputs.options.full or inputs.former_name or inputs.record is None or inputs.record.is_united
+    renewed = {sha256[0] for sha256 in new.keys() - old} | store.missing_bases(name)
+    needed = {*old, *new, *(text_hash(one.base) for one in aside.values() if one.is_users and one.base)}
+    found = list[FileChange]()
+    for digit in DIGITS if is_whole else sorted(renewed):
+        texts = dict(store.bases(inputs.last_name, digit))
+        for sha256 in [one for one in new if one[0] == digit and one not in texts]:
+            path = inputs.path(new[sha256])
+            if path in generation.package.artifacts and generation.package.hash(path) == sha256:
+                texts[sha256] = generation.package.content(path).decode()
+        if decision.is_complete and store.save_bases(name, digit, texts):
+            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
+        found += store.save_bases(name, digit, texts)
+        if inputs.former_name:
+            found += store.save_bases(inputs.former_name, digit, None)
     return found

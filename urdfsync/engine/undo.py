@@ -6,15 +6,16 @@ stays as long as the merged file is not saved.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import text_hash
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, role_of, sides_hash
 from urdfsync.state.replaced import Replaced
 
 _MANY = 100
@@ -25,11 +26,14 @@ def apply_undo(
     generation: Generation, actions: Iterable[Action], choices: Mapping[str, Choice]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Undo merges where the user chose that. Returns the actions, and the texts of what is undone by path."""
-    inputs = generation.inputs
+    inputs, actions = generation.inputs, tuple(actions)
     found = tuple(
         _undone(generation, action) if choices.get(action.path) is Choice.UNDO else action for action in actions
     )
-    return found, {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
+    found += tuple(_find_deleted(generation, {action.path for action in actions}))
+    return found, {
+        one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.reason is Reason.UNDO
+    }
 
 
 def _undone(generation: Generation, action: Action) -> Action:
@@ -41,14 +45,29 @@ def _undone(generation: Generation, action: Action) -> Action:
     if not one.is_users or action.mine != after or action.base != action.generated:
         return action
     result = text_hash(one.before)
-    return msgspec.structs.replace(action, kind=Kind.UNDO, choice=Choice.UNDO, result=result)
+    return msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO, result=result)
 
 
-def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, Replaced]:
-    """Return what is put aside after a build, by path; `texts` has those of merged files by key."""
+def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Action]:
+    """Yield the actions that give back files of the user's which a build has deleted: they are his own then."""
+    inputs, no_file = generation.inputs, sides_hash(None, None)
+    for (key, sides), choice in inputs.options.choices.items():
+        path = inputs.path(key)
+        if choice is not Choice.UNDO or sides != no_file or key in known or path not in inputs.replaced:
+            continue
+        role = role_of(path)
+        if inputs.files.on_disk(key, role) is None:
+            result = text_hash(inputs.replaced[path].before)
+            yield Action(key, Reason.UNDO, role, choice=choice, result=result)
+
+
+def put_aside(
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
+) -> dict[str, Replaced]:
+    """Return what is put aside after a build, by path; `texts` has merged files, `moved` those that move, by key."""
     inputs, files = generation.inputs, generation.inputs.files
     actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
-    new = dict(_written_over(generation, actions, texts))
+    new = dict(_written_over(generation, actions, texts, moved))
     untouched = [path for path, one in new.items() if not one.is_users]
     for path in untouched if len(untouched) > _MANY else ():
         del new[path]
@@ -57,20 +76,26 @@ def put_aside(generation: Generation, actions: Iterable[Action], texts: Mapping[
     settled = {inputs.path(action.path) for action in actions if action.choice in (Choice.KEEP, Choice.UNDO)}
     for path, one in inputs.replaced.items():
         after = files.text(inputs.key(path))
-        stands = after is not None and one.after in (None, after)
+        stands = after is None or one.after in (None, after)
         if path not in settled and (not is_writing or (one.is_users and stands)):
             found[path] = one
     return found | new
 
 
 def _written_over(
-    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str]
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
 ) -> Iterator[tuple[str, Replaced]]:
     inputs, files = generation.inputs, generation.inputs.files
     for action in actions:
-        if action.writes and action.mine and action.kind in (Kind.UPDATE, Kind.MERGE) and action.origin is None:
+        is_taken = action.reason is Reason.DELETE and action.choice is Choice.TAKE
+        is_replaced = action.reason in (Reason.UPDATE, Reason.MERGE) and action.origin is None
+        if action.writes and action.mine and (is_taken or is_replaced):
             before = files.text(action.path) or ""
             base = before if action.mine == action.base else None
             if base is None and action.base:
-                base = generation.base(action.path, action.base)
+                base = inputs.base(action.base)
             yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
+        elif action.writes and action.path in moved:
+            one, after = moved[action.path], texts.get(action.path)
+            if one.kept != after:
+                yield inputs.path(action.path), Replaced(one.kept, one.base, after)

@@ -1,7 +1,7 @@
 """The program that expands one xacro file, within limits; `expansion` starts it.
 
-xacro evaluates expressions of Python, so a file is a program. What it does not need is refused here: the network, other
-programs, and writing. Python's own evaluation is no wall against somebody who means it (see SECURITY.md).
+A file of xacro may be a stranger's. It reads files and environment variables, which are recorded here;
+`xacro_expressions` sees to it that its expressions of Python do nothing else.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ import types
 import xml.dom
 import xml.dom.minidom
 from collections.abc import Iterator, Mapping
+from fnmatch import filter as filter_names
+from glob import has_magic
 from pathlib import Path
 from typing import IO, Any, cast
 from xml.dom import expatbuilder
@@ -25,7 +27,7 @@ from xml.parsers import expat
 
 import msgspec
 
-from urdfsync.dependencies import read_unrecorded
+from urdfsync.dependencies import MAX_FILE, list_folder, read_unrecorded
 from urdfsync.engine import ros_packages
 from urdfsync.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
@@ -34,12 +36,11 @@ from urdfsync.processes import limits, reserve_stdout
 if sys.platform != "win32":
     import resource
 
-_FORBIDDEN = ("subprocess.", "socket.", "ctypes.", "shutil.", "os.", "pty.", "urllib.", "webbrowser.", "signal.")
-"""Events of Python that no expansion needs, by how their names begin; but for these."""
-_ALLOWED = ("os.listdir", "os.scandir", "os.walk")
 _GRACE = 2
 """Seconds of CPU time after which native code that does not return is ended."""
 _PLACE = "place"
+_LONGEST = 500
+"""Characters of a message, which quotes the expression, and that may be a stranger's."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """How lines begin by which xacro says where it is."""
 
@@ -96,6 +97,10 @@ class PackageNotFoundError(Exception):
     """There is no ROS package of this name."""
 
 
+class PatternError(Exception):
+    """A pattern of files has more than the name of a file as a pattern."""
+
+
 class NotTextError(Exception):
     """A file that is read as text is none."""
 
@@ -125,14 +130,53 @@ class _Asked(dict[str, str]):
         return super().get(key, default)
 
 
+def find_matches(pattern: str) -> list[str]:
+    """Return the files that a pattern matches, sorted, hidden ones left out as xacro does.
+
+    Only the name of the file is a pattern: with folders and links, there may be more matches than anybody waits for.
+    """
+    folder, name = os.path.split(pattern)
+    try:
+        names = list_folder(folder)
+    except (OSError, ValueError):  # the pattern may be a stranger's, and no name of a folder
+        return []
+    is_hidden = name.startswith(".")
+    return sorted(os.path.join(folder, one) for one in filter_names(names, name) if one.startswith(".") == is_hidden)  # noqa: PTH118
+
+
 class _Files:
-    """Opens files for xacro, and notes their hashes."""
+    """Opens and finds files and packages for xacro, and notes all that was asked for."""
 
-    def __init__(self) -> None:
+    def __init__(self, packages: ros_packages.Packages) -> None:
         self.hashes: dict[str, str | None] = {}
+        self.patterns: dict[str, None] = {}
+        self.packages: dict[str, str] = {}
+        self._known = packages
 
-    def open(self, path: str) -> IO[Any]:
-        """Open a file as text; parsers of XML get its bytes. Raises OSError."""
+    def find(self, name: str) -> str:
+        """Return the folder of a ROS package. Raises PackageNotFoundError."""
+        if (folder := self._known.folder(name)) is None:
+            places = (
+                str(place / name / "package.xml") for place in (*self._known.folders, *self._known.source.parents)
+            )
+            self.hashes.update(dict.fromkeys(places))
+            raise PackageNotFoundError(name)
+        self.packages[name] = str(folder)
+        return self.packages[name]
+
+    def glob(self, pattern: str) -> list[str]:
+        """Return the files that a pattern matches. Raises PatternError."""
+        pattern = os.path.abspath(pattern)  # noqa: PTH100
+        folder = os.path.dirname(pattern)  # noqa: PTH120
+        if has_magic(folder) and not os.path.isdir(folder):  # noqa: PTH112
+            raise PatternError(f"{pattern}: only the name of the file may be a pattern, not that of a folder")
+        self.patterns[pattern] = None
+        return find_matches(pattern)
+
+    def open(self, path: object) -> IO[Any]:
+        """Open a file as text; parsers of XML get its bytes. Raises OSError, TypeError."""
+        if not isinstance(path, str):  # YAML may have bytes
+            raise TypeError(f"the name of a file is text, not {path!r}")
         path = os.path.abspath(path)  # noqa: PTH100 - links are not followed
         self.hashes[path] = None
         content = read_unrecorded(path)
@@ -186,29 +230,23 @@ def expand(request: Request) -> Answer:
     """Expand a file as the program `xacro` does, but for the comment at its top. Changes this process for good."""
     try:
         import xacro
+
+        from urdfsync.engine import xacro_expressions
     except ImportError as error:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
-    files, patterns, packages, said = _Files(), dict[str, None](), dict[str, str](), io.StringIO()
-    folders = [Path(folder) for folder in request.package_paths]
-
-    def find(name: str) -> str:
-        source = Path(request.source)
-        if (folder := ros_packages.find_package(name, folders, source)) is None:
-            places = (str(place / name / "package.xml") for place in (*folders, *source.parents))
-            files.hashes.update(dict.fromkeys(places))
-            raise PackageNotFoundError(name)
-        packages[name] = str(folder)
-        return packages[name]
-
+    files, said = (
+        _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))),
+        io.StringIO(),
+    )
     # xacro asks ROS 2 for packages, which need not be installed
     ament = types.ModuleType("ament_index_python.packages")
-    ament.get_package_share_directory = find  # type: ignore[attr-defined]
+    ament.get_package_share_directory = files.find  # type: ignore[attr-defined]
     sys.modules.update({"ament_index_python": types.ModuleType("ament_index_python"), ament.__name__: ament})
-    xacro.open, xacro.root_dir = files.open, request.folder
+    xacro_expressions.install()
+    xacro.open, xacro.glob, xacro.root_dir = files.open, files, request.folder
     xml.dom.minidom.parse = _parse  # type: ignore[assignment]
     arguments, environment = _Asked(request.arguments), _Asked(os.environ)
     os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only notes who asks
-    _refuse_events(patterns)
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
@@ -217,7 +255,7 @@ def expand(request: Request) -> Answer:
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
-            text = _with_package_uris(document.toprettyxml(indent="  "), packages)
+            text = _with_package_uris(document.toprettyxml(indent="  "), files.packages)
             places = tuple(_places(document, text))
     except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source)
@@ -226,9 +264,9 @@ def expand(request: Request) -> Answer:
         text,
         places,
         files.hashes,
-        tuple(patterns),
+        tuple(files.patterns),
         tuple(environment.asked),
-        packages,
+        files.packages,
         tuple(name for name in request.arguments if name not in arguments.asked),
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,
@@ -250,19 +288,6 @@ def _raise_at_limit(seconds: float) -> None:
     end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
     if hardest == resource.RLIM_INFINITY or end < hardest:
         resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
-
-
-def _refuse_events(patterns: dict[str, None]) -> None:
-    """Refuse what no expansion needs, from now on; note the patterns of files that are looked for."""
-
-    def refuse(event: str, arguments: tuple[Any, ...]) -> None:
-        if event == "glob.glob":
-            patterns[os.path.abspath(arguments[0])] = None  # noqa: PTH100
-        is_write = event == "open" and arguments[2] & (os.O_WRONLY | os.O_RDWR | os.O_CREAT)
-        if is_write or (event.startswith(_FORBIDDEN) and event not in _ALLOWED):
-            raise PermissionError(f"an expansion may not do this: {event}")
-
-    sys.addaudithook(refuse)
 
 
 def _with_package_uris(text: str, packages: Mapping[str, str]) -> str:
@@ -318,7 +343,7 @@ def _problem(error: BaseException, current: str) -> Problem:
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)
-    return Problem("xacro", message or type(cause).__name__, file, line)
+    return Problem("xacro", message[:_LONGEST] or type(cause).__name__, file, line)
 
 
 def _kind(content: bytes) -> FileKind | None:
@@ -326,11 +351,23 @@ def _kind(content: bytes) -> FileKind | None:
     return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
 
+def _encode(answer: Answer) -> bytes:
+    """Return an answer as JSON; if that can't be, or is too large to be read by anybody, one with a problem instead."""
+    try:
+        content = msgspec.json.encode(answer)
+    except UnicodeEncodeError:
+        return msgspec.json.encode(Answer(problem=Problem("xacro", "it works with text that is not Unicode")))
+    if len(content) > MAX_FILE:
+        too_large = f"it expands to more than {MAX_FILE:,} bytes"
+        return msgspec.json.encode(Answer(problem=Problem("xacro", too_large)))
+    return content
+
+
 def main() -> None:
     """Expand what stdin asks for."""
     request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
     with reserve_stdout() as answers:
-        answers.write(msgspec.json.encode(expand(request)))
+        answers.write(_encode(expand(request)))
 
 
 if __name__ == "__main__":

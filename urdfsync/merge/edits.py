@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from urdfsync.merge.words import place_of, quoted
-from urdfsync.modelica.tree import LAYOUT, Node, SyntaxTree, comments, read_tree
+from urdfsync.modelica.tree import LAYOUT, Node, SyntaxTree, TreeKind, comments, is_section, read_tree
 
 _ITEM = re.compile(r" #\d+$")
 """The end of the key of something that has no name, but a number."""
@@ -30,13 +30,16 @@ class Edit(msgspec.Struct, frozen=True):
         what = f"{self.part} " if self.part else ""
         if self.base is None or self.mine is None:
             return f"{what}{'added' if self.base is None else 'removed'}"
-        return f"{what}moved" if self.part == "layout" else f"{what}{quoted(self.base)} → {quoted(self.mine)}"
+        if self.part in ("layout", "order of inputs and outputs"):
+            return f"{what}{'moved' if self.part == 'layout' else 'changed'}"
+        return f"{what}{quoted(self.base)} → {quoted(self.mine)}"
 
 
 def find_edits(base: str, mine: str) -> list[Edit] | None:
     """Return what differs between two versions of a class; None if one of the texts is no single class.
 
-    Blanks and the order of declarations are no difference. New comments are one, together.
+    Blanks and the order of declarations are no difference, but for the inputs and outputs of a function. New comments
+    are one, together.
     """
     one, two = read_tree(base), read_tree(mine)
     if not (one and two):
@@ -67,14 +70,20 @@ def _differences(
     ):
         yield path, old, new
         return
+    keys = [[part.key for part in tree.parts] for tree in (old, new)]
+    if old.kind is TreeKind.ARRAY and sorted(keys[0]) == sorted(keys[1]):  # in another order
+        yield path, old, new
+        return
+    if sorted(old.signature) == sorted(new.signature) and old.signature != new.signature:
+        yield (*path, "order"), old, new
     for part in new.parts:
         before = old.find(part.key)
         if before:
             yield from _differences((*path, part.key), before.node, part.node)
-        elif not part.key.startswith("section "):
+        elif not is_section(part.key):
             yield (*path, part.key), None, part.node
     for part in old.parts:
-        if not new.find(part.key) and not part.key.startswith("section "):
+        if not new.find(part.key) and not is_section(part.key):
             yield (*path, part.key), part.node, None
 
 

@@ -4,9 +4,11 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 
 - What one side added, removed or changed is done; what both added stays, the user's first.
 - Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
-- Nothing else of the user's text changes: his comments, blanks and order stay.
-- Blanks, comments and the order of declarations are no change. Neither is rounding, where the other side changed it.
-- Layout is the user's in a class where he changed some of it.
+- Things stand in the generated order. What the user added or moved stands behind what precedes it in his text.
+- Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.sequence`).
+- Of blanks and comments, the user's stay where he changed them.
+- Rounding by the export is no change, where the user changed the number.
+- Layout is the user's where he changed some of it (`urdfsync.merge.layout`).
 """
 
 from __future__ import annotations
@@ -19,21 +21,48 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.merge.layout import arrange
-from urdfsync.merge.lines import merge_whole_lines
+from urdfsync.merge.layout import PICTURES, arrange, find_users_layout
+from urdfsync.merge.lines import merge_sequences, merge_whole_lines
 from urdfsync.merge.pairs import pair
-from urdfsync.modelica.tree import LAYOUT, Leaf, Node, Part, SyntaxTree, TreeKind, as_sum, comments, words_of
+from urdfsync.merge.sequence import merge_order
+from urdfsync.modelica.tree import (
+    LAYOUT,
+    Leaf,
+    Node,
+    Part,
+    SyntaxTree,
+    TreeKind,
+    as_sum,
+    comments,
+    is_section,
+    section_name,
+    words_of,
+)
 
 ROUNDING = 1e-6
 """Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
 
 _ROLES = (
-    *("within", "prefixes", "word", "head", "type", "name", "sizes", "connect", "equation", "import", "external"),
+    *(
+        "within",
+        "prefixes",
+        "word",
+        "head",
+        "type",
+        "name",
+        "sizes",
+        "connect",
+        "equation",
+        "import",
+        "external",
+        "components",
+    ),
     *("arguments", "sign", "expression", "value", "condition", "constraint", "description", "annotation"),
     *("definition", "body", "end", ";"),
 )
 """The order of the roles that the parts of an element have."""
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
 """Lists that mean nothing if they are empty."""
 
@@ -51,11 +80,12 @@ class Contradiction(msgspec.Struct, frozen=True):
 
 
 Piece: TypeAlias = str | Contradiction
+Path: TypeAlias = tuple[str, ...]
 
 
 def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> list[Piece]:
     """Return the merged text of a class in pieces: texts, and where the sides contradict each other."""
-    return _join(_merge((), base, mine, generated, keeps_layout=False))
+    return _join(_merge((), base, mine, generated, frozenset()))
 
 
 def _join(pieces: Iterable[Piece]) -> list[Piece]:
@@ -71,21 +101,31 @@ def _join(pieces: Iterable[Piece]) -> list[Piece]:
     return [*found, "".join(texts)] if texts else found
 
 
-def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node, *, keeps_layout: bool) -> list[Piece]:
-    """Merge a thing that both sides have."""
+def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: frozenset[str]) -> list[Piece]:
+    """Merge a thing that both sides have; `kept` are the annotations in which the layout is the user's."""
     if (base and base.meaning == generated.meaning) or mine.meaning == generated.meaning:
+        return [mine.text]
+    if base and base.text == mine.text and not kept:
+        return [generated.text]
+    is_picture, key = not kept.isdisjoint(PICTURES.intersection(path)), path[-1] if path else ""
+    if (key in kept and not is_picture) or (not base and (key in LAYOUT or mine.bare == generated.bare)):
         return [mine.text]
     if any(isinstance(node, SyntaxTree) and node.kind is TreeKind.SUM for node in (base, mine, generated)):
         base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
-    if (path[-1:] and path[-1] in LAYOUT and (keeps_layout or not base)) or (not base and mine.bare == generated.bare):
-        return [mine.text]
     if isinstance(mine, SyntaxTree) and isinstance(generated, SyntaxTree) and mine.kind is generated.kind:
         if isinstance(base, SyntaxTree) and base.kind is mine.kind:
-            return _merge_parts(path, base, mine, generated, keeps_layout)
-        if not base and mine.kind is not TreeKind.SLOTS:
-            return _merge_parts(path, None, mine, generated, keeps_layout)
-    is_same = base is not None and (base.meaning == mine.meaning or _is_rounding(base, mine))
-    if base and all("\n" in node.text for node in (base, mine, generated)):
+            return _merge_parts(path, base, mine, generated, kept)
+        if not base and mine.kind in (TreeKind.LIST, TreeKind.BODY):
+            return _merge_parts(path, None, mine, generated, kept)
+    if is_picture and isinstance(mine, Leaf) and isinstance(generated, Leaf):
+        return [mine.text]
+    return _merge_whole(path, base, mine, generated)
+
+
+def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
+    """Merge a thing that is taken whole from one side; blocks, algorithm sections and strings merge by lines."""
+    is_same = base is not None and base.meaning == mine.meaning
+    if base and (is_same or _has_lines(path, generated)) and all("\n" in node.text for node in (base, mine, generated)):
         text = merge_whole_lines(base.text, mine.text, generated.text)
         if text is not None and (not is_same or words_of(text) == generated.meaning):
             return [text]
@@ -94,6 +134,14 @@ def _merge(path: tuple[str, ...], base: Node | None, mine: Node, generated: Node
     if _is_rounding(mine, generated) or (base and _is_rounding(base, generated)):
         return [mine.text]
     return [_contradiction(path, base, mine, generated, mine)]
+
+
+def _has_lines(path: Path, node: Node) -> bool:
+    """Whether the lines of a text are things of their own: of any other one, all of it has one meaning."""
+    if not isinstance(node, Leaf):
+        return False
+    is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
+    return is_block or path[-1].startswith("statements of ") or len(node.words) == 1
 
 
 def _contradiction(
@@ -105,14 +153,15 @@ def _contradiction(
 
 
 def _is_rounding(one: Node, other: Node) -> bool:
-    """Whether two texts differ in the last digits of numbers alone."""
+    """Whether two texts differ in the last digits of numbers alone; Integers have none that count for nothing."""
     if not (isinstance(one, Leaf) and isinstance(other, Leaf)) or len(one.words) != len(other.words):
         return False
     return all(
         left == right
         or (
-            isinstance(left, float)
-            and isinstance(right, float)
+            not isinstance(left, str)
+            and not isinstance(right, str)
+            and not (isinstance(left, int) and isinstance(right, int))
             and math.isclose(left, right, rel_tol=ROUNDING, abs_tol=0)
         )
         for left, right in zip(one.words, other.words, strict=True)
@@ -136,87 +185,87 @@ class _Item(msgspec.Struct, eq=False):
     """A part of the merged text."""
 
     key: str
-    section: str
     before: str
     pieces: list[Piece]
     after: str = ""
     remark: str = ""
-    is_users: bool = False
-    """Whether the user alone has it."""
-
-
-_Items: TypeAlias = dict[str, _Item]
-"""Parts of the merged text by their keys."""
 
 
 def _merge_parts(
-    path: tuple[str, ...], base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, keeps_layout: bool
+    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, kept: frozenset[str]
 ) -> list[Piece]:
     """Merge things that consist of others."""
+    trees = base or msgspec.structs.replace(mine, parts=(), opening="", closing=""), mine, generated
     if mine.kind is TreeKind.BODY:
-        keeps_layout = base is not None and _has_moved(base, mine)
-        if base:
-            base, mine, generated = pair(base, mine, generated)
-    items: list[_Item] = []
-    moved: dict[str, _Item] = {}
+        kept = find_users_layout(*trees[:2])
+        trees = pair(*trees) if base else trees
+    base, mine, generated = trees
+    is_picture = not kept.isdisjoint(PICTURES.intersection(path))
+    has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
+    sequence = _sequence(trees) if has_sequence else []
+    items: dict[str, _Item] = {}
     notes = ""  # the user's comments in what goes, for the next item
     for part in mine.parts:
-        old, new, here = base and base.find(part.key), generated.find(part.key), (*path, part.key)
+        old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
         pieces: list[Piece] = [part.node.text]
         if new:
-            pieces = _merge(here, old.node if old else None, part.node, new.node, keeps_layout=keeps_layout)
-        elif old and part.key.startswith("section "):
+            pieces = [] if is_section(part.key) else _merge(here, old.node if old else None, part.node, new.node, kept)
+        elif is_section(part.key) or old is None:
             pass
-        elif old and part.node.bare == old.node.bare:
+        elif (is_picture and mine.kind is TreeKind.ARRAY) or _is_unchanged(part.key, base, mine):
             notes += _remaining_notes(part, old)
             continue
-        elif old and part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
+        elif part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
             nothing = msgspec.structs.replace(old.node, parts=())
-            pieces = _merge(here, old.node, part.node, nothing, keeps_layout=keeps_layout)
-        elif old:
+            pieces = _merge(here, old.node, part.node, nothing, kept)
+        elif not is_picture and part.key not in kept:
             pieces = [_contradiction(here, old.node, part.node, None, part.node)]
-        section = mine.sections.get(part.key, "")
-        item = _Item(part.key, section, notes + part.before, pieces, part.after, part.remark, not (old or new))
+        # inside of an element, blanks depend on those beside them
+        before, after, remark = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
+        items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
-        if base and new and base.sections.get(part.key, "") == section != generated.sections.get(part.key, ""):
-            moved[part.key] = item  # such as from `public` to `protected`
-        else:
-            items.append(item)
-    by_key = {item.key: item for item in items}
-    arranged = arrange(mine, generated) if mine.kind is TreeKind.BODY and keeps_layout else {}
-    for number, part in enumerate(generated.parts):
-        old, section = base and base.find(part.key), generated.sections.get(part.key, "")
-        if part.key in moved:
-            item = msgspec.structs.replace(moved[part.key], section=section)
-        elif mine.find(part.key) or (old and _is_settled(part, old)):
+    arranged = arrange(mine, generated, kept) if mine.kind is TreeKind.BODY and kept else {}
+    for part in generated.parts:
+        old = base.find(part.key)
+        is_gone = old and (is_picture or part.key in LAYOUT or _is_unchanged(part.key, base, generated))
+        if part.key in items or (is_gone and not is_section(part.key)):
             continue
-        else:
-            pieces = [arranged.get(part.key, part.node.text)]
-            if old:
-                pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
-            before = part.before if number or mine.kind is not TreeKind.LIST else ""
-            item = _Item(part.key, section, before, pieces, part.after, part.remark)
-        items.insert(_place(items, item, number, generated, mine, by_key), item)
-        by_key[item.key] = item
-    return _text_of(mine, items, notes)
+        pieces = [arranged.get(part.key, part.node.text)]
+        if old and not is_section(part.key):
+            pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
+        items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
+    order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
+    if sequence is None or [key for key in order if key in sequence] != sequence:
+        place = (*path, "order") if mine.kind is TreeKind.BODY else path
+        return [_contradiction(place, base, mine, generated, mine)]
+    return _text_of(trees, [items[key] for key in order], notes)
 
 
-def _is_settled(part: Part, old: Part) -> bool:
-    """Whether the user removed what the export did not change."""
-    return part.key.startswith("section ") or part.node.bare == old.node.bare
+def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
+    """Merge what has an order that counts, by keys; None if both sides changed it, so that the result is in doubt."""
+    kind = trees[1].kind
+    keys = [tree.signature if kind is TreeKind.BODY else [part.key for part in tree.parts] for tree in trees]
+    base, mine, generated = keys
+    if mine == base or generated in (base, mine):
+        return generated if mine == base else mine
+    # of two equal items of an array nobody can say which one stayed
+    has_repetitions = kind is TreeKind.ARRAY and not all(key.endswith(" #1") for key in itertools.chain(*keys))
+    return None if has_repetitions else merge_sequences(base, mine, generated)
 
 
-def _has_moved(base: SyntaxTree, mine: SyntaxTree) -> bool:
-    """Whether the user changed the layout of anything in a class."""
-    pairs = ((part.node, mine.find(part.key)) for part in base.parts)
-    return any(other and _layout(node) != _layout(other.node) for node, other in pairs)
+def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree) -> bool:
+    """Whether a side has a thing as base has it, in the same section; layout does not count."""
+    old, new = base.find(key), side.find(key)
+    if not (old and new):
+        return False
+    return old.node.bare == new.node.bare and section_name(base.sections[key]) == section_name(side.sections[key])
 
 
-def _layout(node: Node) -> list[object]:
-    """The layout of one element."""
-    annotation = node.find("annotation") if isinstance(node, SyntaxTree) else None
-    parts = annotation.node.parts if annotation and isinstance(annotation.node, SyntaxTree) else ()
-    return [(part.key, part.node.meaning) for part in sorted(parts, key=lambda part: part.key) if part.key in LAYOUT]
+def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
+    """Blanks and comments before a part, before the separator and behind it: the user's where he changed them."""
+    own = mine.before, mine.after, mine.remark
+    is_changed = not (base and generated) or own != (base.before, base.after, base.remark)
+    return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
 def _remaining_notes(part: Part, old: Part) -> str:
@@ -227,95 +276,95 @@ def _remaining_notes(part: Part, old: Part) -> str:
     return "".join(f"{lead}{note}" for note in found)
 
 
-# --- where something new goes -------------------------------------------------------------------------------------
+# --- the order ----------------------------------------------------------------------------------------------------
 
 
-def _place(
-    items: Sequence[_Item], item: _Item, number: int, generated: SyntaxTree, mine: SyntaxTree, by_key: _Items
-) -> int:
-    """The place behind what precedes something new in the generated text, and behind what the user added there."""
-    if mine.kind is TreeKind.SLOTS:
-        return sum(_ROLES.index(one.key) <= _ROLES.index(item.key) for one in items if one.key in _ROLES)
-    is_section = item.key.startswith("section ")
-    for before in range(number - 1, -1, -1):
-        one = by_key.get(generated.parts[before].key)
-        if one and (is_section or one.section == item.section):
-            place = items.index(one) + 1
-            while place < len(items) and items[place].is_users and (is_section or items[place].section == item.section):
-                place += 1
-            return place
-    for behind in range(number + 1, len(generated.parts)):
-        one = by_key.get(generated.parts[behind].key)
-        if one and one.section == item.section:
-            return items.index(one)
-    inside = [place for place, one in enumerate(items) if one.section == item.section]
-    if inside:
-        return inside[-1] + 1
-    if item.section == "section public":
-        return 0
-    return next((place for place, one in enumerate(items) if one.key == "annotation"), len(items))
+def _order(trees: Sequence[SyntaxTree], keys: Iterable[str]) -> list[str]:
+    """The keys of the merged parts in order, section by section."""
+    if trees[1].kind is TreeKind.SLOTS:
+        return sorted(keys, key=_ROLES.index)
+    homes = {key: _home(key, trees) for key in keys}
+    sections = [list(dict.fromkeys(("", *tree.sections.values()))) for tree in trees]
+    found: list[str] = []
+    for section in sorted(merge_order(*sections), key="tail".__eq__):
+        inside = [[key for key, place in tree.sections.items() if place == section == homes.get(key)] for tree in trees]
+        found += merge_order(*inside)
+    return found
+
+
+def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
+    """The section of a merged part: the user's, unless the export alone has moved it."""
+    old, own, new = (tree.sections.get(key) for tree in trees)
+    if own is None or new is None:
+        return own if new is None and own is not None else new or ""
+    is_moved = old is not None and section_name(own) == section_name(old) != section_name(new)
+    return new if is_moved else own
 
 
 # --- the text -----------------------------------------------------------------------------------------------------
 
 
-def _text_of(tree: SyntaxTree, items: Sequence[_Item], notes: str) -> list[Piece]:
+def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> list[Piece]:
     """The merged things as text, with what stands around and between them."""
-    empty = _empty_sections(tree, items)
-    kept = [item for item in items if item.key not in empty]
-    if tree.kind in (TreeKind.LIST, TreeKind.ARRAY, TreeKind.SUM):
-        _set_apart(tree, kept)
-    found: list[Piece] = [tree.opening]
+    base, mine, generated = trees
+    empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
+    items = [item for item in items if item.key not in empty]
+    if mine.separator:
+        _space_items(mine, items)
+    is_changed = mine.separator or mine.closing != base.closing
+    closing = mine.closing if is_changed else generated.closing
+    found: list[Piece] = [mine.opening]
     blanks = ""
-    for number, item in enumerate(kept):
-        _go_on(found, blanks + item.before)
+    for number, item in enumerate(items):
+        append_blanks(found, blanks + item.before)
         found += item.pieces
         blanks = item.after
-        if tree.separator and number < len(kept) - 1:
-            _go_on(found, blanks)
-            found.append(tree.separator)
+        if mine.separator and number < len(items) - 1:
+            append_blanks(found, blanks)
+            found.append(mine.separator)
             blanks = ""
         blanks += item.remark
-    has_bracket = tree.kind in (TreeKind.LIST, TreeKind.ARRAY)
-    _go_on(found, blanks + notes + (tree.closing[:-1] if has_bracket else ""))
-    found.append(tree.closing[-1:] if has_bracket else tree.closing)
+    has_bracket = mine.kind in (TreeKind.LIST, TreeKind.ARRAY)
+    append_blanks(found, blanks + notes + (closing[:-1] if has_bracket else ""))
+    found.append(closing[-1:] if has_bracket else closing)
     return [piece for piece in found if piece]
 
 
-def _go_on(found: list[Piece], blanks: str) -> None:
+def append_blanks(found: list[Piece], blanks: str) -> None:
     """Add blanks and comments; what follows does not run into them, nor they into the line before."""
     last = found[-1] if found else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
         found[-1] = last[:-1]  # the end of a comment
-    found.append(f"{blanks}\n" if _runs_on(blanks) else blanks)
+    # one comment after the other: a pattern for all of them would try each end of a comment with each end of the others
+    *_, comment = "", *_COMMENT.findall(blanks)
+    runs_on = comment.startswith("//") and blanks.endswith(comment)
+    found.append(f"{blanks}\n" if runs_on else blanks)
 
 
-def _empty_sections(tree: SyntaxTree, items: Sequence[_Item]) -> set[str]:
-    """The words that begin a section with nothing in it, unlike in the user's text."""
-    had, has = (_sections_without_parts([one.key for one in parts]) for parts in (tree.parts, items))
-    return has - had
+def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:
+    """The words that begin a section with nothing in it, unlike on either side."""
+    return _sections_without_parts([one.key for one in items]).difference(*map(_sections_without_parts, sides))
 
 
 def _sections_without_parts(keys: Sequence[str]) -> set[str]:
     pairs = itertools.pairwise((*keys, "annotation"))
-    return {one for one, after in pairs if one.startswith("section ") and after.startswith(("section ", "annotation"))}
+    return {one for one, after in pairs if is_section(one) and (is_section(after) or after == "annotation")}
 
 
-def _set_apart(tree: SyntaxTree, items: Sequence[_Item]) -> None:
-    """Give items of a list the blanks that this list has between its items."""
-    known = {part.key for part in tree.parts}
-    usual = next((part.before for part in tree.parts[1:] if not part.before.strip()), None)
-    between = (part.after for part in tree.parts[:-1] if part.after.isspace())
-    behind = next(between, "" if tree.separator == "," else " ")
-    first = re.findall(r"\s*", tree.parts[0].before)[0] if tree.parts else ""
+def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:
+    """Give items of a list the blanks that the user's list has between its items."""
+    usual = next((part.before for part in mine.parts[1:] if not part.before.strip()), None)
+    between = (part.after for part in mine.parts[:-1] if part.after.isspace())
+    behind = next(between, "" if mine.separator == "," else " ")
+    first = re.findall(r"\s*", mine.parts[0].before)[0] if mine.parts else ""
     for number, item in enumerate(items):
-        if item.key not in known:
+        if not mine.find(item.key):
             like_others = item.before or " " if usual is None else usual
             item.before = like_others if number else first
             item.after = behind
         elif not number and item.before.isspace():
             item.before = first
-        elif number and item.key == tree.parts[0].key and not item.before[:1].isspace():
+        elif number and item.key == mine.parts[0].key and not item.before[:1].isspace():
             item.before = (" " if usual is None else usual) + item.before
         if number < len(items) - 1 and not item.after:
             item.after = behind

@@ -13,7 +13,12 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
-from urdfsync.modelica.tree import Leaf, Part, SyntaxTree
+from urdfsync.modelica.tree import Leaf, Node, Part, SyntaxTree
+
+PICTURES = frozenset({"Icon", "Diagram"})
+"""Annotations with graphics: what the export adds to them is drawn there, whoever has the layout."""
+_DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"iconTransformation", "Icon"})
+"""The annotations that belong together in the two layers of a class."""
 
 _STEP = 20.0
 """Places are looked for at multiples of this from the wanted one."""
@@ -63,19 +68,57 @@ class Extent(NamedTuple):
         return all(one.low[axis] < two.high[axis] for one, two in ((self, other), (other, self)) for axis in (0, 1))
 
 
-def arrange(mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
-    """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`."""
+def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
+    """Return the annotations about layout that are the user's: all of the diagram, or of the icon, if he moved any.
+
+    What he added is no move.
+    """
+    moved: set[str] = set()
+    for part in base.parts:
+        other = mine.find(part.key)
+        if other and part.node.text != other.node.text:
+            moved.update(key for key in _DIAGRAM | _ICON if _is_moved(key, part.node, other.node))
+    return frozenset().union(*(layer for layer in (_DIAGRAM, _ICON) if not layer.isdisjoint(moved)))
+
+
+def _is_moved(key: str, base: Node, mine: Node) -> bool:
+    """Whether an annotation about layout of one element is not as it was, but for graphics that were added."""
+    keys = ("annotation", *(("Placement",) if key.endswith("ransformation") else ()), key)
+    old, new = (_inside(node, keys) for node in (base, mine))
+    return old is not None and (
+        new is None or not (_has_all(new, old) if key in PICTURES else new.meaning == old.meaning)
+    )
+
+
+def _has_all(mine: Node, base: Node) -> bool:
+    """Whether all that base draws is there as it was."""
+    if not (isinstance(mine, SyntaxTree) and isinstance(base, SyntaxTree)):
+        return mine.meaning == base.meaning
+    pairs = ((mine.find(part.key), part) for part in base.parts)
+    return all(own is not None and _has_all(own.node, part.node) for own, part in pairs)
+
+
+def arrange(mine: SyntaxTree, generated: SyntaxTree, kept: Collection[str]) -> dict[str, str]:
+    """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`.
+
+    `kept` are the annotations in which the layout is the user's.
+    """
     new = [part for part in generated.parts if not mine.find(part.key)]
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
-    shifts, icon_shifts = (_shifts(mine, generated, lines, place) for place in ("transformation", "iconTransformation"))
+    shifts = {
+        place: _shifts(mine, generated, lines, place)
+        for place in ("transformation", "iconTransformation")
+        if place in kept
+    }
     found: dict[str, str] = {}
     for part in new:
-        if part.key in lines:
-            start, end = (shifts.get(one, _NOWHERE) for one in lines[part.key])
+        if part.key in lines and "Line" in kept:
+            start, end = (shifts["transformation"].get(one, _NOWHERE) for one in lines[part.key])
             found[part.key] = _rerouted(part, start, end)
-        else:
-            ways = {"transformation": shifts.get(part.key), "iconTransformation": icon_shifts.get(part.key)}
-            found[part.key] = _moved(part, {place: way for place, way in ways.items() if way})
+        elif part.key not in lines:
+            found[part.key] = _moved(
+                part, {place: ways[part.key] for place, ways in shifts.items() if part.key in ways}
+            )
     return found
 
 
@@ -133,19 +176,23 @@ def _steps() -> list[Point]:
 # --- annotations --------------------------------------------------------------------------------------------------
 
 
+def _inside(node: Node, keys: Sequence[str]) -> Node | None:
+    """What stands in lists of modifiers within each other: the element's `annotation`, then the names in it."""
+    inner: Node | None = node
+    for key in keys:
+        arguments = inner.find("arguments") if isinstance(inner, SyntaxTree) else None
+        holder = arguments.node if arguments and key != keys[0] else inner
+        found = holder.find(key) if isinstance(holder, SyntaxTree) else None
+        inner = found.node if found else None
+    return inner
+
+
 def _find(part: Part, *keys: str) -> Leaf | None:
     """The value of an annotation of an element: `_find(part, "Line", "points")`."""
-    node = part.node
-    for key in ("annotation", *itertools.chain.from_iterable((key, "arguments") for key in keys[:-1]), keys[-1]):
-        found = node.find(key) if isinstance(node, SyntaxTree) else None
-        if found is None:
-            return None
-        node = found.node
+    node = _inside(part.node, ("annotation", *keys))
     for key in ("value", "expression"):
         found = node.find(key) if isinstance(node, SyntaxTree) else None
-        if found is None:
-            return None
-        node = found.node
+        node = found.node if found else None
     return node if isinstance(node, Leaf) else None
 
 

@@ -60,6 +60,20 @@ def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
     return "".join([*result, *written[place:]])
 
 
+def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str] | None:
+    """Merge sequences of different things; None if the sides changed one place, or moved one thing to two places."""
+    found: list[str] = []
+    place = 0
+    for lines, ours, theirs, sides in find_changes(base, mine, generated):
+        own, new = mine[ours.start : ours.stop], generated[theirs.start : theirs.stop]
+        if len(sides) > 1 and own != new:
+            return None
+        found += [*base[place : lines.start], *(new if "generated" in sides else own)]
+        place = lines.stop
+    found += base[place:]
+    return found if len(set(found)) == len(found) else None
+
+
 def find_changes(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[ChangedLines]:
     """Yield the places where a side differs from base, in order; changes that overlap or touch are one."""
     sides = {"mine": mine, "generated": generated}

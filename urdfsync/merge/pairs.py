@@ -10,7 +10,7 @@ from collections import defaultdict
 
 import msgspec
 
-from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, tell_apart
+from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, key_by_whole_equation
 
 _ALIKE = 0.5
 """Share of words that two equations have in common at least, if one is the new version of the other."""
@@ -24,7 +24,7 @@ class TooManyPairsError(Exception):
 
 def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
     """Return the three bodies with one key for each thing. Raises TooManyPairsError."""
-    base, mine, generated = tell_apart(base, mine, generated)
+    base, mine, generated = key_by_whole_equation(base, mine, generated)
     gone = [part for part in base.parts if not mine.find(part.key) and not generated.find(part.key)]
     if not gone:
         return base, mine, generated

@@ -1,7 +1,8 @@
-"""Compare two sequences with the algorithm of git, by libgit2."""
+"""Compare sequences with the algorithm of git, by libgit2, and merge them."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Hashable, Sequence
 from typing import NamedTuple
 
@@ -38,4 +39,25 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable], *, minimal: bool =
         # numbered from 1; an empty range is named by the line before it
         start, new_start = hunk.old_start - (hunk.old_lines > 0), hunk.new_start - (hunk.new_lines > 0)
         found.append(Replacement(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
+    return found
+
+
+def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str]:
+    """Return all that `mine` and `generated` have, in the generated order.
+
+    What the user added or moved stands behind what precedes it in `mine`; before all else if nothing does.
+    """
+    old, own = set(base), set(mine)
+    before, after = [key for key in base if key in own], [key for key in mine if key in old]
+    changes = compare(before, after) if before != after else []
+    users = own.difference(generated).union(*(after[one.new_start : one.new_stop] for one in changes))
+    following: dict[str | None, str] = {
+        one: other for one, other in itertools.pairwise((None, *mine)) if other in users
+    }
+    found: list[str] = []
+    for start in (None, *(key for key in generated if key not in users)):
+        key = following.get(start) if start is None else start
+        while key is not None:
+            found.append(key)
+            key = following.get(key)
     return found

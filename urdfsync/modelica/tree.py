@@ -6,6 +6,7 @@ equation what it says. Blanks and comments stand between the things, so they are
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -36,9 +37,17 @@ _REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
 
 _INITIAL = "initial equation "
+_PASSED = frozenset({"input", "output"})
+_OPEN, _CLOSED = frozenset("([{"), frozenset(")]}")
+_LONGEST_INTEGER = 20
+
+_GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
+"""Arguments that say where something is drawn."""
+_TAIL = frozenset({"external", "annotation"})
+"""What ends a class, behind all sections."""
 
 Words: TypeAlias = tuple[str | float, ...]
-"""What a text says: its tokens, numbers by their value, without blanks and comments."""
+"""What a text says: its tokens, numbers by their value, without blanks and comments. Integers stay integers."""
 
 
 class TreeKind(Enum):
@@ -51,7 +60,7 @@ class TreeKind(Enum):
     LIST = "list"
     """Modifiers and annotations in parentheses, with commas between them."""
     ARRAY = "array"
-    """Items in braces."""
+    """Items in braces, of which the order counts."""
     SUM = "sum"
     """Terms with `+` between them."""
 
@@ -84,6 +93,8 @@ class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
     opening: str = ""
     closing: str = ""
     """Blanks and comments before the closing bracket, and the bracket."""
+    is_function: bool = False
+    """Whether it is the body of a function: the order of its inputs and outputs counts."""
 
     @property
     def separator(self) -> str:
@@ -102,34 +113,41 @@ class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def meaning(self) -> object:
-        """Equal for trees that say the same: the order in which things are declared means nothing."""
-        return self._meaning([(part, part.node.meaning) for part in self.parts])
+        """Equal for trees that say the same in the same order."""
+        return self.kind, tuple((part.key, part.node.meaning) for part in self.parts)
 
     @cached_property
     def bare(self) -> object:
-        """Equal for trees that say the same, but for the layout of the diagram."""
-        found = (part for part in self.parts if not (self.kind is TreeKind.LIST and part.key in LAYOUT))
-        return self._meaning(
-            [(part, part.node.bare) for part in found if not (part.key == "annotation" and is_empty(part.node))]
-        )
-
-    def _meaning(self, parts: list[tuple[Part, object]]) -> object:
+        """Equal for trees that say the same, but for the order of declarations and the layout of the diagram."""
         said = [
-            (part.key, self.sections.get(part.key, ""), meaning)
-            for part, meaning in parts
-            if not part.key.startswith("section ")
+            (part.key, section_name(self.sections[part.key]), part.node.bare)
+            for part in self.parts
+            if not (
+                (self.kind is TreeKind.LIST and part.key in LAYOUT)
+                or (part.key == "annotation" and is_empty(part.node))
+                or is_section(part.key)
+            )
         ]
         return self.kind, tuple(said if self.kind is TreeKind.ARRAY else sorted(said, key=lambda one: one[0]))
 
     @cached_property
     def sections(self) -> dict[str, str]:
-        """The section of each part of a body by its key: `section public` unless something else is said."""
-        section, found = "section public", dict[str, str]()
-        for part in self.parts if self.kind is TreeKind.BODY else ():
-            if part.key.startswith("section "):
-                section = part.key.rpartition(" ")[0]
-            found[part.key] = part.key if part.key == "annotation" else section
+        """The section of each part by its key: the key of its first word; empty before the first one, and for a list.
+
+        What ends a class is in the section `tail`.
+        """
+        section, found = "", dict[str, str]()
+        for part in self.parts:
+            section = part.key if is_section(part.key) else section
+            found[part.key] = section
+        if self.kind is TreeKind.BODY:
+            found |= dict.fromkeys(itertools.takewhile(_TAIL.__contains__, reversed(found)), "tail")
         return found
+
+    @property
+    def signature(self) -> list[str]:
+        """The keys of the inputs and outputs of a function, in order."""
+        return [part.key for part in self.parts if self.is_function and not _PASSED.isdisjoint(_type_words(part))]
 
     def find(self, key: str) -> Part | None:
         """The part with this key."""
@@ -140,10 +158,10 @@ class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
         return {part.key: part for part in self.parts}
 
     @cached_property
-    def has_twins(self) -> bool:
+    def has_duplicate_keys(self) -> bool:
         """Whether two things in it can't be told apart."""
         return len(self._by_key) < len(self.parts) or any(
-            isinstance(part.node, SyntaxTree) and part.node.has_twins for part in self.parts
+            isinstance(part.node, SyntaxTree) and part.node.has_duplicate_keys for part in self.parts
         )
 
 
@@ -161,6 +179,16 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     """Blanks and comments between it and the separator."""
     remark: str = ""
     """A comment behind it, and behind the separator if there is one, that ends the line."""
+
+
+def is_section(key: str) -> bool:
+    """Whether a part of a body is the word that begins a section."""
+    return key.startswith("section ")
+
+
+def section_name(section: str) -> str:
+    """Return the name of a section without its number; what stands before the first one is public."""
+    return section.rpartition(" ")[0] or section or "section public"
 
 
 def is_empty(node: Node) -> bool:
@@ -184,16 +212,15 @@ def read_tree(text: str) -> SyntaxTree | None:
         return None
     reader.at = 0  # again, with the same tokens
     found = reader.file()
-    return None if found.has_twins else found
+    return None if found.has_duplicate_keys else found
 
 
-def tell_apart(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
+def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
     """Name equations by all that they say, in all versions of a body, if one of them has several for one variable."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
     return tuple(
-        msgspec.structs.replace(tree, parts=tuple(_told_apart(tree.parts, several))) if several else tree
-        for tree in trees
+        msgspec.structs.replace(tree, parts=tuple(_keyed(tree.parts, several))) if several else tree for tree in trees
     )
 
 
@@ -203,7 +230,7 @@ def _variable(part: Part) -> str:
     return part.key.partition(" = ")[0] if is_equation else ""
 
 
-def _told_apart(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
+def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
     for part in parts:
         if (
             _variable(part) in variables
@@ -218,7 +245,7 @@ def _told_apart(parts: Sequence[Part], variables: Collection[str]) -> Iterator[P
 def as_sum(node: Node) -> Node:
     """Make a sum with one term of an expression that is nothing but a name; return others as they are."""
     if not isinstance(node, Leaf) or any(
-        isinstance(word, float) or not (is_name(word) or word == ".") for word in node.words
+        not isinstance(word, str) or not (is_name(word) or word == ".") for word in node.words
     ):
         return node
     return SyntaxTree(TreeKind.SUM, _numbered([Part("", "", node)]), node.start)
@@ -232,20 +259,46 @@ def words_of(text: str) -> Words:
 
 def _words(tokens: Sequence[Token]) -> Words:
     return tuple(
-        float(token.text) if token.text[0].isdecimal() else token.text.replace("\r\n", "\n") for token in tokens
+        _number(token.text) if token.text[0].isdecimal() else token.text.replace("\r\n", "\n") for token in tokens
     )
 
 
+def _number(text: str) -> float:
+    """The value of a number; a whole one without a point stays an Integer, unless no tool could read it."""
+    return int(text) if text.isdecimal() and len(text) < _LONGEST_INTEGER else float(text)
+
+
 def _said(words: Words) -> str:
-    return " ".join(map(str, words))
+    return " ".join(word if isinstance(word, str) else str(float(word)) for word in words)
+
+
+def _type_words(part: Part) -> Words:
+    """The prefixes and the type of a component, or of several; empty for anything else."""
+    if not (isinstance(part.node, SyntaxTree) and part.key.startswith("component ")):
+        return ()
+    found = part.node.find("type") or part.node.find("components")
+    return found.node.words if found and isinstance(found.node, Leaf) else ()
+
+
+def _drawn(words: Words) -> Words:
+    """What an item of an array says, but for where it is drawn."""
+    found, depth, is_place = list[str | float](), 0, False
+    for number, word in enumerate(words):
+        depth += (word in _OPEN) - (word in _CLOSED)
+        if depth <= 1 and (word == "," or word in _CLOSED):
+            is_place = False
+        elif depth == 1 and word in _GEOMETRY and words[number + 1] == "=":
+            is_place = True
+        found += [] if is_place else [word]
+    return tuple(found)
 
 
 def _numbered(parts: Sequence[Part]) -> tuple[Part, ...]:
-    """Items or terms with their texts as keys; one may be there twice."""
+    """Items or terms with what they say as keys, but for where they are drawn; one may be there twice."""
     seen = Counter[str]()
     found = []
     for part in parts:
-        said = str(part.node.meaning)
+        said = _said(_drawn(part.node.words) if isinstance(part.node, Leaf) else ())
         seen[said] += 1
         found.append(msgspec.structs.replace(part, key=f"{said} #{seen[said]}"))
     return tuple(found)
@@ -439,14 +492,14 @@ class _TreeReader(SyntaxParser):
         self._prefixes(CLASS_PREFIXES)
         kind = self._accept(*CLASSES)
         if kind == "operator":
-            self._accept("record", "function")
+            kind = self._accept("record", "function")
         is_extension = bool(self._accept("extends"))
         self.name = self._identifier()
         if not is_extension and self._accept("="):
             return [self._leaf("head", start), *self._short_parts()]
         head = [self._leaf("head", start), *(self._modifiers() if is_extension else ())]
         head += self._slot("description", self._description)
-        name, body = self.name, self._body()
+        name, body = self.name, self._body(is_function=kind == "function")
         end = self.at
         self._step()
         self._step()
@@ -466,7 +519,7 @@ class _TreeReader(SyntaxParser):
             self._step()
         return [self._leaf("definition", start), *self._note()]
 
-    def _body(self) -> Part:
+    def _body(self, *, is_function: bool) -> Part:
         place, section, count = self._end, "public", Counter[str]()
         parts: list[Part] = []
         while self.word not in ("end", ""):
@@ -489,7 +542,7 @@ class _TreeReader(SyntaxParser):
             else:
                 part = self._equation_part(section)
             parts.append(msgspec.structs.replace(part, remark=self._remark()))
-        (tree,) = tell_apart(SyntaxTree(TreeKind.BODY, tuple(parts), place))
+        (tree,) = key_by_whole_equation(SyntaxTree(TreeKind.BODY, tuple(parts), place, is_function=is_function))
         return Part("body", "", tree)
 
     def _begins_section(self) -> bool:

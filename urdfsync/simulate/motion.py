@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 
 import msgspec
 
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.files import shown
 from urdfsync.simulate.models import Input
@@ -46,11 +47,17 @@ class Motion(msgspec.Struct, frozen=True):
 
 
 def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
-    """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError and OSError."""
-    if file.stat().st_size > MOST_BYTES:
+    """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError."""
+    if not inputs:
+        _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
+    try:
+        content = read_unrecorded(file)  # waits for no pipe, and reads no device, which may not end
+    except OSError as error:
+        _refuse(file, f"the file can't be read: {error.strerror}", hint="name a CSV file")
+    if len(content) > MOST_BYTES:
         _refuse(file, f"the file has more than {MOST_BYTES // 10**6} MB", hint="leave out columns and rows")
     try:
-        text = file.read_bytes().decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")

@@ -22,8 +22,9 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 def draw(result: SimulateResult, kind: str) -> bytes:
     """Return a picture, `png` or `svg`; the same result gives the same bytes."""
-    # names without dates: of elements in SVG, and none in the metadata
-    with rc_context({"svg.hashsalt": "urdfsync", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
+    # names without dates: of elements in SVG, and none in the metadata; names of joints are no formulas, `$` or not
+    plain = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
+    with rc_context({**plain, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
         columns = list(_columns(result.joints)) or [()]
         figure = Figure(figsize=(_WIDTH * len(columns), _HEIGHT * len(_ROWS)), layout="constrained")
         FigureCanvasAgg(figure)

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import __version__
 from urdfsync.check import compilers, libraries
-from urdfsync.check.cache import UserCache, digest
+from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import explain
 from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Simulation, SimulationResult, one_line
+from urdfsync.check.fingerprint import result_key
 from urdfsync.check.jobs import Jobs
 from urdfsync.check.package import PackageTexts
 from urdfsync.check.process import limits_of
@@ -35,8 +35,7 @@ from urdfsync.simulate.results import (
     SimulateOptions,
     SimulateResult,
 )
-from urdfsync.simulate.values import modifiers, read_values
-from urdfsync.spelling import nearest
+from urdfsync.simulate.values import find_unknown, modifiers, read_values
 
 _LATER = 1.5
 """Seconds until the compiler is at work."""
@@ -60,6 +59,8 @@ class _Work(msgspec.Struct):
     needed: libraries.Libraries
     file: Path
     """The file of the model."""
+    is_reference: bool
+    """Whether an FMU is compared with it, by a command that chooses no method."""
 
 
 def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
@@ -109,10 +110,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     settings, inputs, values = model.settings(), model.inputs(), read_values(options.values)
     stop, changed, motion = settings.get("StopTime", STOP), dict[Path, bytes](), None
     changes = modifiers(values)
-    if options.motion and not inputs:
-        message = f"`{model.name}` has no inputs that a motion could drive"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-inputs", message, hint="simulate it without `--input`"))
-    if inputs and (options.motion or options.as_exported):
+    if options.motion or (inputs and options.as_exported):
         motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, options.stop or stop)
         stop, driven = motion.times[-1], model.driven(robot.target.package)
         changed = {Path(file): text.encode() for file, text in driven.changed.items()}
@@ -143,7 +141,7 @@ def _prepare(config: Config, robot: RobotConfig, options: SimulateOptions, packa
     task = msgspec.structs.replace(plain, source=source, parameters=tuple(values))
     own = {path: changed.pop(robot.folder / path, content) for path, content in texts.items()}
     outside = {path: changed.pop(robot.output / path, content) for path, content in around.items()}
-    return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file))
+    return _Work(model.name, task, plain, own, outside, changed, needed, Path(model.node.file), options.as_exported)
 
 
 def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
@@ -167,10 +165,9 @@ def _run(
 ) -> tuple[SimulationResult, bool]:
     """Return what a simulation gave, and whether it is that of an earlier one of the same. Raises UrdfsyncError."""
     cache, begin = UserCache.default(), time.monotonic()
-    version = __version__, compilers.installed_version(options.tool)
-    files = (sorted(one.items()) for one in (work.texts, work.around, work.changed))
-    key = digest(*version, work.task, robot.target, *files, work.needed.state())
-    if known := cache.load(key, SimulationResult):
+    facts = work.task, *(sorted(one.items()) for one in (work.texts, work.around, work.changed))
+    key = result_key(robot, [options.tool], work.needed, *facts)
+    if key and (known := cache.load(key, SimulationResult)):
         return known, True
     cache.prepare()
     later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
@@ -190,7 +187,9 @@ def _run(
             (plain,) = jobs.run("plain", work.texts, [check], work.changed)
             result = plain if plain.parameters else result
     simulation = _result(robot, result, options, package, work)
-    cache.save(key, None if simulation.problem else simulation)
+    is_same = key == result_key(robot, [options.tool], work.needed, *facts)  # else somebody has saved meanwhile
+    if key and is_same:
+        cache.save(key, None if simulation.problem else simulation)
     return simulation, False
 
 
@@ -198,12 +197,7 @@ def _result(
     robot: RobotConfig, result: CompileResult, options: SimulateOptions, package: PackageTexts, work: _Work
 ) -> SimulationResult:
     """Return the simulation of a result. Raises UrdfsyncError if there is none."""
-    found = []
-    for name in work.task.parameters if result.parameters else ():
-        if name not in result.parameters:
-            near = nearest(name, result.parameters, 0.8)
-            hint = f"did you mean `{near}`?" if near else ""
-            found.append(Diagnostic(Severity.ERROR, "set", f"`{work.model}` has no parameter `{name}`", hint=hint))
+    found = find_unknown(work.model, work.task.parameters, result.parameters)
     for name in result.without_effect:
         message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
         found.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))
@@ -236,7 +230,9 @@ def _end(work: _Work, run: SimulationResult) -> Iterator[Diagnostic]:
         begins = "initial" in words or (when is not None and float(when[1]) == 0)
         what = "does not initialise" if begins else f"stops {moment}"
         kept = f"; results until {run.values['time'][-1]:g} s are kept" if run.values else ""
-        message, hint = f"the simulation of `{work.model}` {what}: {words}", "try another `--method` or `--tolerance`"
+        message, hint = f"the simulation of `{work.model}` {what}: {words}", ""
+        if not work.is_reference:
+            hint = "try another `--method` or `--tolerance`"
         yield Diagnostic(Severity.ERROR, "no-simulation", f"{message}{kept}", shown(work.file), hint=hint)
 
 

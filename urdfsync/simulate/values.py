@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, NoReturn
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import is_identifier
+from urdfsync.spelling import nearest
 
+_LIKENESS = 0.8
 _SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
 
 
@@ -28,6 +30,33 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
             _refuse(f"`{name}` gets two values", "give one of them")
         found[name] = value
     return found
+
+
+def find_unknown(model: str, names: Iterable[str], known: Collection[str]) -> list[Diagnostic]:
+    """Return an error for each of some names that is none of the parameters of a model; none if these are not known."""
+    found = []
+    for name in names if known else ():
+        if name not in known:
+            near = nearest_parameter(name, known)
+            hint = f"did you mean `{near}`?" if near else ""
+            found.append(Diagnostic(Severity.ERROR, "set", f"`{model}` has no parameter `{name}`", hint=hint))
+    return found
+
+
+def nearest_parameter(name: str, known: Iterable[str]) -> str:
+    """Return the parameter that somebody may have meant: its name is much like `name`, or its last part is.
+
+    Of several with such a last part it is one that has most of the other parts, the shortest; empty if there is none.
+    """
+    known = list(known)
+    if near := nearest(name, known, _LIKENESS):
+        return near
+    *path, last = name.split(".")
+    end = nearest(last, {one.rpartition(".")[2] for one in known}, _LIKENESS)
+    alike = [one for one in known if one.rpartition(".")[2] == end]
+    return min(
+        alike, key=lambda one: (-sum(bool(nearest(part, one.split("."))) for part in path), len(one)), default=""
+    )
 
 
 def modifiers(values: Mapping[str, str]) -> list[str]:

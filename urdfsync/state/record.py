@@ -109,21 +109,17 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     generator: Generator
     options: Mapping[str, Any] = {}
     """The domain's options as JSON has them, without those that are None."""
-    snapshots: tuple[Snapshot, ...] = ()
-    """The model; none before the first complete build, several if git has united two states of it."""
+    snapshot: Snapshot | None = None
+    """The model; None before the first complete build, and if an element stands twice in a united state."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     files: Mapping[str, FileRecord] = {}
-    texts: Mapping[str, str] = {}
-    """Bases by their hashes, as far as they can't be rendered from the model."""
     open: Open | None = None
     """None if nothing is: the last build was complete."""
-    is_ambiguous: bool = False
-    """Whether git has united two states, or lines are lost: then generator and model are not known for sure."""
+    is_united: bool = False
+    """Whether git has united two states, or lines are lost, and no build was complete since.
 
-    @property
-    def snapshot(self) -> Snapshot | None:
-        """The model; None if there is none, or if it is not known which one it is."""
-        return self.snapshots[0] if len(self.snapshots) == 1 and not self.is_ambiguous else None
+    The model then serves for renames and reports, if it is whole. No text is taken for one that follows from it.
+    """
 
 
 def role_of(path: str) -> Role:

@@ -42,7 +42,6 @@ _FACTS: Mapping[str, Any] = {
     "option": tuple[str, Any],
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
-    "text": tuple[str, str],
     "choice": tuple[str, str, Choice],
     "edited": tuple[str, str],
     "seen": tuple[str, str | None, Any],
@@ -52,7 +51,7 @@ _FACTS: Mapping[str, Any] = {
 """The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
 _SUM = "sum "
-"""Begins the line with the hash of all others. Where git has united two states, it does not fit."""
+"""Begins the line with the hash of all others. Where git has united two states, it does not fit, or is left out."""
 _HEADINGS = ("package", "class", "folder", "domain", "revision", "templates")
 _PLACE = ("package", "class", "folder")
 
@@ -65,7 +64,8 @@ def dumps(record: Record) -> str:
     for key, file in record.files.items():
         files |= {(key[below:], one) for one in ((_USERS,) if file.is_users else file.hashes)}
     listed = [f"file {sha256}  {path}" for path, sha256 in sorted(files)]
-    lines.add(_line("sum", _sum([*lines, *listed])))
+    if not record.is_united:
+        lines.add(_line("sum", _sum([*lines, *listed])))
     return "\n".join(f"{one}\n" for one in [_HEADER.rstrip(), *sorted(lines), *listed])
 
 
@@ -83,10 +83,9 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from zip(_PLACE, (record.package, record.class_, record.folder), strict=True)
     yield from (("domain", generator.domain), ("revision", generator.revision), ("templates", generator.templates))
     yield from (("option", item) for item in record.options.items())
-    for snapshot in record.snapshots:
-        yield from (("model", fact) for fact in _elements(snapshot))
+    if record.snapshot is not None:
+        yield from (("model", fact) for fact in _elements(record.snapshot))
     yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
-    yield from (("text", item) for item in record.texts.items())
     if record.open:
         yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
         yield from (("edited", item) for item in record.open.edited.items())
@@ -157,7 +156,6 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     package, class_, folder, domain, _, templates = (found[word][-1] for word in _HEADINGS)
     is_placed = all(len(found[word]) == 1 for word in _PLACE)
     options = dict(found["option"])
-    snapshots, seen = _snapshots(found["model"]), _snapshots(found["seen"])
     hashes: dict[str, list[str]] = {}
     for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
@@ -165,14 +163,15 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
     for key, one in found["import"]:
         imports[key] = (*imports.get(key, ()), one)
     open_ = None
-    if seen:
+    if found["seen"]:
         choices = {(path, sides): choice for path, sides, choice in found["choice"]}
         renamed = {(kind, old): new for kind, old, new in found["renamed"]}
-        is_known = len(seen) == 1 and len(renamed) == len(found["renamed"])
+        seen = _snapshot(found["seen"])
+        is_known = seen is not None and len(renamed) == len(found["renamed"])
         once = len(choices) == len(found["choice"])
         open_ = Open(
             choices if once else {},
-            seen[0] if is_known else {},
+            (seen or {}) if is_known else {},
             renamed if is_known else {},
             dict(found["edited"]) if once else {},
             dict(found["renewed"]),
@@ -183,28 +182,22 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         folder=folder,
         generator=Generator(domain, max(found["revision"]), templates),
         options=options,
-        snapshots=snapshots,
+        snapshot=_snapshot(found["model"]),
         imports=imports,
         files={
             key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found)
             for key, found in sorted(hashes.items())
         },
-        texts=dict(found["text"]),
         open=open_,
-        is_ambiguous=not is_whole,
+        is_united=not is_whole,
     )
 
 
-def _snapshots(facts: list[tuple[str, str | None, Any]]) -> tuple[Snapshot, ...]:
-    """The model that its elements make: one, or two if elements are there twice; none if there is no element."""
-    last = {(part, name): element for part, name, element in facts}
-    first = {(part, name): element for part, name, element in reversed(facts)}
-    if not facts:
-        return ()
-    return tuple(map(_snapshot, (last,) if len(last) == len(facts) else (first, last)))
-
-
-def _snapshot(elements: Mapping[tuple[str, str | None], Any]) -> Snapshot:
+def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Snapshot | None:
+    """Return the model that its elements make; None if there are none, or if one stands twice."""
+    elements = {(part, name): element for part, name, element in facts}
+    if not facts or len(elements) < len(facts):
+        return None
     model = {part: element for (part, name), element in elements.items() if name is None}
     for (part, name), element in elements.items():
         if name is not None:

@@ -1,4 +1,4 @@
-"""`.urdfsync/` on disk: where the record of each robot is, and how it gets there."""
+"""`.urdfsync/` on disk: where the record and the bases of each robot are, and how they get there."""
 
 from __future__ import annotations
 
@@ -9,29 +9,31 @@ from typing import TypeAlias
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.files import Tree, digest, normalised, shown, text_digest
-from urdfsync.state import expansion, planned, statefile
+from urdfsync.files import Tree, digest, normalised, shown
+from urdfsync.state import bases, expansion, planned, statefile
 from urdfsync.state.expansion import Expansion
 from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
 SUFFIX, EXPANDED = ".state", ".expanded"
-BASE, CONFLICTS, REPLACED = "base", "conflicts", "replaced"
-"""Folders beside the records, with one for each robot: kept texts by their hashes, versions of what conflicts, and what
-stood in files that the last build wrote over."""
+CONFLICTS, REPLACED = "conflicts", "replaced"
+"""Folders beside the records, with one for each robot: versions of what conflicts, and what stood in files that the
+last build wrote over."""
 _FOR_GIT = {
     ".gitignore": """\
-# Written by urdfsync. robots/ belongs into version control, everything else is safe to lose.
+# Written by urdfsync. robots/ and bases/ belong into version control, everything else is safe to lose.
 /*
 !/.gitignore
 !/.gitattributes
 !/robots/
+!/bases/
 """,
     ".gitattributes": """\
-# Written by urdfsync. Lines of recorded states stand alone: git unites those of two branches.
+# Written by urdfsync. Lines of recorded states and bases stand alone: git unites those of two branches.
 /robots/*.state merge=union
 /robots/*.expanded merge=union
+/bases/** merge=union -diff -text linguist-generated
 """,
 }
 
@@ -47,6 +49,8 @@ class Store:
         self._tree = Tree(root)
         self._seen: dict[Path, tuple[bytes | None, str | None]] = {}
         """Content and hash of each file that was loaded; None for no file."""
+        self._bases: dict[Path, dict[str, str]] = {}
+        """What was loaded of bases, by their files."""
 
     def names(self) -> list[str]:
         """The robots that have a record, by their names."""
@@ -99,10 +103,33 @@ class Store:
         found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
         return all((None if content is None else digest(content)) == before for content, before in found)
 
-    def bases(self, robot: str) -> dict[str, str]:
-        """The texts that are kept to merge edited files with, by their hashes (see `text_digest`). Safe to lose."""
-        found = self.contents(BASE, robot).items()  # one may be a stranger's, or cut short
-        return {sha256: text.decode(errors="replace") for sha256, text in found if text_digest(text) == sha256}
+    def base(self, robot: str, sha256: str) -> str | None:
+        """The text with this hash (see `text_digest`) that was generated last for a robot; None if it is lost."""
+        return self.bases(robot, sha256[0]).get(sha256) if sha256 else None
+
+    def bases(self, robot: str, digit: str) -> dict[str, str]:
+        """The texts generated last for a robot whose hashes begin with a digit, by these hashes."""
+        path = self._base_file(robot, digit)
+        if path not in self._bases:
+            self._bases[path] = bases.loads(self._bytes(path) or b"")
+        return self._bases[path]
+
+    def missing_bases(self, robot: str) -> set[str]:
+        """The digits for which there is no file of bases."""
+        folder = self.folder / "bases" / robot
+        return {*bases.DIGITS}.difference(list_folder(folder) if self._tree.check_folder(folder) else ())
+
+    def save_bases(self, robot: str, digit: str, texts: Mapping[str, str] | None) -> list[FileChange]:
+        """How the texts of one digit get to the disk, or how their file goes."""
+        path, content = self._base_file(robot, digit), None if texts is None else bases.dumps(texts)
+        return [self._change(path, content)] if self._bytes(path) != content else []
+
+    def base_files(self, robot: str) -> list[Path]:
+        """The files of a robot's bases."""
+        return [self._base_file(robot, digit) for digit in bases.DIGITS]
+
+    def _base_file(self, robot: str, digit: str) -> Path:
+        return self.folder / "bases" / robot / digit
 
     def contents(self, kind: str, robot: str) -> dict[str, bytes]:
         """What is in the robot's folder of one kind, by the paths below it. Safe to lose."""
@@ -141,9 +168,20 @@ class Store:
             yield self._change(self.path(former), None)
 
     def for_git(self) -> list[FileChange]:
-        """How git is told what is safe to lose and how records merge, unless it has been told already."""
-        files = {self.folder / name: text.encode() for name, text in _FOR_GIT.items()}
-        return [self._change(path, content) for path, content in files.items() if self._bytes(path) is None]
+        """How git is told what is safe to lose and how states merge; lines of the user's stay."""
+        found = []
+        for name, text in _FOR_GIT.items():
+            path = self.folder / name
+            old = self._bytes(path)
+            if old is None:
+                found.append(self._change(path, text.encode()))
+                continue
+            known = {line.strip() for line in old.splitlines()}
+            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in known]
+            if lines:
+                old += b"" if old.endswith(b"\n") or not old else b"\n"
+                found.append(self._change(path, old + b"".join(b"%s\n" % line for line in lines)))
+        return found
 
     def drawing(self, robot: str, text: str) -> tuple[Path, list[FileChange]]:
         """Where the robot's diagram goes, and how it gets there."""

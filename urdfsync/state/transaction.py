@@ -3,9 +3,9 @@
 1. The planned hashes are put aside under a temporary name.
 2. All new files are written beside their targets under temporary names, and brought to the disk.
 3. The planned hashes take their place. Until then nothing has changed, and an error leaves no trace.
-4. Each target is exchanged with its new file, deletions last. The old file stands under the temporary name then, where
-   its hash shows whether it is the one that was planned with. If it is not, somebody has saved the target in between:
-   the two are exchanged back, and the target is *overtaken*.
+4. Each target is exchanged with its new file, bases first, deletions last. The old file stands under the temporary
+   name then, where its hash shows whether it is the one that was planned with. If it is not, somebody has saved the
+   target in between: the two are exchanged back, and the target is *overtaken*.
 5. The recorded state takes its place, unless a target was overtaken.
 6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken: those
    stand until a build of this robot is complete.
@@ -178,7 +178,9 @@ class Transactions:
         state_folder = str(self._state_folder / "robots")
         state = [target for target in targets if target.folder == state_folder]
         others = [target for target in targets if target.folder != state_folder]
-        others.sort(key=lambda target: target.new is None)
+        bases = f"{self._state_folder / 'bases'}{os.sep}"
+        # a base is there before the file that was generated with it, and goes after it
+        others.sort(key=lambda one: (one.new is None, one.folder.startswith(bases) == (one.new is None)))
         changed = [(target, target.change()) for target in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
@@ -321,6 +323,31 @@ class _Target(msgspec.Struct, frozen=True):
             if hash_of(self.temporary) != self.new:  # and was saved once more: the later save counts
                 file_operations.exchange(self.temporary, self.path)
         return False
+
+
+def save(file: Path, old: bytes, new: bytes) -> None:
+    """Replace a file that no build owns; a link to it stays one, and its permissions stay.
+
+    Raises OutputError if it is not as `old` any more: somebody's save stays. Raises OSError.
+    """
+    path = file.resolve()
+    temporary = path.with_name(f".{os.urandom(8).hex()}{TEMPORARY}")
+    target = _Target(str(path.parent), path, temporary, digest(old), digest(new), is_moved=False)
+    try:
+        file_operations.write(temporary, new, path)
+        file_operations.sync([temporary])
+    except BaseException:
+        file_operations.remove(temporary)
+        raise
+    try:
+        # twice, since somebody may have written to the old file through a handle that was opened before
+        is_done = target.change() and target.change()
+    finally:
+        kept = [*target.clear(_temporary_files([target.folder]))]
+    if not is_done:
+        message = "it has changed meanwhile, and stays as it is now"
+        hint = f"{'an earlier save is kept as ' + shown(kept[0]) + '; ' if kept else ''}run the command again"
+        raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(file), hint=hint))
 
 
 def hash_of(path: Path) -> str | None:

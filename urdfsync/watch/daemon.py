@@ -354,7 +354,7 @@ class Daemon:
         for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
             watched.built = None  # what is saved meanwhile is built, even if it is as before the last change
-            if result.renews_state or any(action.writes for action in result.actions):
+            if result.writes:
                 writers.add(result.robot)
             if not result.failed:
                 self._take_result(watched, result)
@@ -394,7 +394,7 @@ class Daemon:
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
-        left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
+        left_alone = frozenset((action.path, str(action.reason)) for action in decided if not action.writes)
         if result.is_broken:
             left_alone |= {(one.file, one.message) for one in result.diagnostics}
         if watched.is_told or files or recovered or left_alone != watched.left_alone:

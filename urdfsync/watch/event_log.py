@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.actions import CONFLICTS, Actions, Kind
+from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line
-from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary
+from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
 from urdfsync.output.results import result_lines
 from urdfsync.watch import events
 
@@ -42,8 +42,9 @@ _PLAIN: dict[type[events.Event], str] = {
 """Texts of events that are one line."""
 _ALWAYS = (events.Recovered, events.Stopping)
 """Those of them that are told without `--verbose`."""
-_KEPT = frozenset({Kind.ORPHAN, Kind.NEEDED})
+_KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
 """Files that are no longer generated, but kept."""
+_CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
 _FEW = 2
 """So many changes of a model are spelled out, in at most so many characters; more are counted."""
 _MAX_LENGTH = 100
@@ -105,22 +106,22 @@ class EventLog:
             yield self._line(clock, robot, f"broken: {place}: {errors[0].message}{more}", "bold red", error=True)
         had_conflicts = bool(self._told.get((robot, "conflicts")))
         conflicts = self._is_new(robot, "conflicts", {(one.path, one.mine, one.generated) for one in result.conflicts})
-        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.kind in _KEPT})
+        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.reason in _KEPT})
         if self._console.quiet and not conflicts:
             return
         said = []
-        if event.files or event.recovered or result.changes or conflicts or kept:
-            said = [*_changes(result), *action_counts(result, {Kind.KEEP} | (frozenset() if kept else _KEPT))]
+        if event.files or event.recovered or result.effective_changes or conflicts or kept:
+            said = [*_changes(result), *action_counts(result, {Reason.KEEP} | (frozenset() if kept else _KEPT))]
         if not (result.conflicts or result.is_broken) and (event.recovered or had_conflicts or was_broken):
             said.append("in step again")
-        if not said and (verbose or result.changes):
+        if not said and (verbose or result.effective_changes):
             said = [summary(result)]
         if not said:
             return
         yield self._line(clock, robot, ", ".join(said), "yellow" if result.conflicts else "")
         if not self._console.quiet:
-            hidden = frozenset() if verbose else CONFLICTS | (frozenset() if kept else _KEPT)
-            actions = Actions(one for one in result.actions if one.kind not in hidden)
+            hidden = frozenset() if verbose else _CONFLICTS | (frozenset() if kept else _KEPT)
+            actions = Actions(one for one in result.actions if one.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
@@ -154,14 +155,11 @@ class EventLog:
 
 
 def _changes(result: Result) -> list[str]:
-    """Return what changed in the model: a few changes in words, else their number."""
-    if result.changes is None:
+    """Return what changed in the model: a few changes in words, else how many."""
+    if result.effective_changes is None:
         return []
-    lines = change_lines(result.changes)
-    if result.changes.generator:
+    changes, lines = result.effective_changes, change_lines(result.effective_changes)
+    words = "; ".join(lines[-_FEW:])
+    if changes.generator:
         return lines[:1]
-    words = "; ".join(lines)
-    if len(lines) <= _FEW and len(words) <= _MAX_LENGTH:
-        return [words]
-    found = result.changes
-    return [f"{counted(len(found.changes), 'change')} in {counted(len(found.by_element()), 'element')}"]
+    return [words if len(lines) <= _FEW + 1 and len(words) <= _MAX_LENGTH else change_counts(changes)]

@@ -6,7 +6,6 @@ Paths are strings here, since there are thousands of them and they are looked at
 from __future__ import annotations
 
 import contextlib
-import glob
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -89,7 +88,7 @@ class WatchedPaths(msgspec.Struct, frozen=True):
     """Where changes of the paths of all robots show; without symbolic links, as events have none."""
 
     by_path: Mapping[str, set[str]] = {}
-    """Robots by each of their files, and by each folder and link on the way there."""
+    """Robots by each of their files, and by each folder and link on the way there; by FOLDER/* for each file in it."""
     folders: frozenset[str] = frozenset()
     """Folders to watch, without those below."""
     trees: Mapping[str, set[str]] = {}
@@ -97,7 +96,7 @@ class WatchedPaths(msgspec.Struct, frozen=True):
 
     def robots_for(self, path: str) -> set[str]:
         """Return the robots to which a change of a path matters."""
-        found = set(self.by_path.get(path, ()))
+        found = {*self.by_path.get(path, ()), *self.by_path.get(_any_file(os.path.dirname(path)), ())}  # noqa: PTH120
         return found.union(*(robots for tree, robots in self.trees.items() if path.startswith(f"{tree}{os.sep}")))
 
 
@@ -128,9 +127,10 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
             folder, _, file = path.rpartition(os.sep)
             by_path.setdefault(f"{folders[folder]}{os.sep}{file}", set()).add(name)
         trees.setdefault(add(str(robot.folder), name), set())
-        looked_through = [_folder_of(pattern) for pattern in own.patterns]
-        for tree in [*looked_through, *([str(robot.templates)] if robot.templates else [])]:
-            trees.setdefault(add(tree, name), set()).add(name)
+        for folder in {os.path.dirname(pattern) for pattern in own.patterns}:  # noqa: PTH120
+            by_path.setdefault(_any_file(add(folder, name)), set()).add(name)
+        if robot.templates:
+            trees.setdefault(add(str(robot.templates), name), set()).add(name)
     trees = {folder: names for folder, names in trees.items() if os.path.isdir(folder)}  # noqa: PTH112
     in_trees = tuple(f"{tree}{os.sep}" for tree in trees)
     above.remove(root)  # a file that is missing there may come, as any below it
@@ -145,11 +145,9 @@ def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> Watch
     return WatchedPaths(by_path, frozenset(watched), trees)
 
 
-def _folder_of(pattern: str) -> str:
-    """Return the folder below which all files are that a pattern matches."""
-    while glob.has_magic(pattern):
-        pattern = os.path.dirname(pattern)  # noqa: PTH120
-    return pattern
+def _any_file(folder: str) -> str:
+    """Return the key for each file in a folder."""
+    return f"{folder}{os.sep}*"
 
 
 def _way_to(path: str) -> list[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import glob
 import math
 import os
 import stat
@@ -17,6 +16,7 @@ import msgspec
 from urdfsync.config import RobotConfig
 from urdfsync.dependencies import is_young, read_unrecorded, stat_of
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.xacro_worker import find_matches
 from urdfsync.files import digest
 from urdfsync.watch.paths import RobotPaths
 
@@ -120,7 +120,7 @@ class WatchedRobot(msgspec.Struct):
         for folder, _, names in os.walk(templates) if templates else ():
             inputs.update(os.path.join(folder, name) for name in names)  # noqa: PTH118
         for pattern in self.paths.patterns:
-            inputs.update(glob.glob(pattern))  # noqa: PTH207 - as xacro does
+            inputs.update(find_matches(pattern))
         known = self.files
         self.files = {path: read_state(path, known.get(path)) for path in inputs}
         self.files |= {path: read_state(path, known.get(path), follow=False) for path in outputs}

@@ -137,9 +137,9 @@ def _after_build(result: Result, clock: str, before: RobotStatus | None) -> Robo
         return RobotStatus(Activity.CONFLICT, f"{Activity.CONFLICT} in {where}")
     if result.is_broken:
         return RobotStatus(Activity.ERROR, _with_error("broken", result.diagnostics))
-    if result.in_step and before is not None and before.activity is Activity.IN_STEP:
+    if not result.writes and before is not None and before.activity is Activity.IN_STEP:
         return before  # with the time of the build that wrote something
-    return RobotStatus(Activity.IN_STEP, "in step" if result.in_step else f"in step, built at {clock}")
+    return RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")
 
 
 def _with_error(words: str, diagnostics: Sequence[Diagnostic]) -> str:

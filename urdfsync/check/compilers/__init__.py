@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-import importlib.metadata
 import importlib.util
 import tempfile
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import msgspec
 
@@ -15,6 +12,7 @@ from urdfsync.check import process
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers import omc, rumoca
 from urdfsync.check.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
+from urdfsync.check.contents import content_hash
 from urdfsync.check.process import BrokenProcessError, Limits
 from urdfsync.diagnostics import Diagnostic, Severity
 
@@ -34,16 +32,15 @@ def find_missing(tool: Tool) -> Diagnostic | None:
     return tool.problem
 
 
-def installed_version(tool: Tool, *others: str) -> str:
-    """The versions of a compiler and of other distributions, for the keys of results; empty for what is not there."""
-    compiler, found = COMPILERS[tool.name], [tool.name]
-    for distribution in (*compiler.MODULES, *others):
-        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
-            found.append(f"{distribution} {importlib.metadata.version(distribution)}")
-    if program := compiler.program(tool.program):
-        with contextlib.suppress(OSError):
-            found.append(f"{Path(program).resolve()} {Path(program).stat().st_mtime_ns}")
-    return "; ".join(found)
+def state(tool: Tool) -> list[str]:
+    """Return what changes whenever a compiler does: hashes of its files, and the version that it says; or why not.
+
+    Raises OSError if that can't be known.
+    """
+    if missing := find_missing(tool):
+        return [tool.name, str(missing)]
+    version, places = COMPILERS[tool.name].state(tool.program)
+    return [tool.name, version, *(f"{place} {content_hash(place)}" for place in places)]
 
 
 def find_untried(tool: Tool, version: str) -> Diagnostic | None:

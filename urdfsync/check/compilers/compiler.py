@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Protocol, TypeAlias
 
 import msgspec
@@ -144,6 +145,14 @@ class Compiler(Protocol):
         """Return the path of the program to start, empty if it needs none; None if it is missing.
 
         `named` is `Tool.program`.
+        """
+        ...
+
+    def state(self, named: str) -> tuple[str, list[Path]]:
+        """Return the version that the compiler says itself, and the files and folders that it is made of.
+
+        That is for the keys of results, which rest on it; libraries that it finds by its own means are part of it. It
+        is there. Raises OSError if it does not answer.
         """
         ...
 

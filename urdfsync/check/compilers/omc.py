@@ -34,13 +34,15 @@ from urdfsync.processes import exit_cause
 
 TITLE = "OpenModelica"
 MODULES: tuple[str, ...] = ("scipy",)
-INSTALL = "install OpenModelica, name its program with `omc` in the table `[check]`, or use `--tool rumoca`"
-REPORT = "use `--tool rumoca`, and report it to the authors of OpenModelica"
+INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
+REPORT = "report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 TRIED: tuple[str, ...] = ("1.27",)
 HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
+_PATIENCE = 30.0
+"""Seconds in which it has to say its version."""
 _NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -86,6 +88,21 @@ def program(named: str) -> str | None:
         return shutil.which(named)
     home = os.environ.get("OPENMODELICAHOME")
     return (shutil.which("omc", path=str(Path(home, "bin"))) if home else None) or shutil.which("omc")
+
+
+def state(named: str) -> tuple[str, list[Path]]:
+    """See `Compiler`: the program, its shared libraries, and the Modelica Standard Library that comes with it.
+
+    The program may be a script that starts something else, so it is asked as well.
+    """
+    file = Path(program(named) or "omc").resolve()
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        try:
+            ((version, _),) = _ask(CompileJob((), (), named), Path(folder), ["getVersion()"], _PATIENCE)
+        except (ImportError, subprocess.TimeoutExpired) as error:
+            raise OSError(str(error)) from error
+    patterns = "lib/omc/*.so*", "lib/*/omc/*.so*", *(f"lib/omlibrary/{name}*" for name in STANDARD_LIBRARIES)
+    return version, [file, *(path for pattern in patterns for path in sorted(file.parent.parent.glob(pattern)))]
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
@@ -189,8 +206,11 @@ def _settings(run: Simulation) -> str:
     return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="mat"{override}'
 
 
-def _ask(job: CompileJob, folder: Path, calls: Sequence[str]) -> list[_Answer]:
-    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them."""
+def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | None = None) -> list[_Answer]:
+    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them.
+
+    Raises TimeoutExpired after `seconds`; None for a process that has a limit already.
+    """
     script = folder / "script.mos"
     script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
     try:
@@ -200,6 +220,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str]) -> list[_Answer]:
             capture_output=True,
             stdin=subprocess.DEVNULL,
             check=False,
+            timeout=seconds,
         )
     except OSError as error:
         raise ImportError(str(error)) from error

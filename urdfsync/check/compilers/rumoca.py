@@ -7,6 +7,7 @@ with a frame around the source.
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import math
 import re
 from collections.abc import Iterator
@@ -57,6 +58,12 @@ _PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
 def program(named: str) -> str:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`: all of it is in the module."""
     return ""
+
+
+def state(named: str) -> tuple[str, list[Path]]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`: the folder of the module; its version is part of that."""
+    spec = importlib.util.find_spec("rumoca")
+    return "", [Path(spec.origin).parent] if spec and spec.origin else []
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`

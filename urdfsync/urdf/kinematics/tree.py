@@ -39,6 +39,8 @@ class KinematicTree(msgspec.Struct, frozen=True):
         Raises KeyError or ValueError for a robot that passes none.
         """
         links = {link.name: link for link in robot.links}
+        if len({joint.child for joint in robot.joints}) < len(robot.joints):
+            raise ValueError("two joints lead to one link")  # with a cycle the walk below would not end
         children: defaultdict[str, list[Joint]] = defaultdict(list)
         for joint in robot.joints:
             children[joint.parent].append(joint)

@@ -1,0 +1,172 @@
+"""`urdfsync merge-driver`: git merges with it by elements, once it is installed in a clone."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
+
+BASE = """\
+model Arm "An arm"
+  Body body(m = 11.5);
+
+equation
+  connect(frame_a, body.frame_a);
+end Arm;
+"""
+MINE = BASE.replace("\nequation", "  Sensor sensor;\n\nequation").replace("An arm", "My arm")
+OTHER = BASE.replace("\nequation", "  Body tool;\n\nequation").replace("11.5", "12.1")
+BOTH = MINE.replace("\nequation", "  Body tool;\n\nequation").replace("11.5", "12.1")
+ATTRIBUTES = "*.mo merge=urdfsync\n"
+
+
+def write(mine: str, base: str, other: str) -> tuple[str, str, str]:
+    """Three files in git's order; git's have no suffix either."""
+    for name, text in (("mine", mine), ("base", base), ("other", other)):
+        Path(name).write_text(text)
+    return "base", "mine", "other"
+
+
+def test_both_sides_add_at_one_place(folder: Path, execute: Execute) -> None:
+    assert execute("merge-driver", *write(MINE, BASE, OTHER)).lines == []
+    assert (folder / "mine").read_text() == BOTH
+
+
+def conflict(labels: tuple[str, str], size: int = 7) -> str:
+    """Both texts merged, but for a mass that both have changed."""
+    block = f"{'<' * size} {labels[0]}\n  Body body(m = 99);\n{'=' * size}\n  Body body(m = 12.1);\n"
+    return BOTH.replace("  Body body(m = 12.1);\n", f"{block}{'>' * size} {labels[1]}\n")
+
+
+def test_what_both_changed_stands_between_markers(folder: Path, execute: Execute) -> None:
+    (folder / "mine").touch(mode=0o640)
+    options = ("--ours=HEAD", "--theirs=-x\nbranch", "--marker-size=9", "--path=Arm.mo")
+    assert execute("merge-driver", *options, *write(MINE.replace("11.5", "99"), BASE, OTHER), code=1).err == (
+        "Arm.mo: warning: 1 conflict between markers; settle them in the file [conflict]\n"
+    )
+    assert (folder / "mine").read_text() == conflict(("HEAD", "-x branch"), 9)
+    assert (folder / "mine").stat().st_mode & 0o777 == 0o640
+
+
+def test_any_text_merges_by_lines(folder: Path, execute: Execute) -> None:
+    execute("merge-driver", *write("a\nb\nmine\n", "a\nb\nc\n", "other\nb\nc\n"))
+    assert (folder / "mine").read_text() == "other\nb\nmine\n"
+
+
+def test_elements_that_do_not_fit_together_merge_by_lines(folder: Path, execute: Execute) -> None:
+    """A declaration that is there twice is for people, as after any merge of git's."""
+    mine, other = BASE.replace("  Body", "  Real x;\n  Body"), BASE.replace("\nequation", "  Real x, y;\n\nequation")
+    execute("merge-driver", *write(mine, BASE, other))
+    assert (folder / "mine").read_text() == mine.replace("\nequation", "  Real x, y;\n\nequation")
+
+
+def test_what_is_not_utf_8_is_a_conflict_and_stays(folder: Path, execute: Execute) -> None:
+    """So that git goes on with the other files."""
+    write(MINE, BASE, OTHER)
+    (folder / "other").write_bytes(b"\xff")
+    error = execute("merge-driver", "base", "mine", "other", "--path", "Arm.mo", code=1).err
+    assert error.startswith("Arm.mo: warning: it is not UTF-8, so it can't be merged; ")
+    assert (folder / "mine").read_text() == MINE
+
+
+def test_errors_have_the_exit_code_that_git_knows(folder: Path, execute: Execute) -> None:
+    write(MINE, BASE, OTHER)
+    assert execute("merge-driver", "nowhere", "mine", "other", code=255).err.startswith("nowhere: error: ")
+    for arguments in (["base", "mine"], [], ["--install", "base", "mine", "other"]):
+        assert "either --install or BASE MINE OTHER is needed" in execute("merge-driver", *arguments, code=255).err
+    assert (folder / "mine").read_text() == MINE
+
+
+@pytest.mark.parametrize("size", ["0", "-3"])
+def test_markers_are_never_without_length(size: str, folder: Path, execute: Execute) -> None:
+    """As in git, which takes seven then."""
+    execute("merge-driver", f"--marker-size={size}", *write(MINE.replace("11.5", "99"), BASE, OTHER), code=1)
+    assert (folder / "mine").read_text() == conflict(("ours", "theirs"))
+
+
+# In a clone
+
+
+@pytest.fixture
+def clone(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
+    """A clone with the branches `base`, `export` and `edited`, which is checked out; the driver is installed."""
+    repository = Repository(folder, monkeypatch)
+    (folder / ".gitattributes").write_text(ATTRIBUTES)
+    for branch, text in (("base", BASE), ("export", OTHER), ("edited", MINE)):
+        repository.git("checkout", "-q", "-b", branch, *(["base"] if text == MINE else []))
+        (folder / "Arm.mo").write_text(text)
+        repository.commit(branch)
+    printed = execute("merge-driver", "--install")
+    assert printed.lines == [f"git merges with urdfsync in {folder}"]
+    assert printed.err == ""
+    return repository
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize("command", ["merge -q", "rebase -q", "cherry-pick"])
+def test_git_merges_with_it(clone: Repository, command: str) -> None:
+    clone.git(*command.split(), "export")
+    text = (clone.folder / "Arm.mo").read_text()
+    assert sorted(text.splitlines()) == sorted(BOTH.splitlines())
+    assert clone.git("status", "--porcelain") == ""
+
+
+@NEEDS_GIT
+def test_git_says_what_it_could_not_merge(clone: Repository) -> None:
+    (clone.folder / "Arm.mo").write_text(MINE.replace("11.5", "99"))
+    clone.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        clone.git("merge", "export")
+    text = (clone.folder / "Arm.mo").read_text()
+    assert text in (conflict(("ours", "theirs")), conflict(("HEAD", "export")))
+    assert clone.git("diff", "--name-only", "--diff-filter=U") == "Arm.mo\n"
+
+
+@NEEDS_GIT
+def test_the_line_that_is_missing_is_told(clone: Repository, execute: Execute) -> None:
+    clone.git("rm", "-q", ".gitattributes")
+    error = execute("merge-driver", "--install").err
+    assert error.startswith(".gitattributes: note: it does not say which files these are; ")
+    assert ATTRIBUTES.strip() in error
+
+
+@NEEDS_GIT
+def test_nothing_in_the_clone_is_run(clone: Repository) -> None:
+    """Git starts the driver in its top folder, where Python would look for modules first."""
+    evil = "from pathlib import Path\nPath('pwned').touch()\n"
+    for name in ("urdfsync/__init__.py", "urdfsync/__main__.py", "argparse.py", "sitecustomize.py"):
+        (clone.folder / name).parent.mkdir(exist_ok=True)
+        (clone.folder / name).write_text(evil)
+    clone.commit()
+    clone.git("merge", "-q", "export")
+    assert (clone.folder / "Arm.mo").read_text() == BOTH
+    assert not (clone.folder / "pwned").exists()
+
+
+@NEEDS_GIT
+def test_without_a_clone_nothing_is_installed(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder that poses as a bare repository is none."""
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(folder.parent))
+    for name in ("objects", "refs"):
+        (folder / name).mkdir()
+    (folder / "HEAD").write_text("ref: refs/heads/main\n")
+    settings = f"[core]\nrepositoryformatversion = 0\nbare = false\nworktree = {folder}\n"
+    (folder / "config").write_text(settings)
+    assert "; run it in a clone [git]" in execute("merge-driver", "--install", code=255).err
+    assert (folder / "config").read_text() == settings
+
+
+@NEEDS_GIT
+def test_signs_that_git_would_replace_stay(
+    clone: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "executable", "/my python/100%Python")
+    execute("merge-driver", "--install")
+    command = clone.git("config", "merge.urdfsync.driver")
+    assert command.startswith("'/my python/100%%Python' -P -m urdfsync merge-driver --path=%P ")

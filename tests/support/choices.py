@@ -1,0 +1,21 @@
+"""Choices about files in conflict, as `resolve` makes them: on the texts that it has looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from urdfsync.config import Config
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.state.record import Choice
+
+
+def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **request: Any) -> BuildOptions:
+    """How to build, with choices about the texts that are there now, by path."""
+    if not choices:
+        return BuildOptions(**request)
+    looked = build(loaded, loaded.robots, BuildOptions(**{**request, "dry": True}))
+    sides = {action.path: action.sides for result in looked for action in result.actions}
+    made = {(path, sides[path]): choice for path, choice in choices.items() if path in sides}
+    return BuildOptions(choices=made, **request)

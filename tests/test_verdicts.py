@@ -1,0 +1,163 @@
+"""One verdict: `status`, `build --check`, the hook and `build` say the same of a package, and it is so."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+from support.networks import edit
+
+from urdfsync import cli
+
+pytestmark = NEEDS_GIT
+
+ROBOT = """\
+<robot name="arm">
+  <link name="base"/>
+  <link name="fore">
+    <inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+  </link>
+  <joint name="elbow" type="revolute">
+    <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>
+  </joint>
+</robot>
+"""
+CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
+PACKAGE = "modelica/Arm"
+MODEL, RECORD = f"{PACKAGE}/Links/Fore.mo", f"{PACKAGE}/Links/ForeParameters.mo"
+JOINT, JOINT_RECORD = f"{PACKAGE}/Joints/Elbow.mo", f"{PACKAGE}/Joints/ElbowParameters.mo"
+STATE = ".urdfsync/robots/arm.state"
+
+
+class Verdict(NamedTuple):
+    """What each command says: its exit code, and whether `in_step` of its JSON is true."""
+
+    status: int
+    check: int
+    hook: int
+    build: int
+    in_step: bool
+    """One value, of the documents of `status` and `build --check`."""
+    wrote: bool
+    """Whether the build has changed anything that git tracks."""
+
+
+@pytest.fixture
+def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Repository:
+    """A robot, built and committed; the working folder is its top."""
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(repository.folder)
+    Path("arm.urdf").write_text(ROBOT)
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    assert cli.main(["build", "--quiet"]) == 0
+    repository.commit()
+    capsys.readouterr()
+    return repository
+
+
+@pytest.fixture
+def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Callable[[], Verdict]:
+    """A function that commits all, asks each command, and builds at last."""
+
+    def ask() -> Verdict:
+        repository.commit()
+        codes, said = list[int](), []
+        for command in (["status", "--json"], ["build", "--check", "--json"]):
+            capsys.readouterr()
+            codes.append(cli.main(command))
+            robots = json.loads(capsys.readouterr().out)["robots"]
+            said.append(all(robot["in_step"] for robot in robots))
+        assert said[0] == said[1]
+        hook = cli.main(["hook", "check"])
+        assert repository.git("status", "--porcelain") == "", "nothing of this writes"
+        build = cli.main(["build"])
+        wrote = repository.git("status", "--porcelain") != ""
+        return Verdict(codes[0], codes[1], hook, build, said[0], wrote)
+
+    return ask
+
+
+GREEN = Verdict(0, 0, 0, 0, in_step=True, wrote=False)
+"""In step: nothing to write."""
+LATE = Verdict(1, 1, 1, 0, in_step=False, wrote=True)
+"""Out of step: a build brings it in step."""
+
+
+def source(old: str, new: str) -> None:
+    edit("arm.urdf", old, new)
+
+
+def extend() -> None:
+    source("</robot>", "<drake:nothing_of_ours a='1'/></robot>")
+
+
+def set_option_without_effect() -> None:
+    edit("urdfsync.toml", CONFIGURATION, f"{CONFIGURATION}meshes = 'skip'\n")
+
+
+def export_then_old_state() -> None:
+    """A mass changes and is built; then the recorded state is that of before, as after a careless checkout."""
+    old = Path(STATE).read_bytes()
+    source("2.5", "2.75")
+    assert cli.main(["build", "--quiet"]) == 0
+    Path(STATE).write_bytes(old)
+
+
+def type_what_the_export_brings() -> None:
+    source("2.5", "2.75")
+    edit(RECORD, "2.5", "2.75")
+
+
+def comment() -> None:
+    source("</robot>", "<!-- made by hand --></robot>")
+
+
+PLAIN: dict[str, tuple[Callable[[], object], Verdict]] = {
+    "an extension that is not modelled": (extend, GREEN),
+    "an option without effect": (set_option_without_effect, GREEN),
+    "new files with an old state": (export_then_old_state, LATE),
+    "the user typed what the export brings": (type_what_the_export_brings, LATE),
+    "a comment in the source": (comment, GREEN),
+    "a deleted file": (lambda: Path(RECORD).unlink(), LATE),
+    "a lost state": (lambda: Path(STATE).unlink(), LATE),
+}
+
+
+@pytest.mark.parametrize("case", PLAIN)
+def test_plain_cases(verdict: Callable[[], Verdict], case: str) -> None:
+    change, expected = PLAIN[case]
+    change()
+    assert verdict() == expected
+    assert verdict() == GREEN
+
+
+def test_what_writes_nothing_is_told_by_diff_until_the_next_write(
+    repository: Repository, capsys: pytest.CaptureFixture[str]
+) -> None:
+    extend()
+    for _ in range(2):
+        assert cli.main(["build"]) == 0
+        assert "unmodelled" not in capsys.readouterr().out
+        assert cli.main(["diff"]) == 0
+        assert "unmodelled" in capsys.readouterr().out
+    source("2.5", "2.75")
+    assert cli.main(["build"]) == 0
+    capsys.readouterr()
+    assert cli.main(["diff"]) == 0
+    assert "unmodelled" not in capsys.readouterr().out
+
+
+def test_a_comment_in_a_template_writes_nothing(verdict: Callable[[], Verdict]) -> None:
+    edit("urdfsync.toml", CONFIGURATION, f'{CONFIGURATION}templates = "own"\n')
+    own = Path("own/link/record.mo.jinja")
+    own.parent.mkdir(parents=True)
+    installed = Path(__file__).parents[1] / "templates/urdf/link/record.mo.jinja"
+    shutil.copy(installed, own)
+    assert verdict() == GREEN
+    own.write_text("<# a comment #>" + own.read_text())
+    assert verdict() == GREEN

@@ -1,0 +1,112 @@
+"""What a library or a program contains: hashed, since results are remembered by contents, and copied for compilers.
+
+It may be a stranger's. So nothing follows a link out of it or to a folder, and a copy has a limit.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import shutil
+from collections.abc import Callable, Collection, Iterable, Iterator
+from pathlib import Path
+
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.files import shown
+
+MOST_BYTES = 2**29
+"""Of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
+_BLOCK = 4096
+"""Bytes that a file takes on disk at least."""
+_PIECE = 2**20
+
+
+def content_hash(root: Path, without: Collection[str] = ()) -> str:
+    """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
+
+    Left out are hidden files, Python's caches, and what has one of the names `without`. What can't be read counts as
+    such: a compiler can't read it either. Raises UrdfsyncError for a link to a folder or out of `root`, whose content
+    nobody knows.
+    """
+    top = os.path.realpath(root)
+    found = hashlib.sha256()
+    for path in _files(top, top, {"__pycache__", *without}) if os.path.isdir(top) else [top]:  # noqa: PTH112
+        found.update(f"{path[len(top) :]}\0{_file_hash(path)}\n".encode(errors="surrogateescape"))
+    return found.hexdigest()
+
+
+def _files(top: str, folder: str, without: Collection[str]) -> Iterator[str]:
+    """Yield the files below a folder, in the order of their names; a folder that can't be read has none.
+
+    They are strings, which take half the time of paths: a library has 3,000.
+    """
+    try:
+        with os.scandir(folder) as entries:
+            inside = sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return
+    for entry in inside:
+        if entry.name.startswith(".") or entry.name in without:
+            continue
+        if entry.is_symlink():
+            _refuse_bad_link(top, entry.path)
+        if entry.is_dir():
+            yield from _files(top, entry.path, without)
+        else:
+            yield entry.path
+
+
+def _file_hash(path: str) -> str:
+    found = hashlib.sha256()
+    with contextlib.suppress(OSError):
+        if os.path.isfile(path):  # noqa: PTH113 - a pipe would never end
+            with open(path, "rb") as file:  # noqa: PTH123
+                while piece := file.read(_PIECE):
+                    found.update(piece)
+    return found.hexdigest()
+
+
+def _refuse_bad_link(top: str, link: str) -> None:
+    """Raise UrdfsyncError for a link that does not lead to a file of its library."""
+    target, problem = os.path.realpath(link), ""
+    if not target.startswith(os.path.join(top, "")):  # noqa: PTH118
+        problem = "the link leads out of its library"
+    elif os.path.isdir(target):  # noqa: PTH112
+        problem = "the link leads to a folder"
+    if problem:
+        raise _refusal(Path(link), problem, "put the files themselves in its place")
+
+
+def copy_library(
+    root: Path, target: Path, leave_out: Callable[[str, list[str]], Iterable[str]] = lambda *_: ()
+) -> None:
+    """Copy a library, which is a folder or a file. `leave_out` is as the `ignore` of `shutil.copytree`.
+
+    Raises UrdfsyncError for a link to a folder or out of the library, and for a library that is too large.
+    """
+    top, size = os.path.realpath(root), 0
+
+    def ignored(folder: str, names: list[str]) -> set[str]:
+        left_out = {*leave_out(folder, names)}
+        for path in (Path(folder, name) for name in names if name not in left_out):
+            if path.is_symlink():
+                _refuse_bad_link(top, str(path))
+        return left_out
+
+    def copy(source: str, place: str) -> str:
+        nonlocal size
+        size += max(_BLOCK, os.stat(source).st_size)  # noqa: PTH116
+        if size > MOST_BYTES:
+            message = f"the library takes more than {MOST_BYTES // 2**20} MB, and has to be copied for the compiler"
+            raise _refusal(root, message, "take large resources out of it")
+        return shutil.copyfile(source, place)
+
+    if root.is_dir():
+        shutil.copytree(top, target, ignore=ignored, copy_function=copy)
+    else:
+        copy(top, str(target))
+
+
+def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
+    return UrdfsyncError(Diagnostic(Severity.ERROR, "library-not-copied", message, shown(path), hint=hint))
