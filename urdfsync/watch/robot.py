@@ -8,6 +8,7 @@ import os
 import stat
 import time
 from collections.abc import Collection, Mapping
+from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 import msgspec
@@ -89,7 +90,9 @@ class WatchedRobot(msgspec.Struct):
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build did not write although they differ, each with the kind of its action."""
+    """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
+    pending: tuple[Path, ...] = ()
+    """Files that were written while the package is broken: the command of `--exec` waits until it is not."""
 
     @property
     def name(self) -> str:
