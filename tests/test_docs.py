@@ -70,7 +70,7 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     page = (REPOSITORY / "docs/checking.md").read_text(encoding="utf-8")
     defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
-    assert f"It stays below {LIMIT / 2**30:.0f} GiB" in page
+    assert f"The cache stays below {LIMIT / 2**30:.0f} GiB" in page
     oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
     assert f"has to be {oldest}.0 or later, below {following}." in page
     assert MOST_SINGLE_EDITS == 6
