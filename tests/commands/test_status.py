@@ -54,7 +54,9 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
 def test_a_conflict(built: Path, execute: Execute) -> None:
     edit(built / "ladder.json", "220.5", "330")
     edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
-    conflict = "  conflict   modelica/Ladder/Elements/R2Parameters.mo  you edited it"
+    conflict = (
+        "  conflict   modelica/Ladder/Elements/R2Parameters.mo  component `R`: you set `R = 221`, the export changes"
+    )
     for option in ([], ["--quiet"]):
         found = execute("status", *option, code=3).lines
         assert any(line.startswith(conflict) for line in found)

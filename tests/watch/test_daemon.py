@@ -252,8 +252,8 @@ def test_what_a_user_edits_is_left_alone_and_each_is_told_once(start: Start) -> 
     watch = start("--rescan", "0.1")
 
     def acted(what: str, since: int) -> list[str]:
-        event = watch.wait("built", lambda event: any(one["action"] == what for one in event["actions"]), since)
-        return [action["path"] for action in event["actions"] if action["action"] == what]
+        event = watch.wait("built", lambda event: any(one["reason"] == what for one in event["actions"]), since)
+        return [action["path"] for action in event["actions"] if action["reason"] == what]
 
     since = watch.mark
     MODEL.write_text(MODEL.read_text() + "// mine\n")

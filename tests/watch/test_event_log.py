@@ -167,7 +167,7 @@ SAID: dict[str, Case] = {
         ),
         [
             f"{TIME}arm  link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits",
-            "  move       modelica/Arm/Links/Wrist.mo  its element was renamed; your edits move here",
+            "  move       modelica/Arm/Links/Wrist.mo  its path is new; your edits move here",
         ],
     ),
     "nothing is said of files that stay": (

@@ -14,7 +14,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.conflicts import settle_hint, shown_path
+from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
     BROKEN,
@@ -140,6 +140,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     if (actions := action_counts(result, {Reason.KEEP})) and not (result.in_step or result.failed):
         yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
+    disputed = {one.action.path: describe(one) for one in find_conflicts([result])}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
         status = action.reason.status
@@ -147,7 +148,9 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
         is_listed = verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))
         if status and is_listed:
             path = shown_path(result, _path(action))
-            found[is_stale].append(file_line(path, status, _STYLES[status], _reason(action, result)))
+            found[is_stale].append(
+                file_line(path, status, _STYLES[status], disputed.get(action.path) or _reason(action, result))
+            )
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"

@@ -66,7 +66,7 @@ class Reason(enum.Enum):
         ("{n} to give back as you had {them}", "{n} given back as you had {them}"),
     )
     MOVE = (
-        ("move", Kind.WRITE, FileStatus.STALE, "its element was renamed; your edits move here"),
+        ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here"),
         ("{n} to move with your edits", "{n} moved with your edits"),
     )
     INCLUDED = (
@@ -95,7 +95,7 @@ class Reason(enum.Enum):
     )
     UNCHANGED = ("unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"), ("", "")
     MOVED_AWAY = (
-        ("moved-away", Kind.DELETE, FileStatus.STALE, "its element was renamed; your edits move to its new file"),
+        ("moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"),
         ("", ""),
     )
     FORGET = ("forget", Kind.LEAVE, None, "no longer generated, and already gone"), ("", "")

@@ -67,7 +67,8 @@ def describe(found: Contradiction) -> str:
         shared = f"changed {what} "
         is_alike = yours.startswith(shared) and theirs.startswith(shared)
         told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
-    return f"{element}: {told}"
+    is_base = element.startswith("extends ") and is_value  # the name of the value tells enough
+    return told if is_base else f"{element}: {told}"
 
 
 def _change(base: str, side: str, what: str) -> str:

@@ -25,7 +25,7 @@ def show_findings(console: Console, result: Result, found: Sequence[Diagnostic] 
 
     Errors, and what is wrong with Modelica files, are said as long as they are true.
     """
-    file = result.root / STATE_FOLDER / "said" / result.robot
+    file = _file(result)
     before, told = _load(file, result.root), result.diagnostics if found is None else found
     repeated = [] if console.verbose else [one for one in told if _is_said_once(one) and _key(one) in before]
     console.findings([one for one in told if one not in repeated])
@@ -38,7 +38,20 @@ def show_findings(console: Console, result: Result, found: Sequence[Diagnostic] 
             [line((f"{result.robot}: {' and '.join(counts)} as before; --verbose shows them", "dim"))], error=True
         )
     if not (result.dry or result.failed or console.quiet):
-        _save(file, before, {_key(one) for one in told if _is_said_once(one)})
+        _save(file, before, {_changes_key(result), *(_key(one) for one in told if _is_said_once(one))})
+
+
+def has_same_changes(result: Result) -> bool:
+    """Return whether the last build listed the changes of the model already: they wait for a conflict."""
+    return bool(result.conflicts) and _changes_key(result) in _load(_file(result), result.root)
+
+
+def _file(result: Result) -> Path:
+    return result.root / STATE_FOLDER / "said" / result.robot
+
+
+def _changes_key(result: Result) -> str:
+    return digest(repr(result.effective_changes).encode(errors="surrogatepass")) if result.conflicts else ""
 
 
 def _is_said_once(found: Diagnostic) -> bool:
@@ -58,9 +71,9 @@ def _load(file: Path, root: Path) -> set[str]:
 
 def _save(file: Path, before: set[str], now: set[str]) -> None:
     """Write the hashes of what was said, if they are others; what can't be written is said again."""
-    if before == now:
+    if before == now - {""}:
         return
     with contextlib.suppress(OutputError, OSError):
         if not Tree(file.parents[2]).check_folder(file.parent):
             file.parent.mkdir()
-        put(file, "".join(f"{key}\n" for key in sorted(now)).encode())
+        put(file, "".join(f"{key}\n" for key in sorted(filter(None, now))).encode())

@@ -225,7 +225,7 @@ class Daemon:
         due = time.monotonic() + self._options.settle
         for watched in robots:
             if not watched.is_told:
-                file = watched.changed_file()
+                file, watched.changed_file = watched.changed_file, ""
                 self._listener(events.Settling(watched.name, shown(Path(file)) if file else ""))
             watched.state = Unsettled(due)
 
@@ -420,4 +420,6 @@ def _waiting_for(watched: WatchedRobot) -> str:
 
 def _is_new(watched: WatchedRobot, before: Hashes, now: Hashes) -> bool:
     """Whether an input is other than before: somebody saved it, since the daemon writes none."""
-    return any(path in before and before[path] != now[path] for path in watched.paths.inputs)
+    changed = [path for path in watched.paths.inputs if path in before and before[path] != now[path]]
+    watched.changed_file = min(changed, default="")
+    return bool(changed)

@@ -89,6 +89,8 @@ class WatchedRobot(msgspec.Struct):
     """All files before and after the last build, which changed none; None if the robot has to be built."""
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
+    changed_file: str = ""
+    """One file that was other at the last look, an input before outputs; empty if none was."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
     """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
     pending: tuple[Path, ...] = ()
@@ -114,12 +116,6 @@ class WatchedRobot(msgspec.Struct):
         """All files, when they were last read."""
         return {path: state.sha256 for path, state in self.files.items()}
 
-    def changed_file(self) -> str:
-        """Return a file that is other than after the last build, an input before outputs; empty if none is known."""
-        built = self.built or {}
-        found = (path for path, file in self.files.items() if file.sha256 != built.get(path, file.sha256))
-        return min(found, key=lambda path: (path not in self.paths.inputs, path), default="")
-
     def read_files(self) -> Hashes:
         """Read all inputs, those in the template folder and those that patterns match included, and all outputs."""
         inputs, outputs, templates = set(self.paths.inputs), self.paths.outputs, self.robot.templates
@@ -139,7 +135,11 @@ class WatchedRobot(msgspec.Struct):
         """
         before = self.hashes
         if not paths or not self.files.keys() >= set(paths):
-            return before != self.read_files()
-        for path in paths:
-            self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
-        return any(self.files[path].sha256 != before[path] for path in paths)
+            paths = before.keys() | self.read_files().keys()
+        else:
+            for path in paths:
+                self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
+        now = self.hashes
+        changed = [path for path in paths if now.get(path, "") != before.get(path, "")]
+        self.changed_file = min(changed, key=lambda path: (path not in self.paths.inputs, path), default="")
+        return bool(changed)
