@@ -45,7 +45,8 @@ def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_b
     project: Path, execute: Execute
 ) -> None:
     (project / "Cell.mo").write_text(
-        "model Cell\n  Arm.Arm robot; Modelica.Frame x;\nequation\n  connect(robot.arm_linkFrame, x);\nend Cell;\n"
+        "model Cell\n  Arm.Arm robot; Modelica.Mechanics.MultiBody.Interfaces.Frame_a x;\n"
+        "equation\n  connect(robot.arm_linkFrame, x);\nend Cell;\n"
     )
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
     expected = 'Cell.mo:4: warning: Arm has no `arm_linkFrame`; `frames = ["arm"]` brings it back [unresolved]'

@@ -364,6 +364,22 @@ def test_a_command_after_builds_that_changed_something(start: Start) -> None:
     assert watch.errors == "noise\nnoise\n"
 
 
+def test_a_command_waits_while_the_package_is_broken(start: Start) -> None:
+    watch = start("--exec", 'echo "$(basename -a $URDFSYNC_FILES | tr "\\n" " ")" >> log')
+    watch.wait("ran")
+    since, text = watch.mark, MODEL.read_text()
+    MODEL.write_text(text.replace("\nequation", "\n  Elements.Gone gone;\nequation"))
+    event = watch.wait("built", since=since)
+    assert (event["broken"], event["in_step"]) == (True, False)
+    probe(watch)
+    watch.rest(since)
+    assert watch.kinds().count("ran") == 1
+    since = watch.mark
+    MODEL.write_text(text)
+    watch.wait("ran", since=since)
+    assert Path("log").read_text().splitlines()[-1].split() == ["R2Parameters.mo"]
+
+
 def test_a_command_that_takes_long_holds_nothing_up(start: Start) -> None:
     watch = start("--exec", "[ ! -e go ] || { read line < go; echo run >> runs; }")
     watch.wait("ran")

@@ -226,3 +226,14 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
     waiting = built(action(Reason.UPDATE), action(Reason.CONFLICT), action(Reason.UPDATE, "Base", held=True))
     assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
+
+
+def test_what_is_broken_is_one_line_until_it_is_not() -> None:
+    broken = built(action(Reason.KEEP), diagnostics=(NO_CLASS, MOVED, BROKEN), is_broken=True)
+    assert told(broken, broken, built(action(Reason.KEEP)), broken) == [
+        "! arm.urdf:8: warning: this is odd [odd]",
+        f"! {TIME}arm  broken: {ELBOW}:4: there is no class `Foo`, and 1 more",
+        f"{TIME}arm  in step again",
+        "! arm.urdf:8: warning: this is odd [odd]",
+        f"! {TIME}arm  broken: {ELBOW}:4: there is no class `Foo`, and 1 more",
+    ]

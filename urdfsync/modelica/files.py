@@ -92,7 +92,7 @@ class StoredClasses:
         file = self.seen[name] = self.file(name)
         if file is None:
             return None
-        if name in self.users:  # another one each time: a node has what was resolved with it
+        if name in self.users and name not in self.own:  # another one each time: a node has what was resolved with it
             return Node(self.users[name].definition, name, file)
         try:
             text = self._read(self.content(file))
@@ -103,10 +103,10 @@ class StoredClasses:
 
     def file(self, name: ClassName) -> str | None:
         """Return the file in which a class is stored; None if there is none."""
-        if name in self.users:
-            return self.users[name].file
         if name in self.own:
             return self.own[name]
+        if name in self.users:
+            return self.users[name].file
         if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
         unread = next((path for path in self.unread if name[-1] == class_of_file(path)), None)

@@ -403,11 +403,15 @@ class Daemon:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
         left_alone = frozenset((action.path, str(action.reason)) for action in decided if not action.writes)
+        if result.is_broken:
+            left_alone |= {(one.file, one.message) for one in result.diagnostics}
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener(events.Built(result, files, recovered))
         watched.failure, watched.left_alone = None, left_alone
-        if files:
-            self._show_all(self._commands.run(watched.robot, files))
+        watched.pending = tuple(dict.fromkeys((*watched.pending, *files)))
+        if watched.pending and not result.is_broken:
+            self._show_all(self._commands.run(watched.robot, watched.pending))
+            watched.pending = ()
 
 
 def _waiting_for(watched: WatchedRobot) -> str:

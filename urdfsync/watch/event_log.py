@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
@@ -97,7 +97,13 @@ class EventLog:
         before = self._told.get((robot, "findings"), ())
         keys = self._told[robot, "findings"] = [(one.code, one.message, one.file) for one in result.diagnostics]
         new = [one for one, key in zip(result.diagnostics, keys, strict=True) if verbose or key not in before]
-        yield from self._findings(new)
+        errors = [one for one in result.diagnostics if one.severity is Severity.ERROR]
+        yield from self._findings([one for one in new if verbose or one not in errors])
+        was_broken = bool(self._told.get((robot, "broken")))
+        if self._is_new(robot, "broken", {(one.code, one.message, one.file) for one in errors}):
+            place = f"{errors[0].file}:{errors[0].line}" if errors[0].line else errors[0].file
+            more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
+            yield self._line(clock, robot, f"broken: {place}: {errors[0].message}{more}", "bold red", error=True)
         had_conflicts = bool(self._told.get((robot, "conflicts")))
         conflicts = self._is_new(robot, "conflicts", {(one.path, one.mine, one.generated) for one in result.conflicts})
         kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.reason in _KEPT})
@@ -106,7 +112,7 @@ class EventLog:
         said = []
         if event.files or event.recovered or result.effective_changes or conflicts or kept:
             said = [*_changes(result), *action_counts(result, {Reason.KEEP} | (frozenset() if kept else _KEPT))]
-        if not result.conflicts and (event.recovered or had_conflicts):
+        if not (result.conflicts or result.is_broken) and (event.recovered or had_conflicts or was_broken):
             said.append("in step again")
         if not said and (verbose or result.effective_changes):
             said = [summary(result)]

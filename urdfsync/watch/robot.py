@@ -8,6 +8,7 @@ import os
 import stat
 import time
 from collections.abc import Collection, Mapping
+from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 import msgspec
@@ -91,7 +92,9 @@ class WatchedRobot(msgspec.Struct):
     changed_file: str = ""
     """One file that was other at the last look, an input before outputs; empty if none was."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build did not write although they differ, each with the kind of its action."""
+    """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
+    pending: tuple[Path, ...] = ()
+    """Files that were written while the package is broken: the command of `--exec` waits until it is not."""
 
     @property
     def name(self) -> str:

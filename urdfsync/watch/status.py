@@ -136,6 +136,8 @@ def _after_build(result: Result, clock: str, before: RobotStatus | None) -> Robo
         files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
         where = files[0] if len(files) == 1 else f"{len(files)} files"
         return RobotStatus(Activity.CONFLICT, f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`")
+    if result.is_broken:
+        return RobotStatus(Activity.ERROR, _with_error("broken", result.diagnostics))
     if not result.writes and before is not None and before.activity is Activity.IN_STEP:
         return before  # with the time of the build that wrote something
     return RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")
