@@ -19,7 +19,7 @@ NOT_EXPANDED = "inputs changed since the last build"
 """What is said of a source that xacro, or a command, would have to make again."""
 BROKEN = "broken: a file that you edited does not fit"
 """What is said of a package in which a name means nothing, or a file is no Modelica."""
-RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
+RESOLVE_HINT = "  `urdfsync build --dry-run` shows each conflict, and the commands that can settle it"
 _NAMED = {
     Reason.UPDATE: "{}",
     Reason.MERGE: "{}; merged with your edits",
