@@ -283,7 +283,7 @@ class Walk:
     def answer(self, answer: str, verdict: Verdict) -> Verdict:
         before = tags(PACKAGE)
         printed = self.run(f"resolve --all {answer} --json")
-        self.follow_moves(printed.json.get("robots", []))
+        self.follow_moves(printed.json["robots"])
         if answer in ("--keep", "--merge --prefer mine"):
             self.free |= {path.removeprefix(f"{PACKAGE.as_posix()}/") for path in verdict.conflicts}
         places = [PACKAGE, Path(".urdfsync")] if answer.endswith(("take", "generated")) else [PACKAGE]
@@ -307,11 +307,9 @@ class Walk:
     def follow_moves(self, robots: Any) -> None:
         """What may differ may differ where it moves to."""
         inside = f"{PACKAGE.as_posix()}/"
-        for robot in robots:
-            for one in robot.get("actions", []):
-                origin = (one.get("origin") or "").removeprefix(inside)
-                if origin in self.free:
-                    self.free.add(one["path"].removeprefix(inside))
+        paths = [(one["action"], one["path"].removeprefix(inside)) for one in robots[0]["actions"]]
+        if self.free & {path for action, path in paths if action == "leave"}:
+            self.free |= {path for action, path in paths if action == "move"}
 
     # What must hold
 
