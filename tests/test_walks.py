@@ -412,6 +412,10 @@ class Walk:
             side = all_sides or self.random.choice(["ours", "theirs"])
             if not self.git("checkout", f"--{side}", "--", path):  # that side has deleted it
                 Path(path).unlink(missing_ok=True)
+            elif Path(path).is_relative_to(PACKAGE):  # an edited one may lack what the other side's export brought
+                name = Path(path).relative_to(PACKAGE).as_posix()
+                if texts().get(name) not in [package.get(name) for package in self.built.values()]:
+                    self.free.add(name)
         if self.run("status").code == 2:
             assert SOURCE.name in self.run("status", code=2).words
             self.git("checkout", "-q", "theirs", "--", SOURCE.as_posix())
