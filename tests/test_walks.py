@@ -229,11 +229,8 @@ class Walk:
         conflicts = tuple(one["path"] for one in check["actions"] if one["action"].endswith("conflict"))
         self.tally.update(verdicts=1, broken=check["broken"], conflicts=bool(conflicts), green=check["in_step"])
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
-        broken = tuple(sorted(files & self.edited_paths())) if check["broken"] else ()
+        broken = tuple(sorted(files & self.status.keys())) if check["broken"] else ()
         return Verdict(check["in_step"], conflicts, broken)
-
-    def edited_paths(self) -> set[str]:
-        return {path.as_posix() for path in PACKAGE.rglob("*.mo")}
 
     def everything(self) -> dict[str, bytes]:
         """All that version control has."""
