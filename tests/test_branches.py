@@ -16,7 +16,7 @@ from support import replay
 from support.git import NEEDS_GIT, Repository
 from support.networks import C1, LADDER, R2, RECORD, configure, edit, kinds, run
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
 
 pytestmark = NEEDS_GIT
@@ -121,7 +121,7 @@ def test_exports_and_edits_of_two_branches_meet(repository: Repository, tmp_path
     unite(repository, how)
     result = run()
     assert result.in_step
-    assert kinds(result) == {C1: Kind.KEEP, R2: Kind.KEEP}
+    assert kinds(result) == {C1: Reason.KEEP, R2: Reason.KEEP}
     assert without_notes(texts()) == fresh(tmp_path / "fresh")
     assert "ours" in Path(C1).read_text()
     assert "theirs" in Path(R2).read_text()
@@ -293,7 +293,7 @@ def test_a_random_walk_of_branches_and_merges(repository: Repository, tmp_path: 
             run(choices=dict.fromkeys(taken, Choice.TAKE))
         assert run().in_step
         wanted = fresh(tmp_path / "fresh")
-        kept = {a.path for a in run().actions if a.kind is Kind.KEEP}
+        kept = {a.path for a in run().actions if a.reason is Reason.KEEP}
         for path, text in wanted.items():
             found = Path(path).read_text()
             assert found == text or path in kept

@@ -14,12 +14,12 @@ from support.networks import kinds as all_kinds
 
 from urdfsync import registry
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.state.record import Choice
 
 
-def kinds(result: Result) -> dict[str, Kind]:
+def kinds(result: Result) -> dict[str, Reason]:
     return all_kinds(result, f"{LADDER}/")
 
 
@@ -43,7 +43,7 @@ def test_a_first_build_writes_the_package_and_a_second_one_nothing(project: Path
     assert snapshot_of(project) == before
     result = run()
     assert planned.actions == result.actions
-    assert set(kinds(result).values()) == {Kind.CREATE}
+    assert set(kinds(result).values()) == {Reason.CREATE}
     written = {path.relative_to(project / LADDER).as_posix() for path in (project / LADDER).rglob("*.*")}
     assert written == set(kinds(result))
     assert (project / LADDER / "package.order").read_text() == "Elements\nLadder\n"
@@ -68,7 +68,7 @@ def test_changed_white_space_touches_nothing(project: Path, old: str, new: str) 
 def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     run()
     configure(prefix='"pin"')
-    assert kinds(run()) == {"Ladder.mo": Kind.UPDATE}
+    assert kinds(run()) == {"Ladder.mo": Reason.UPDATE}
     template = project / "own/element/parameters.mo.jinja"
     template.parent.mkdir(parents=True)
     template.write_text(
@@ -79,7 +79,7 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     template.with_name(".parameters.mo.jinja.swp").write_text("of an editor")
     assert run().in_step
     edit(template, "record", "record  ")
-    assert set(kinds(run()).values()) == {Kind.UPDATE}
+    assert set(kinds(run()).values()) == {Reason.UPDATE}
     assert run().in_step
 
 
@@ -95,7 +95,7 @@ def test_a_full_build_generates_what_is_recorded_as_generated(project: Path, mon
 
     monkeypatch.setattr(domain, "artifacts", artifacts)
     assert run().in_step
-    assert kinds(run(full=True))["Elements/R1Parameters.mo"] is Kind.UPDATE
+    assert kinds(run(full=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
 
 
 def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(project: Path) -> None:
@@ -144,7 +144,7 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
     edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
     assert [found.code for found in run(dry=True).diagnostics] == ["renamed-robot"]
     result = run()
-    assert kinds(result) == {"Elements/R1.mo": Kind.KEEP, "Elements/C2Parameters.mo": Kind.UPDATE}
+    assert kinds(result) == {"Elements/R1.mo": Reason.KEEP, "Elements/C2Parameters.mo": Reason.UPDATE}
     assert said(result) == [
         "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
         "its recorded state goes on under the new name [renamed-robot]"
@@ -181,7 +181,7 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     source('"R2"', '"R3"')
     edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
     first = run()
-    assert kinds(first) == {"Elements/R1Parameters.mo": Kind.UPDATE, "Ladder.mo": Kind.CONFLICT}
+    assert kinds(first) == {"Elements/R1Parameters.mo": Reason.UPDATE, "Ladder.mo": Reason.CONFLICT}
     after = snapshot_of(project / LADDER)
     assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
     assert b"// mine" in after["Ladder.mo"][1]
@@ -190,14 +190,14 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
         assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.held} == waiting
         assert exit_code([result]) is Exit.CONFLICT
     source('"R3"', '"R2"')
-    assert kinds(run()) == {"Ladder.mo": Kind.KEEP}, "the source came back"
+    assert kinds(run()) == {"Ladder.mo": Reason.KEEP}, "the source came back"
     source('"R2"', '"R3"')
-    assert kinds(run()) == {"Ladder.mo": Kind.CONFLICT}
+    assert kinds(run()) == {"Ladder.mo": Reason.CONFLICT}
     Path(f"{LADDER}/Ladder.mo").unlink()
     resolved = run()
     assert exit_code([resolved]) is Exit.IN_STEP
-    assert kinds(resolved)["Ladder.mo"] is Kind.RESTORE
-    assert kinds(resolved)["Elements/R3.mo"] is Kind.CREATE
+    assert kinds(resolved)["Ladder.mo"] is Reason.RESTORE
+    assert kinds(resolved)["Elements/R3.mo"] is Reason.CREATE
     assert not (project / LADDER / "Elements/R2.mo").exists()
     assert run().in_step
 
@@ -210,7 +210,7 @@ def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, mo
     edit(f"{LADDER}/Elements/R1Parameters.mo", "100", "101")
     resistor(120)
     alone = run()
-    assert kinds(alone) == {"Elements/R1Parameters.mo": Kind.CONFLICT}
+    assert kinds(alone) == {"Elements/R1Parameters.mo": Reason.CONFLICT}
     assert alone.diagnostics == (), "nothing waits for it"
     source('"R2"', '"R3"')
     (found,) = run().diagnostics
@@ -237,7 +237,7 @@ def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
 
     monkeypatch.setattr(domain, "artifacts", artifacts)
     resistor(120)
-    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.UPDATE}
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
     assert run().in_step
 
 
@@ -247,7 +247,7 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
     edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
     source('"R2"', '"R3"')
     source("220.5", "330")
-    orphans = {"Elements/R2.mo": Kind.ORPHAN, "Elements/R2Parameters.mo": Kind.NEEDED}
+    orphans = {"Elements/R2.mo": Reason.ORPHAN, "Elements/R2Parameters.mo": Reason.NEEDED}
     assert kinds(run()).items() >= orphans.items()
     assert "R2Parameters" in (elements / "R2.mo").read_text()
     assert (elements / "R2Parameters.mo").exists()
@@ -257,8 +257,8 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
         assert kinds(run(**request)) == orphans
         assert run(**request).in_step
     (elements / "R2.mo").unlink()
-    gone = {"Elements/R2.mo": Kind.FORGET, "Elements/R2Parameters.mo": Kind.DELETE}
-    assert kinds(run()) == {**gone, "Elements/package.order": Kind.UPDATE}
+    gone = {"Elements/R2.mo": Reason.FORGET, "Elements/R2Parameters.mo": Reason.DELETE}
+    assert kinds(run()) == {**gone, "Elements/package.order": Reason.UPDATE}
     assert kinds(run()) == {}
 
 
@@ -375,7 +375,7 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     assert run().in_step
     Path("step.csv").rmdir()
     Path("step.csv").write_text("0,1\n")
-    assert kinds(run()) == {"Resources/step.txt": Kind.CREATE, "Ladder.mo": Kind.UPDATE}
+    assert kinds(run()) == {"Resources/step.txt": Reason.CREATE, "Ladder.mo": Reason.UPDATE}
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
@@ -398,7 +398,7 @@ def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path) -> None
             assert [found.code for found in result.diagnostics] == ["table-not-found-kept"]
             assert result.in_step
     resistor(120)
-    assert kinds(run()) == {"Elements/R1Parameters.mo": Kind.UPDATE}
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
     configure(package='"Filter"')
     run()
     assert Path("modelica/Filter/Resources/step.txt").exists()
@@ -410,19 +410,19 @@ def test_an_edited_copy_is_kept_and_the_older_one_serves_until_its_source_is_bac
     signal, copy = Path("step.csv"), Path(LADDER, "Resources/step.txt")
     original = copy.read_bytes()
     copy.write_bytes(b"mine")
-    assert kinds(run(full=True)) == {"Resources/step.txt": Kind.KEEP}
+    assert kinds(run(full=True)) == {"Resources/step.txt": Reason.KEEP}
     edit(signal, "0.1,5", "0.1,7")
     content = signal.read_bytes()
-    assert kinds(run()) == {"Resources/step.txt": Kind.CONFLICT}
+    assert kinds(run()) == {"Resources/step.txt": Reason.CONFLICT}
     assert copy.read_bytes() == b"mine"
     signal.unlink()
-    assert kinds(run()) == {"Resources/step.txt": Kind.KEEP}
+    assert kinds(run()) == {"Resources/step.txt": Reason.KEEP}
     copy.write_bytes(original)
     for request in ({}, {}, {"full": True}):
         assert run(**request).in_step
         assert copy.read_bytes() == original
     signal.write_bytes(content)
-    assert kinds(run()) == {"Resources/step.txt": Kind.UPDATE}
+    assert kinds(run()) == {"Resources/step.txt": Reason.UPDATE}
     assert "0.1 7.0" in copy.read_text()
     assert run().in_step
 

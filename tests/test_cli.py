@@ -138,6 +138,13 @@ def test_bad_usage(arguments: list[str], execute: Execute) -> None:
     assert execute(*arguments, code=2).err.startswith(usage)
 
 
+def test_what_was_meant_is_said(execute: Execute) -> None:
+    meant = {("biuld",): "build", ("build", "--dryrun"): "--dry-run", ("resolve", "--al", "--keep"): "--all"}
+    for arguments, name in meant.items():
+        assert f"; did you mean `{name}`? [usage]" in execute(*arguments, code=2).err
+    assert "; `urdfsync --help` says more [usage]" in execute("swim", code=2).err
+
+
 def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     told = execute("library", "--json").json
     assert (Path(told["folder"]) / "UrdfSync").is_dir()

@@ -31,7 +31,7 @@ from support.networks import (
 )
 from support.replay import contents
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.state.record import Choice
 
@@ -119,14 +119,14 @@ def test_a_file_that_was_there_before_is_a_conflict_that_has_no_merge(project: P
     Path(R1).parent.mkdir(parents=True)
     mine = "within Ladder.Elements;\nmodel R1\nend R1;\n"
     Path(R1).write_text(mine)
-    assert kinds(run())[R1] is Kind.UNOWNED
+    assert kinds(run())[R1] is Reason.UNOWNED
     assert conflicts(choices={R1: Choice.MERGE}), "there is no base to merge with"
     assert Path(R1).read_text() == mine
     if choice is None:
         Path(R1).unlink()
     assert not conflicts(choices={R1: choice} if choice else {})
     assert (Path(R1).read_text() == mine) is (choice is Choice.KEEP)
-    assert kinds(run()) == ({R1: Kind.KEEP} if choice is Choice.KEEP else {})
+    assert kinds(run()) == ({R1: Reason.KEEP} if choice is Choice.KEEP else {})
 
 
 # Merges
@@ -137,8 +137,8 @@ def test_contradicting_edits_are_never_merged(project: Path) -> None:
     run()
     edit(RECORD, "100", "101")
     resistor(150)
-    assert kinds(run())[RECORD] is Kind.CONFLICT
-    assert kinds(run(choices={RECORD: Choice.MERGE}))[RECORD] is Kind.CONFLICT
+    assert kinds(run())[RECORD] is Reason.CONFLICT
+    assert kinds(run(choices={RECORD: Choice.MERGE}))[RECORD] is Reason.CONFLICT
     assert "101" in Path(RECORD).read_text()
     assert "<<<<<<< mine" in (ASIDE / "R1Parameters.merge.txt").read_text()
     assert not (ASIDE / "R1Parameters.merge.mo").exists(), "a text with markers is no Modelica"
@@ -174,10 +174,10 @@ def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None
     edit(RECORD, "end R1", MAY)
     resistor(150)
     mine = Path(RECORD).read_bytes()
-    assert kinds(run())[RECORD] is Kind.INCLUDED
+    assert kinds(run())[RECORD] is Reason.INCLUDED
     assert Path(RECORD).read_bytes() == mine
     with unchanged(project):
-        assert kinds(run()) == {RECORD: Kind.KEEP}
+        assert kinds(run()) == {RECORD: Reason.KEEP}
 
 
 @pytest.mark.parametrize("edited", [False, True])
@@ -188,14 +188,14 @@ def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) 
         edit(RECORD, "end R1", MAY)
     edit(RECORD, "\n", "\r\n")
     for request in ({}, {"full": True}):
-        assert kinds(run(**request)) == ({RECORD: Kind.KEEP} if edited else {})
+        assert kinds(run(**request)) == ({RECORD: Reason.KEEP} if edited else {})
     resistor(150)
-    assert kinds(run())[RECORD] is (Kind.MERGE if edited else Kind.UPDATE)
+    assert kinds(run())[RECORD] is (Reason.MERGE if edited else Reason.UPDATE)
     text = Path(RECORD).read_bytes()
     assert b"150" in text
     assert (b"// measured in May" in text) is edited
     assert text.count(b"\r\n") == text.count(b"\n")
-    assert kinds(run()) == ({RECORD: Kind.KEEP} if edited else {})
+    assert kinds(run()) == ({RECORD: Reason.KEEP} if edited else {})
 
 
 @pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
@@ -221,13 +221,13 @@ def test_edits_move_with_their_elements_new_name(project: Path) -> None:
     edit(R1, "equation", SENSOR)
     rename("R1", "Shunt")
     result = run()
-    assert (kinds(result)[SHUNT], kinds(result)[R1]) == (Kind.MOVE, Kind.LEAVE)
+    assert (kinds(result)[SHUNT], kinds(result)[R1]) == (Reason.MOVE, Reason.MOVED_AWAY)
     assert not Path(R1).exists()
     text = Path(SHUNT).read_text()
     assert "// a sensor here" in text
     assert "model Shunt" in text
     assert "R1" not in text
-    assert kinds(run()) == {SHUNT: Kind.KEEP}
+    assert kinds(run()) == {SHUNT: Reason.KEEP}
 
 
 def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -> None:
@@ -237,19 +237,19 @@ def test_edits_that_contradict_the_new_name_wait_where_they_are(project: Path) -
     mine = Path(R1).read_bytes()
     rename("R1", "Shunt")
     result = run()
-    assert kinds(result) == {SHUNT: Kind.CONFLICT}
+    assert kinds(result) == {SHUNT: Reason.CONFLICT}
     assert result.conflict_texts[0].origin == R1
     assert Path(R1).read_bytes() == mine
     assert not Path(SHUNT).exists()
     again = run()
-    assert kinds(again) == {SHUNT: Kind.CONFLICT}
+    assert kinds(again) == {SHUNT: Reason.CONFLICT}
     assert again.conflict_texts == result.conflict_texts, "the base is recorded, although the model knows R1 no more"
     rename("Shunt", "Branch")
     result = run()
-    assert kinds(result) == {SHUNT.replace("Shunt", "Branch"): Kind.CONFLICT}, "a second name finds the file, too"
+    assert kinds(result) == {SHUNT.replace("Shunt", "Branch"): Reason.CONFLICT}, "a second name finds the file, too"
     assert result.conflict_texts[0].origin == R1
     rename("Branch", "R1")
-    assert kinds(run()) == {R1: Kind.KEEP}, "the old name is back, and nothing is new for it"
+    assert kinds(run()) == {R1: Reason.KEEP}, "the old name is back, and nothing is new for it"
 
 
 # Bases that are lost
@@ -418,7 +418,7 @@ def test_a_merge_that_mentions_what_the_user_deleted_before_is_taken_and_told(pr
     edit(f"{LADDER}/Ladder.mo", "equation", "  Elements.C1 other;\n\nequation")
     drop("C1")
     result = run()
-    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
+    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Reason.MERGE
     assert result.is_broken
     assert [one.message for one in result.diagnostics] == ["there is no class `Elements.C1`"]
 
@@ -457,7 +457,7 @@ def test_what_the_user_keeps_may_be_mentioned(project: Path) -> None:
     assert conflicts() == [R1]
     assert conflicts(dry=True, choices={R1: Choice.TAKE}) == [f"{LADDER}/Ladder.mo"]
     result = run(choices={C1: Choice.KEEP, R1: Choice.KEEP})
-    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
+    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Reason.MERGE
     (found,) = result.diagnostics
     assert (found.file, found.message) == (R1, "R1Parameters has no `R`")  # the class that is kept is for a resistor
 
@@ -467,7 +467,7 @@ def test_edits_move_into_a_parent_package_that_is_made_for_them(project: Path) -
     edit(R1, "equation", SENSOR)
     edit("urdfsync.toml", 'package = "Ladder"', 'package = "Plant.Ladder"')
     configure("create_parents = true\n")
-    assert kinds(run())["modelica/Plant/Ladder/Elements/R1.mo"] is Kind.MOVE
+    assert kinds(run())["modelica/Plant/Ladder/Elements/R1.mo"] is Reason.MOVE
 
 
 @pytest.mark.parametrize("used", ["C1", "C1Parameters"], ids=["edited model", "record"])
@@ -479,7 +479,7 @@ def test_a_merge_may_mention_what_stays(project: Path, used: str) -> None:
     edit(f"{LADDER}/Ladder.mo", "equation", f"  Elements.{used} other;\n\nequation")
     drop("C1")
     result = run()
-    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Kind.MERGE
+    assert kinds(result)[f"{LADDER}/Ladder.mo"] is Reason.MERGE
     assert not result.diagnostics
     assert Path(LADDER, f"Elements/{used}.mo").exists()
     assert run().in_step
@@ -609,7 +609,7 @@ def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(proj
     place.write_text("mine")
     rename("R1", "Shunt")
     found = kinds(run())
-    assert (found[R1], found[SHUNT]) == (Kind.ORPHAN, Kind.UNOWNED)
+    assert (found[R1], found[SHUNT]) == (Reason.ORPHAN, Reason.UNOWNED)
     assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
 
 

@@ -101,6 +101,18 @@ def test_a_mass_by_hand_meets_the_rounding_of_cad(arm: Path, execute: Execute) -
     assert "mass = 99" in record.read_text()
 
 
+@pytest.mark.parametrize("command", [["build"], ["resolve", "--all", "--merge", "--prefer", "mine"]])
+def test_a_model_that_is_not_utf_8_is_one_error(arm: Path, execute: Execute, command: list[str]) -> None:
+    path = PACKAGE / "Arm.mo"
+    edited = path.read_bytes().replace(b'"Robot Arm"', b'"Gelenk \xe4"')
+    path.write_bytes(edited)
+    export(*LARGER)
+    (error,) = [line for line in execute(*command, code=2).err.splitlines() if "error:" in line]
+    assert error.startswith(f"{path}:3: error: the file is not UTF-8, which Modelica demands; save it as UTF-8")
+    assert path.read_bytes() == edited
+    assert not (PACKAGE / "Links/Hand.mo").exists()
+
+
 @pytest.mark.slow
 def test_what_is_kept_compiles(arm: Path, execute: Execute, modelica_library: Path) -> None:
     robot = PACKAGE / "Arm.mo"

@@ -24,7 +24,7 @@ from support.modelica import compile_task, execute
 from support.packages import read
 from support.replay import Fresh, Project
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Result
 from urdfsync.modelica.parser import parse
 
@@ -183,7 +183,7 @@ def test_merged_packages_compile(corpus: Path, modelica_library: Path, tmp_path:
         project = tmp_path / str(number) / "project"
         with replay.in_haste():
             done = trial(exports, project, old, new, kind, random)
-        if done and not done.result.conflicts and any(one.kind is Kind.MERGE for one in done.result.actions):
+        if done and not done.result.conflicts and any(one.reason is Reason.MERGE for one in done.result.actions):
             merged += 1
             tasks = [compile_task(f"Bot.{model}") for model in ("BotRun", "BotTest")]
             outcomes = execute(modelica_library, [project / replay.PACKAGE], tasks)

@@ -18,10 +18,9 @@ from support.commands import Execute
 
 from urdfsync import cli, config
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, SecondResult
-from urdfsync.commands.status import FileStatus
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import FileStatus, Kind
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.simulate import results as simulation
@@ -217,7 +216,7 @@ def test_resolve(folder: Path, execute: Execute) -> None:
     (folder / "arm.urdf").write_text(URDF.replace('"fixed">', turning))
     joint, robot = folder / "modelica/Arm/Joints/Hold_joint.mo", folder / "modelica/Arm/Arm.mo"
     joint.write_text(joint.read_text().replace('"Fixed joint', '"Welded joint'))
-    robot.write_text(robot.read_text().replace("equation\n", "  Sensor sensor;\n\nequation\n"))
+    robot.write_text(robot.read_text().replace("equation\n", "  Real sensor = 1;\n\nequation\n"))
     assert cli.main(["build"]) == 3
     document = printed(execute, folder, "resolve", "--all", "--merge")
     assert matches(RESOLVE, document)

@@ -17,7 +17,7 @@ from support import replay
 from support.networks import LADDER, configure, own_model, run
 from support.replay import contents
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Result
 from urdfsync.state.record import Choice
 
@@ -102,7 +102,7 @@ class Episode:
         again = run()
         assert verdict(again) == verdict(result)
         assert contents(Path.cwd()) == files
-        if any(Path(action.path) == WHOLE and action.kind is Kind.MERGE for action in result.actions):
+        if any(Path(action.path) == WHOLE and action.reason is Reason.MERGE for action in result.actions):
             assert set(mentions()) & mentioned & before <= set(declared())
         return result
 

@@ -20,7 +20,7 @@ from support import edits, replay
 from support.replay import Files, Fresh, Project
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.conflicts import MERGES, Conflict
 from urdfsync.engine.result import Result
 from urdfsync.files import text_digest
@@ -125,8 +125,8 @@ class Episode:
             self.waiting = {p: self.answer(p, choice) for p, choice in self.choices.items() if self.actions[p].held}
 
     def count(self, result: Result, choices: Mapping[str, Choice]) -> None:
-        kinds = collections.Counter(action.kind for action in result.actions if not action.held)
-        found = {"kept": kinds[Kind.KEEP], "merges": kinds[Kind.MERGE], "moves": kinds[Kind.MOVE], "builds": 1}
+        kinds = collections.Counter(action.reason for action in result.actions if not action.held)
+        found = {"kept": kinds[Reason.KEEP], "merges": kinds[Reason.MERGE], "moves": kinds[Reason.MOVE], "builds": 1}
         self.tally.update({**found, "conflicts": len(result.conflicts), "resolved": len(choices)})
 
     def answer(self, path: str, choice: Choice) -> Answer:
@@ -187,9 +187,9 @@ class Episode:
             if self.project.package.joinpath(path).is_file() and self.after.get(path) == content:
                 continue
             action = self.actions.get(path)
-            merged = action is not None and action.kind is Kind.MERGE and self.merging
+            merged = action is not None and action.reason is Reason.MERGE and self.merging
             if not (merged or path in self.origins or self.choices.get(path) in {Choice.TAKE, *MERGES}):
-                yield f"{path} was edited, and is changed: {action and action.kind}"
+                yield f"{path} was edited, and is changed: {action and action.reason}"
 
     def out_of_step(self, result: Result) -> Iterator[str]:
         """What nobody has edited equals a fresh build, unless it has to wait."""
@@ -202,9 +202,9 @@ class Episode:
             if is_order(path):
                 here, before = (self.generated_order(path, order or b"", wanted or b"") for order in (here, before))
             action = self.actions.get(path)
-            needed = wanted is None and action is not None and action.kind is Kind.NEEDED
+            needed = wanted is None and action is not None and action.reason is Reason.NEEDED
             if here != wanted and not needed and not (result.conflicts and here == before):
-                yield f"{path} differs from a fresh build: {action and action.kind} {action and action.held}"
+                yield f"{path} differs from a fresh build: {action and action.reason} {action and action.held}"
 
     def generated_order(self, path: str, order: bytes, wanted: bytes) -> bytes | None:
         """A `package.order` without the lines of the user's, and of classes that stay his, or that he deleted."""

@@ -62,7 +62,7 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     said = capsys.readouterr()
     assert uptodate.print_answer(command) == ""
     assert capsys.readouterr() == said
-    assert "stray-state" in said.out + said.err or command[-1] == "-q"
+    assert "as before" in said.err or "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
@@ -152,6 +152,8 @@ EDITS: dict[str, Edit] = {
     "a mesh that is better placed": _edit("robots/arm_meshes/base.stl"),
     "a package that hides another": _edit("ros/a/package.xml"),
     "a folder to be ignored": _edit("ros/group/COLCON_IGNORE"),
+    "a class of the user's in the package": _edit("modelica/Lab/Arm/Links/Own.mo"),
+    "a model of the user's": _edit("models/deep/Own.mo"),
     "a template": _edit("own/link.mo.jinja"),
     "a folder of templates": _edit("own/notes/deep/readme.txt"),
     "a parent that is gone": _edit("modelica/Lab/package.mo", "absent"),
@@ -196,7 +198,7 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
 
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
-    for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/Own.mo", "robots/other.urdf", ".urdfsync/own.txt"):
+    for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/notes.txt", "robots/other.urdf", ".urdfsync/own.txt"):
         _edit(path)(folder)
     assert saved(*BUILD) is not None
 

@@ -362,8 +362,8 @@ def test_a_warning_is_told_at_its_place_by_each_build(project: Path, execute: Ex
     colour = '<material name="red"><color rgba="255 0 0 1"/></material></visual>'
     xacros.write(project, {"parts/beam.xacro": xacros.BEAM.replace("</visual>", colour)})
     line = 1 + xacros.BEAM[: xacros.BEAM.index("</visual")].count("\n")
-    for _ in range(2):
-        assert f"urdf/parts/beam.xacro:{line}: warning:" in execute("build").err
+    for options in ([], ["--verbose"]):
+        assert f"urdf/parts/beam.xacro:{line}: warning:" in execute("build", *options).err
 
 
 def test_lines_in_messages_are_those_of_xacro(project: Path, execute: Execute) -> None:
@@ -382,8 +382,8 @@ def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, exec
     said = "${xacro.warning('mind the step')}${xacro.message('go on')}</robot>"
     said = xacros.ARM.replace("</robot>", said)
     xacros.write(project, {"arm.urdf.xacro": said}, xacros.CONFIG.replace("{ length", "{ lenght = 1, length"))
-    for _ in range(2):
-        words = execute("build").words
+    for options in ([], ["--verbose"]):
+        words = execute("build", *options).words
         assert "urdf/arm.urdf.xacro: warning: mind the step [xacro-said]" in words
         assert "urdf/arm.urdf.xacro: note: go on [xacro-said]" in words
         assert "urdfsync.toml:3: warning: robot `arm`: the source has no argument `lenght`" in words

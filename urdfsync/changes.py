@@ -65,6 +65,7 @@ class Changes(msgspec.Struct, frozen=True):
     """All differences of two versions of a model."""
 
     changes: tuple[Change, ...] = ()
+    """Structure first, then numbers, then rounding and what is not modelled."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     generator: bool = False
     """Whether templates, options or the output revision differ."""
@@ -117,7 +118,13 @@ def compare(
         for difference, meaning in zip(differences, meanings, strict=True)
         if meaning is not None
     ]
-    return Changes(tuple(changes), renames)
+    return Changes(tuple(sorted(changes, key=_weight)), renames)
+
+
+def _weight(change: Change) -> tuple[bool, bool, bool]:
+    """Return what sorts changes for people: elements that come and go, structure, numbers, what hardly matters."""
+    is_structural = change.change_class is ChangeClass.STRUCTURAL
+    return not is_structural, len(change.path) > 1, change.noise or change.change_class is ChangeClass.UNMODELLED
 
 
 def moved_files(

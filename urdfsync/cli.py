@@ -9,7 +9,7 @@ import importlib
 import signal
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
@@ -19,6 +19,7 @@ from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of, internal_error
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
+from urdfsync.spelling import nearest
 
 _COMMANDS = (
     "init",
@@ -84,9 +85,7 @@ def _main(given: list[str]) -> int:
     command = _command(given)
     console = Console(as_json="--json" in given)
     try:
-        args, unknown = _parser(given).parse_known_args(given)
-        if unknown:  # argparse would show the usage without the command's options
-            args.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
+        args = _arguments(given)
         console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
         return _call(args, console)
     except SystemExit as stop:  # --help and --version
@@ -107,6 +106,23 @@ def _main(given: list[str]) -> int:
     exit_code = _for_git(given, code)
     console.end(command, exit_code, found)
     return exit_code
+
+
+def _arguments(given: list[str]) -> argparse.Namespace:
+    """Return the arguments of a command. Raises UsageError, with what may have been meant."""
+    parser = _parser(given)
+    if given and not (given[0].startswith("-") or given[0] in _COMMANDS):
+        raise arguments.UsageError(parser, f"no command `{given[0]}`", _meant(given[0], _COMMANDS))
+    args, unknown = parser.parse_known_args(given)
+    if unknown:  # argparse would show the usage without the command's options
+        hint = _meant(unknown[0].partition("=")[0], args.parser.options())
+        raise arguments.UsageError(args.parser, f"unrecognized arguments: {' '.join(unknown)}", hint)
+    return args
+
+
+def _meant(name: str, known: Iterable[str]) -> str:
+    near = nearest(name, known)
+    return f"did you mean `{near}`?" if near else ""
 
 
 def _call(args: argparse.Namespace, console: Console) -> int:

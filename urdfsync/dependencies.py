@@ -11,7 +11,7 @@ import os
 import stat
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextvars import ContextVar, Token
 
 Stat = tuple[int, int, int, int, int, int]
@@ -30,6 +30,8 @@ _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
 """How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
 `os.lstat`, what they lead to with `os.stat`."""
+MODELICA = "modelica"
+"""How a folder is checked by the names in it that matter to Modelica, in the form of `modelica_names`."""
 VARIABLE = "variable"
 """How an environment variable is checked, whose name stands in the place of a path: by its value."""
 Entries = dict[tuple[str, str], tuple[int, ...]]
@@ -103,6 +105,9 @@ def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
     if check == VARIABLE:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
+    if check == MODELICA:
+        with os.scandir(path) as entries:
+            return modelica_names(entries)
     follow = check in (STAT, STAT_TYPE)
     if check in (LSTAT, STAT):
         return stat_of(os.stat(path, follow_symlinks=follow))
@@ -190,15 +195,29 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     return os.listdir(folder)
 
 
-def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """The entries of a folder, in no order. Raises OSError.
-
-    One that becomes a file instead of a folder changes the stat values of the folder that it is in.
-    """
+def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    """The entries of a folder, in no order, of which files of Modelica and folders matter alone. Raises OSError."""
+    try:
+        with os.scandir(folder) as entries:
+            found = list(entries)
+    except OSError:
+        mark_incomplete()
+        raise
     if (dependencies := _current.get()) is not None:
-        _add(dependencies, folder)
-    with os.scandir(folder) as entries:
-        return list(entries)
+        dependencies.add(MODELICA, folder, modelica_names(found))
+    return found
+
+
+def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
+    """The number of folders and files of Modelica, and a checksum of their names; hidden ones are left out."""
+    names = sorted(
+        one.name
+        for one in entries
+        if not one.name.startswith(".") and (one.name.endswith(".mo") or one.is_dir(follow_symlinks=False))
+    )
+    return len(names), hash(
+        int.from_bytes("/".join(names).encode(errors="surrogateescape"))
+    )  # the same in each process
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:

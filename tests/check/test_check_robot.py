@@ -440,10 +440,11 @@ def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: 
 @pytest.mark.parametrize(
     ("files", "expected"),
     [
-        (  # joints extend classes of that library, so of their elements nothing can be said; the robot itself has icons
+        (  # of the classes of that library which UrdfSync extends, the elements are known
             {"MyArm.mo": BROKEN["MyArm.mo"]},
             [
                 "MyArm.mo:3: error: Arm has no `elbo`",
+                "MyArm.mo:3: error: RotationalDynamics has no `dampin`",
                 "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`",
                 "MyArm.mo:7: error: MyArm has no `elbwo`",
             ],

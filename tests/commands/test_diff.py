@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -139,7 +140,7 @@ def test_two_files_without_a_configuration(arm: Path, execute: Execute) -> None:
         assert said(execute, "new.urdf", "--against", "arm.urdf") == (
             1,
             [
-                "new.urdf: 2 parameter changes since arm.urdf",
+                "new.urdf: ~2 (2 parameter changes) since arm.urdf",
                 "  link tip",
                 "    inertial / mass  2 → 3 kg     +50 %",
                 "  joint elbow",
@@ -241,7 +242,7 @@ def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; its robots are ladder"),
+        (["ladr"], "there is no file 'ladr', and no robot of this name in urdfsync.toml; did you mean `ladder`?"),
         (
             ["step.csv"],
             "step.csv was never built: it is not the source of a robot; add a robot for it, or name the version",
@@ -272,3 +273,20 @@ def test_what_is_not_modelled_gives_the_same_package(arm: Path, execute: Execute
     code, lines = said(execute, "arm.urdf", "--against", "new.urdf")
     assert (code, lines[0]) == (0, "arm.urdf: 1 unmodelled change since new.urdf")
     assert lines[-1] == "    not modelled  1 change"
+
+
+def test_a_removed_element_stands_before_numbers(project: Path, execute: Execute) -> None:
+    elements = [{"name": f"R{n}", "between": ["in", "ground"], "ohm": 1.0} for n in range(10, 40)]
+    texts = [json.dumps({"name": "many", "elements": elements})]
+    texts.append(
+        json.dumps({"name": "many", "elements": [{**one, "ohm": n} for n, one in enumerate(elements[:-1], 2)]})
+    )
+    for text in texts:
+        (project / "ladder.json").write_text(text)
+        counts, removed = "−1 ~29 (1 structural and 29 parameter changes)", "R39"
+        if text == texts[1]:
+            found = execute("diff", code=1).lines
+            assert (found[0], found[1]) == (f"ladder: {counts} since the last build", f"  {removed}  removed")
+            assert f"  {counts} in the source" in execute("status", code=1).lines
+        built = execute("build").lines
+    assert built[1:4] == [f"  {counts}", f"  {removed}: removed", "  R10: ohm 1 → 2 Ω (+100 %)"]

@@ -62,7 +62,7 @@ def test_edited_files_and_those_of_the_user_stay_and_are_named(plant: Path, exec
         f"  stays      {FILTER}/Elements/package.mo  your own files need it",
         f"  stays      {FILTER}/package.mo  your own files need it",
     ]
-    assert f"{FILTER}/Bench.mo:3: warning: `Elements.R1` is used here" in printed.err
+    assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.err
     execute(*REMOVE)
     assert "// mine" in Path(f"{FILTER}/Elements/C1.mo").read_text()
     assert Path(f"{FILTER}/Elements/package.order").read_text() == "C1Parameters\nC1\n"
@@ -130,7 +130,7 @@ def test_a_robot_without_a_table_stays(project: Path, execute: Execute) -> None:
 
 def test_what_the_document_says(plant: Path, execute: Execute) -> None:
     (robot,) = execute(*REMOVE, "--json").json["robots"]
-    assert {action["action"] for action in robot["actions"]} == {"delete", "update"}
+    assert {action["action"] for action in robot["actions"]} == {"delete", "write"}
     assert not (plant / FILTER).exists()
 
 
@@ -138,7 +138,7 @@ def test_what_the_document_says(plant: Path, execute: Execute) -> None:
 @pytest.mark.usefixtures("in_haste")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 def test_a_removal_that_was_killed_goes_on(plant: Path, tmp_path: Path) -> None:
-    """At each of its file operations; what the user wrote is never lost."""
+    """At each of its file operations until the configuration is written; what the user wrote is never lost."""
     edit(f"{FILTER}/Elements/C1.mo", "end C1;", "// mine\nend C1;")
     found: list[crashes.Operation] = []
 
@@ -149,6 +149,7 @@ def test_a_removal_that_was_killed_goes_on(plant: Path, tmp_path: Path) -> None:
     clean = crashes.copy(plant, tmp_path / "clean")
     with crashes.before_each(found.append):
         assert remove(clean) == 0
+    found = found[: next(place for place, one in enumerate(found) if clean / "urdfsync.toml" in one.paths)]
     for operation in found[:: max(1, len(found) // 20)]:
         work = crashes.copy(plant, tmp_path / "work")
 

@@ -439,7 +439,7 @@ def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: 
     for command in (["build"], ["build", "--merge"], ["build", "--full", "--merge"]):
         assert execute(*command).lines[0] == "ladder: in step, 16 files, 1 kept because you edited it"
     error = execute("resolve", MODEL, "--undo", code=2).err
-    assert "there is nothing to give back" in error
+    assert "nothing to undo" in error
 
 
 def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: Path) -> None:
@@ -639,7 +639,7 @@ def test_without_a_base_the_editor_sees_both_texts(execute: Execute, editor: Edi
     Path(MODEL).parent.mkdir(parents=True)
     Path(MODEL).write_text('model Ladder "of mine"\nend Ladder;\n')
     execute("build", code=3)
-    own = 'within;\nmodel Ladder "of both"\nend Ladder;\n'
+    own = 'within Ladder;\nmodel Ladder "of both"\nend Ladder;\n'
     copy = project.parent / "seen"
     editor(f"Path({str(copy)!r}).write_text(file.read_text()); file.write_text({own!r})")
     assert f"  accepted   {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines

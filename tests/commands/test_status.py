@@ -11,9 +11,9 @@ from support.files import unchanged
 from support.networks import LADDER, configure, edit
 
 from urdfsync.changes import Change, Changes
-from urdfsync.commands.status import FileStatus, file_status, lines, summary
+from urdfsync.commands.status import lines, summary
 from urdfsync.domain import ChangeClass, ChangeKind, Role
-from urdfsync.engine.actions import CONFLICTS, WRITES, Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 
@@ -54,11 +54,29 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
 def test_a_conflict(built: Path, execute: Execute) -> None:
     edit(built / "ladder.json", "220.5", "330")
     edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
-    conflict = "  conflict   modelica/Ladder/Elements/R2Parameters.mo  you edited it"
+    conflict = (
+        "  conflict   modelica/Ladder/Elements/R2Parameters.mo  component `R`: you set `R = 221`, the export changes"
+    )
     for option in ([], ["--quiet"]):
         found = execute("status", *option, code=3).lines
         assert any(line.startswith(conflict) for line in found)
-        assert "`urdfsync resolve FILE --merge`" in found[-1]
+        file = Path(LADDER, "Elements/R2Parameters.mo")
+        assert found[-1].startswith(
+            f"  settle the conflict with `urdfsync resolve {file} --merge --prefer mine` (or --edit"
+        )
+
+
+def test_of_what_settles_conflicts_only_that_is_proposed_which_can(built: Path, execute: Execute) -> None:
+    edit(built / LADDER / "Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    edit(built / LADDER / "Elements/R2Parameters.mo", "220.5", "221")
+    for file in (built / ".urdfsync").rglob("*/*/*"):
+        file.unlink()  # the bases
+    for file in (built / ".urdfsync/robots").iterdir():
+        file.unlink()
+    edit(built / "ladder.json", "220.5", "330")
+    for command in ("status", "diff"):
+        found = execute(command, code=None).lines
+        assert found[-1] == "  settle each conflict with `urdfsync resolve FILE --keep` (or --edit, --take)"
 
 
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:
@@ -109,12 +127,12 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
 # Each action
 
 
-def action(kind: Kind, held: bool = False, path: str = "") -> Action:
-    return Action(path or f"Arm/{kind}.mo", kind, Role.MODEL, "link tip", base="b", held=held)
+def action(reason: Reason, held: bool = False, path: str = "") -> Action:
+    return Action(path or f"Arm/{reason.word}.mo", reason, Role.MODEL, "link tip", base="b", held=held)
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
-    writes = any(one.writes or one.kind is Kind.ADOPT for one in actions)
+    writes = any(one.writes or one.reason is Reason.ADOPT for one in actions)
     place = Path("/project/Arm"), Path("/project")
     return Result("arm", "Arm", *place, Actions(actions), changes=changes, dry=True, writes=writes)
 
@@ -128,20 +146,19 @@ def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
     return Changes(tuple(Change(("link tip", "mass"), ChangeKind.CHANGED, one, 1.0, new) for one in classes))
 
 
-@pytest.mark.parametrize("kind", [kind for kind in Kind if kind is not Kind.FORGET])
-def test_every_action_says_how_its_file_stands(kind: Kind) -> None:
-    status = file_status(action(kind))
-    assert (status is FileStatus.CONFLICT) == (kind in CONFLICTS)
-    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (kind in WRITES)
-    (shown,) = (line for line in said(result_of(action(kind)), verbose=True) if f"Arm/{kind}.mo" in line)
+@pytest.mark.parametrize("reason", [reason for reason in Reason if reason is not Reason.FORGET])
+def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
+    status = reason.status
+    assert (status is FileStatus.CONFLICT) == (reason.kind is Kind.CONFLICT)
+    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (reason.kind in (Kind.WRITE, Kind.DELETE))
+    shown, *_ = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
     assert shown.startswith(f"  {status}")
-    assert not shown.endswith(".mo") or kind in (Kind.UNCHANGED, Kind.KEEP)
-    assert file_status(action(Kind.FORGET)) is None
+    assert not shown.endswith(".mo") or reason in (Reason.UNCHANGED, Reason.KEEP)
 
 
 def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
-    conflict = Action("Arm/New.mo", Kind.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
-    move = Action("Arm/Other.mo", Kind.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
+    conflict = Action("Arm/New.mo", Reason.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
+    move = Action("Arm/Other.mo", Reason.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
     shown = "\n".join(said(result_of(conflict, move)))
     assert "conflict   /project/Arm/Old.mo" in shown
     assert "stale      /project/Arm/Other.mo" in shown
@@ -150,55 +167,58 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
 @pytest.mark.parametrize(
     ("kinds", "words"),
     [
-        ([Kind.UNCHANGED], "in step, 1 file"),
-        ([Kind.UNCHANGED, Kind.KEEP, Kind.ORPHAN, Kind.FORGET], "in step, 3 files: 1 edited, 1 orphan"),
-        ([Kind.UNCHANGED, Kind.ADOPT], "out of step, 2 files"),
-        ([Kind.UPDATE, Kind.RESTORE, Kind.KEEP, Kind.CREATE], "out of step, 4 files: 1 missing, 2 stale, 1 edited"),
-        ([Kind.CONFLICT, Kind.UNOWNED, Kind.UNCHANGED], "out of step, 3 files: 2 conflicts"),
+        ([Reason.UNCHANGED], "in step, 1 file"),
+        ([Reason.UNCHANGED, Reason.KEEP, Reason.ORPHAN, Reason.FORGET], "in step, 3 files: 1 edited, 1 orphan"),
+        ([Reason.UNCHANGED, Reason.ADOPT], "out of step, 2 files"),
+        (
+            [Reason.UPDATE, Reason.RESTORE, Reason.KEEP, Reason.CREATE],
+            "out of step, 4 files: 1 missing, 2 stale, 1 edited",
+        ),
+        ([Reason.CONFLICT, Reason.UNOWNED, Reason.UNCHANGED], "out of step, 3 files: 2 conflicts"),
     ],
 )
-def test_a_robot_in_one_line(kinds: list[Kind], words: str) -> None:
+def test_a_robot_in_one_line(kinds: list[Reason], words: str) -> None:
     found = result_of(*map(action, kinds))
     assert summary(found) == words
     assert found.in_step == words.startswith("in step")
 
 
 def test_a_conflict_in_a_package_that_was_never_built() -> None:
-    new = [Action(f"Arm/{name}.mo", Kind.CREATE, Role.MODEL) for name in "ab"]
-    assert summary(result_of(*new, Action("Arm/c.mo", Kind.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
+    new = [Action(f"Arm/{name}.mo", Reason.CREATE, Role.MODEL) for name in "ab"]
+    assert summary(result_of(*new, Action("Arm/c.mo", Reason.UNOWNED, Role.MODEL))) == "not built yet: 1 conflict"
 
 
 @pytest.mark.parametrize(
     ("kinds", "changes", "words"),
     [
-        ([Kind.UNCHANGED, Kind.KEEP], None, []),
-        ([Kind.DELETE, Kind.DELETE], None, ["next build: 2 to delete"]),
+        ([Reason.UNCHANGED, Reason.KEEP], None, []),
+        ([Reason.DELETE, Reason.DELETE], None, ["next build: 2 to delete"]),
         (
-            [Kind.UPDATE, Kind.CREATE, Kind.DELETE],
+            [Reason.UPDATE, Reason.CREATE, Reason.DELETE],
             changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
             ["1 structural and 2 parameter changes in the source", "next build: 2 files to write, 1 to delete"],
         ),
-        ([Kind.UNCHANGED], changed(ChangeClass.UNMODELLED), []),
+        ([Reason.UNCHANGED], changed(ChangeClass.UNMODELLED), []),
         (
-            [Kind.UPDATE],
+            [Reason.UPDATE],
             changed(ChangeClass.PARAMETER, noise=True),
-            ["1 parameter change in the source (rounding)", "next build: 1 file to write"],
+            ["1 parameter change by rounding in the source", "next build: 1 file to write"],
         ),
         (
-            [Kind.UPDATE],
+            [Reason.UPDATE],
             Changes(generator=True),
             ["a template, an option or urdfsync itself changed", "next build: 1 file to write"],
         ),
     ],
 )
-def test_what_the_next_build_does(kinds: list[Kind], changes: Changes | None, words: list[str]) -> None:
+def test_what_the_next_build_does(kinds: list[Reason], changes: Changes | None, words: list[str]) -> None:
     shown = said(result_of(*map(action, kinds), changes=changes))
     assert [line.strip() for line in shown[1:] if ".mo" not in line] == words
 
 
 def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
-    held = [action(Kind.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
-    found = result_of(action(Kind.CONFLICT), *held, action(Kind.CREATE), changes=changed(ChangeClass.STRUCTURAL))
+    held = [action(Reason.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
+    found = result_of(action(Reason.CONFLICT), *held, action(Reason.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
     assert shown[2] == "  next build: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved"
     assert sum("waits until the conflicts are resolved" in line for line in shown) == 2

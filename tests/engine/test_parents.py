@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from support.networks import edit, failure, kinds, run
 
 from urdfsync import cli
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.parents import merge_order
 
 
@@ -50,9 +50,9 @@ def test_a_build_begins_no_order_file_beside_classes_that_it_does_not_know(proje
     assert cli.main(["build", "--check"]) == 0
 
 
-@pytest.mark.parametrize(("order", "kind"), [("Inner\n", Kind.UPDATE), ("Inner\nFilters\n", None)])
+@pytest.mark.parametrize(("order", "kind"), [("Inner\n", Reason.UPDATE), ("Inner\nFilters\n", None)])
 def test_the_order_of_a_package_further_above_is_told_if_it_changes(
-    project: Path, order: str, kind: Kind | None
+    project: Path, order: str, kind: Reason | None
 ) -> None:
     plant = package(project / "modelica/Plant", order)
     edit("urdfsync.toml", '"Ladder"', '"Plant.Filters.Ladder"\ncreate_parents = true')

@@ -17,7 +17,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 
 from urdfsync import changes
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Kind
+from urdfsync.engine.actions import DISPUTED, Action, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
@@ -107,12 +107,12 @@ class Project:
         wanted = package(self.parts.values())
         actions, merged = self._decide(wanted, choices or {})
         for action in actions:
-            if action.writes and action.kind in DELETES:
+            if action.writes and action.kind is Kind.DELETE:
                 del self.files[action.path]
         for action in actions:
-            if action.writes and action.kind not in DELETES:
+            if action.writes and action.kind is not Kind.DELETE:
                 self.files[action.path] = merged.get(action.path, wanted[action.path].hash)
-        if any(action.held or action.kind in CONFLICTS for action in actions):
+        if any(action.held or action.kind is Kind.CONFLICT for action in actions):
             self.recorded |= renewed_files(actions)
             self.pending = pending_choices(actions)
         else:
@@ -130,7 +130,7 @@ class Project:
             path: (last[path].role, last[path].owner) if path in last else (Role.RECORD, "") for path in self.recorded
         }
         planned = decide(self.recorded, wanted, found, self.moves(), known)
-        conflicts = {a.path: self._conflict(a) for a in planned if a.kind in DISPUTED}
+        conflicts = {a.path: self._conflict(a) for a in planned if a.reason in DISPUTED}
         choices = {**remembered_choices(self.pending, planned), **choices}
         resolved, merged = resolve(planned, conflicts, choices, self.merging)
         actions = keep_needed(
@@ -138,7 +138,7 @@ class Project:
             lambda path, gone: any(file not in gone and file != path for file in self.files),
             (),
         )
-        records = [a for a in actions if a.kind in (Kind.UPDATE, Kind.MERGE) and a.role is Role.RECORD]
+        records = [a for a in actions if a.reason in (Reason.UPDATE, Reason.MERGE) and a.role is Role.RECORD]
         texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
         numbers = {path for path, (old, new) in texts.items() if numbers_only(old, new)}
         return hold(actions, numbers, self.moves().values(), moves=False), merged
@@ -157,7 +157,7 @@ class Project:
 
 def waiting(actions: Collection[Action]) -> list[str]:
     """The files that conflict."""
-    return [action.path for action in actions if action.kind in CONFLICTS]
+    return [action.path for action in actions if action.kind is Kind.CONFLICT]
 
 
 class Rounds(RuleBasedStateMachine):
@@ -282,19 +282,19 @@ class Rounds(RuleBasedStateMachine):
         taken = {a.origin or a.path for a in actions if a.choice in (Choice.TAKE, Choice.MERGE_GENERATED) and a.writes}
         kept = edits([text for path, text in before.items() if path not in taken])
         assert kept <= edits(self.project.files.values())
-        moved = {action.origin for action in actions if action.kind is Kind.MOVE and action.writes}
+        moved = {action.origin for action in actions if action.reason is Reason.MOVE and action.writes}
         for action in actions:
             if action.writes and action.path in before and action.path not in taken | moved:
                 known = action.base, *recorded.get(action.path, FileRecord()).hashes
-                assert action.kind is Kind.MERGE or before[action.path] in known
+                assert action.reason is Reason.MERGE or before[action.path] in known
 
     def _structure_is_all_or_nothing(self, actions: Collection[Action]) -> None:
         if waiting(actions):
             written = [action for action in actions if action.writes]
-            assert all(action.role is Role.RECORD or action.kind is Kind.RESTORE for action in written)
-            assert not any(action.kind in DELETES for action in written)
+            assert all(action.role is Role.RECORD or action.reason is Reason.RESTORE for action in written)
+            assert not any(action.kind is Kind.DELETE for action in written)
             left = set(self.project.moves().values())
-            restored = [one for one in actions if one.kind is Kind.RESTORE and one.base == one.generated]
+            restored = [one for one in actions if one.reason is Reason.RESTORE and one.base == one.generated]
             assert all(one.writes for one in restored if one.origin is None and one.path not in left)
 
     @invariant()

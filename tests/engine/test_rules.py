@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import WRITES, Action, Kind
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
@@ -27,28 +27,28 @@ from urdfsync.state.record import Choice, FileRecord, sides_hash
 @pytest.mark.parametrize(
     ("base", "mine", "generated", "kind"),
     [
-        pytest.param(None, None, "new", Kind.CREATE, id="never written"),
-        pytest.param("old", None, "old", Kind.RESTORE, id="deleted by the user"),
-        pytest.param("old", None, "new", Kind.RESTORE, id="deleted by the user, source changed"),
-        pytest.param("old", CLASS_FOLDER, "old", Kind.KEEP, id="made a package by the user"),
-        pytest.param("old", CLASS_FOLDER, "new", Kind.CONFLICT, id="made a package by the user, source changed"),
-        pytest.param("folder", CLASS_FOLDER, "new", Kind.CONFLICT, id="the same with a word of a stranger's record"),
-        pytest.param(None, CLASS_FOLDER, "new", Kind.UNOWNED, id="a package of the user in the way"),
-        pytest.param("old", CLASS_FOLDER, None, Kind.ORPHAN, id="made a package by the user, no longer generated"),
-        pytest.param("same", "same", "same", Kind.UNCHANGED, id="nothing to do"),
-        pytest.param("old", "new", "new", Kind.ADOPT, id="already right"),
-        pytest.param(None, "new", "new", Kind.ADOPT, id="already right, state lost"),
-        pytest.param("old", "old", "new", Kind.UPDATE, id="source changed"),
-        pytest.param("old", "edited", "old", Kind.KEEP, id="edited"),
-        pytest.param("old", "edited", "new", Kind.CONFLICT, id="edited, source changed"),
-        pytest.param(None, "foreign", "new", Kind.UNOWNED, id="a file of the user in the way"),
-        pytest.param("old", "old", None, Kind.DELETE, id="no longer generated"),
-        pytest.param("old", "edited", None, Kind.ORPHAN, id="edited, no longer generated"),
-        pytest.param("old", None, None, Kind.FORGET, id="no longer generated, deleted"),
-        pytest.param(None, "foreign", None, Kind.FORGET, id="in the way of what is no longer generated"),
+        pytest.param(None, None, "new", Reason.CREATE, id="never written"),
+        pytest.param("old", None, "old", Reason.RESTORE, id="deleted by the user"),
+        pytest.param("old", None, "new", Reason.RESTORE, id="deleted by the user, source changed"),
+        pytest.param("old", CLASS_FOLDER, "old", Reason.KEEP, id="made a package by the user"),
+        pytest.param("old", CLASS_FOLDER, "new", Reason.CONFLICT, id="made a package by the user, source changed"),
+        pytest.param("folder", CLASS_FOLDER, "new", Reason.CONFLICT, id="the same with a word of a stranger's record"),
+        pytest.param(None, CLASS_FOLDER, "new", Reason.UNOWNED, id="a package of the user in the way"),
+        pytest.param("old", CLASS_FOLDER, None, Reason.ORPHAN, id="made a package by the user, no longer generated"),
+        pytest.param("same", "same", "same", Reason.UNCHANGED, id="nothing to do"),
+        pytest.param("old", "new", "new", Reason.ADOPT, id="already right"),
+        pytest.param(None, "new", "new", Reason.ADOPT, id="already right, state lost"),
+        pytest.param("old", "old", "new", Reason.UPDATE, id="source changed"),
+        pytest.param("old", "edited", "old", Reason.KEEP, id="edited"),
+        pytest.param("old", "edited", "new", Reason.CONFLICT, id="edited, source changed"),
+        pytest.param(None, "foreign", "new", Reason.UNOWNED, id="a file of the user in the way"),
+        pytest.param("old", "old", None, Reason.DELETE, id="no longer generated"),
+        pytest.param("old", "edited", None, Reason.ORPHAN, id="edited, no longer generated"),
+        pytest.param("old", None, None, Reason.FORGET, id="no longer generated, deleted"),
+        pytest.param(None, "foreign", None, Reason.FORGET, id="in the way of what is no longer generated"),
     ],
 )
-def test_decision_table(base: str | None, mine: str | None, generated: str | None, kind: Kind) -> None:
+def test_decision_table(base: str | None, mine: str | None, generated: str | None, kind: Reason) -> None:
     assert decide_file(base, mine, generated) is kind
 
 
@@ -79,25 +79,27 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
 ) -> None:
     recorded, _, found, _ = situation
     actions = decide(*situation, dict.fromkeys(recorded, (Role.MODEL, "")))
-    kinds = {action.path: action.kind for action in actions}
+    kinds = {action.path: action.reason for action in actions}
     assert len(kinds) == len(actions)
-    moved = [action.origin for action in actions if action.kind is Kind.MOVE]
+    moved = [action.origin for action in actions if action.reason is Reason.MOVE]
     assert len(set(moved)) == len(moved), "no text goes to two places"
     for action in actions:
-        if action.kind is Kind.MOVE:
-            assert kinds[action.origin or ""] in (Kind.LEAVE, Kind.CREATE, Kind.MOVE)
+        if action.reason is Reason.MOVE:
+            assert kinds[action.origin or ""] in (Reason.MOVED_AWAY, Reason.CREATE, Reason.MOVE)
             assert action.mine == found[action.origin or ""] != action.base
-        if action.kind is Kind.LEAVE:
+        if action.reason is Reason.MOVED_AWAY:
             assert action.path in moved
         mine = found.get(action.path)
         bases = recorded[action.path].hashes if action.path in recorded else ()
-        if action.kind is Kind.DELETE:
+        if action.reason is Reason.DELETE:
             assert bases == (mine,)
-        if action.kind in WRITES and mine not in (None, *bases, action.generated):
+        if action.writes and mine not in (None, *bases, action.generated):
             others = {one for old in recorded.values() for one in old.hashes}
-            assert action.path in moved or (action.kind is Kind.UPDATE and mine in others), "moved by hand, unedited"
+            assert action.path in moved or (action.reason is Reason.UPDATE and mine in others), (
+                "moved by hand, unedited"
+            )
         if isinstance(mine, ClassFolder):
-            assert action.kind not in WRITES
+            assert not action.writes
 
 
 def test_places_that_are_handed_on() -> None:
@@ -106,33 +108,33 @@ def test_places_that_are_handed_on() -> None:
     wanted = {f"{name}.mo": DesiredFile(Role.MODEL, f"part {name}", f"new {name}") for name in "BC"}
     found = {"A.mo": "mine", "B.mo": "B"}
     actions = decide(recorded, wanted, found, {"B.mo": "A.mo", "C.mo": "B.mo"}, {"A.mo": (Role.MODEL, "part A")})
-    assert {action.path: (action.kind, action.origin, action.base) for action in actions} == {
-        "A.mo": (Kind.LEAVE, None, "A"),
-        "B.mo": (Kind.MOVE, "A.mo", "A"),
-        "C.mo": (Kind.CREATE, "B.mo", "B"),
+    assert {action.path: (action.reason, action.origin, action.base) for action in actions} == {
+        "A.mo": (Reason.MOVED_AWAY, None, "A"),
+        "B.mo": (Reason.MOVE, "A.mo", "A"),
+        "C.mo": (Reason.CREATE, "B.mo", "B"),
     }
 
 
 @pytest.mark.parametrize(
     ("mine", "generated", "kind"),
     [
-        pytest.param("ours", "new", Kind.UPDATE, id="untouched, by any of the hashes"),
-        pytest.param("theirs", "ours", Kind.UPDATE, id="untouched, and the other one is wanted"),
-        pytest.param("edited", "new", Kind.CONFLICT, id="edited"),
-        pytest.param("edited", "ours", Kind.CONFLICT, id="edited, and nothing may be new"),
-        pytest.param("ours", None, Kind.ORPHAN, id="no longer generated"),
-        pytest.param("new", "new", Kind.ADOPT, id="already right"),
+        pytest.param("ours", "new", Reason.UPDATE, id="untouched, by any of the hashes"),
+        pytest.param("theirs", "ours", Reason.UPDATE, id="untouched, and the other one is wanted"),
+        pytest.param("edited", "new", Reason.CONFLICT, id="edited"),
+        pytest.param("edited", "ours", Reason.CONFLICT, id="edited, and nothing may be new"),
+        pytest.param("ours", None, Reason.ORPHAN, id="no longer generated"),
+        pytest.param("new", "new", Reason.ADOPT, id="already right"),
     ],
 )
-def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str | None, kind: Kind) -> None:
+def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str | None, kind: Reason) -> None:
     recorded = {"A.mo": FileRecord(("ours", "theirs"))}
     wanted = {"A.mo": DesiredFile(Role.MODEL, "", generated)} if generated else {}
     actions = decide(recorded, wanted, {"A.mo": mine}, {}, {"A.mo": (Role.MODEL, "")})
-    assert [action.kind for action in actions] == [kind]
+    assert [action.reason for action in actions] == [kind]
     (left,) = files_after(actions, recorded).values()
     assert not left.is_ambiguous
     again = decide({"A.mo": left}, wanted, {"A.mo": mine}, {}, {"A.mo": (Role.MODEL, "")})
-    assert kind is not Kind.ORPHAN or [action.kind for action in again] == [kind], "it is not deleted the next time"
+    assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted the next time"
 
 
 def test_what_the_user_keeps_goes_before_any_hash() -> None:
@@ -140,7 +142,7 @@ def test_what_the_user_keeps_goes_before_any_hash() -> None:
     known = {"A.mo": (Role.MODEL, "")}
     assert decide(recorded, {}, {"A.mo": "mine"}, {}, known) == ()
     (action,) = decide(recorded, {"A.mo": DesiredFile(Role.MODEL, "", "new")}, {"A.mo": "mine"}, {}, known)
-    assert action.kind is Kind.UNOWNED
+    assert action.reason is Reason.UNOWNED
 
 
 LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)
@@ -150,23 +152,23 @@ LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size
     base=st.none() | LINES,
     mine=LINES,
     generated=LINES,
-    kind=st.sampled_from([Kind.CONFLICT, Kind.UNOWNED, Kind.MOVE]),
+    kind=st.sampled_from([Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE]),
     choice=st.none() | st.sampled_from(Choice),
     merging=st.booleans(),
 )
 def test_no_text_of_the_users_gives_way_unless_he_says_so(
-    base: str | None, mine: str, generated: str, kind: Kind, choice: Choice | None, merging: bool
+    base: str | None, mine: str, generated: str, kind: Reason, choice: Choice | None, merging: bool
 ) -> None:
-    origin = "old.txt" if kind is Kind.MOVE else None
+    origin = "old.txt" if kind is Reason.MOVE else None
     action = Action("a.txt", kind, Role.MODEL, "robot", base, generated, origin, mine=mine)
     conflict = find_conflict(action, [] if base is None else [base], mine, generated)
     choices = {action.path: choice} if choice else {}
     (result,), texts = resolve([action], {action.path: conflict}, choices, merging)
     text = texts.get(action.path)
     merged = conflict.merged(choice)
-    if result.kind is Kind.UPDATE or (result.kind is Kind.MOVE and text is None):
+    if result.reason is Reason.UPDATE or (result.reason is Reason.MOVE and text is None):
         assert choice is Choice.TAKE
-    elif result.kind in (Kind.MERGE, Kind.MOVE):
+    elif result.reason in (Reason.MERGE, Reason.MOVE):
         assert text == (mine if choice is Choice.KEEP else merged)
     else:
         assert text is None
@@ -176,5 +178,7 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
 def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
     """A stranger's state could have a file replaced by that."""
     pending = {("a.mo", sides_hash("mine", "new")): Choice.TAKE}
-    actions = [Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Kind.KEEP, Kind.CONFLICT)]
+    actions = [
+        Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Reason.KEEP, Reason.CONFLICT)
+    ]
     assert [remembered_choices(pending, [action]) for action in actions] == [{}, {"a.mo": Choice.TAKE}]

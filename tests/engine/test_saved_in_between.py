@@ -14,7 +14,7 @@ import pytest
 from support.commands import Execute
 from support.networks import edit, kinds, rename, run
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit
 from urdfsync.state import file_operations
 
@@ -99,7 +99,7 @@ def test_what_went_before_the_save_was_seen_is_told(project: Path, save_in_betwe
     rename("R2", "R3")
     save_in_between(lambda: None)
     told = kinds(run())
-    assert (told[R2], told[R1]) == (Kind.DELETE, Kind.CONFLICT)
+    assert (told[R2], told[R1]) == (Reason.DELETE, Reason.CONFLICT)
 
 
 def test_what_is_kept_since_its_place_is_taken_is_told(project: Path, save_in_between: SaveInBetween) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.networks import C1, LADDER, MANIFEST, R1, R2, edit, kinds, rename, run, source
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
 
 C2 = f"{LADDER}/Elements/C2.mo"
@@ -22,7 +22,7 @@ def conflict(project: Path) -> str:
     run()
     edit(C2, "end C2;", "  // mine\nend C2;")
     edit("ladder.json", '"farad": 4.7e-6', '"ohm": 7')
-    assert kinds(run())[C2] is Kind.CONFLICT
+    assert kinds(run())[C2] is Reason.CONFLICT
     return C2
 
 
@@ -49,7 +49,7 @@ def test_a_renewed_import_keeps_its_own_facts_when_its_source_goes(conflict: str
     table = Path("step.csv")
     assert Path(MANIFEST).read_text().count("source_hash") == 1
     table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
-    assert kinds(run())[f"{LADDER}/Resources/step.txt"] is Kind.UPDATE
+    assert kinds(run())[f"{LADDER}/Resources/step.txt"] is Reason.UPDATE
     assert Path(MANIFEST).read_text().count("source_hash") == 2
     table.unlink()
     run(choices={conflict: Choice.TAKE})
@@ -87,7 +87,7 @@ def test_an_element_may_get_the_name_of_one_that_is_gone(conflict: str) -> None:
 
 def test_a_record_that_was_renewed_moves_with_its_package(conflict: str) -> None:
     source('"ohm": 220.5', '"ohm": 300')
-    assert kinds(run())[R2_RECORD] is Kind.UPDATE
+    assert kinds(run())[R2_RECORD] is Reason.UPDATE
     edit(R2_RECORD, "end R2", "  // mine\nend R2")
     move_package()
     run(choices={one.path: Choice.TAKE for one in run().conflicts})
@@ -111,7 +111,7 @@ def test_a_robot_that_is_renamed_in_case_only_keeps_its_record(project: Path) ->
     run()
     edit(R1, "end R1", "  // mine\nend R1")
     edit("urdfsync.toml", "robots.ladder", "robots.Ladder")
-    assert kinds(run())[R1] is Kind.KEEP
+    assert kinds(run())[R1] is Reason.KEEP
     assert [path.name for path in Path(".urdfsync/robots").iterdir()] == ["Ladder.state"]
 
 

@@ -441,9 +441,7 @@ def test_inputs_of_a_function_are_a_sequence(mine: Edit, generated: Edit, fits: 
     edited = changed(FUNCTION, mine)
     found = merged(FUNCTION, edited, changed(FUNCTION, generated))
     assert found.text == (changed(edited, generated) if fits else None)
-    assert fits or [one.what[:62] for one in found.conflicts] == [
-        "class `f`: you changed the order of inputs and outputs to `inp"
-    ]
+    assert fits or ["class `f`: you" in one.what for one in found.conflicts] == [True]
 
 
 # --- comments and blanks --------------------------------------------------------------------------------------------

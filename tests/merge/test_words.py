@@ -33,6 +33,14 @@ PATHS = {
         ("a + b = c", "a = c", "b\n  = c"),
         "equation `a + b = c`: you changed the equation to `a = c`, the export to `b = c`",
     ),
+    ("body", "when a", "equation"): (
+        ("when a then\n  x = 1;\nend", "when a then\n  x = 1;\n  y = 3;\nend", "when a then\n  x = 7;\nend"),
+        "when `a`: you added `y = 3;`, the export changed `x = 1;` to `x = 7;`",
+    ),
+    ("body", "statements of algorithm 1"): (
+        ("x := 1;\ny := 2;", "x := 1;", "x := 1;\ny := 2;\nz := 3;"),
+        "statements of algorithm 1: you removed `y := 2;`, the export added `z := 3;`",
+    ),
     ("head",): (
         ("model A", "block A", "record A"),
         "the class: you changed the kind and name to `block A`, the export to `record A`",

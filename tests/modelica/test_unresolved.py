@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from urdfsync.check import libraries
-from urdfsync.modelica.classes import Node
+from urdfsync.modelica.classes import Node, Type
 from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Scopes
+from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Element, Missing, Scopes
 from urdfsync.modelica.syntax import Name
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
@@ -302,3 +302,14 @@ def test_every_use_in_a_generated_package_can_be_told() -> None:
                 assert isinstance(scopes.lookup(name._replace(parts=parts), node), Missing), (stored, name, part)
                 count += 1
     assert count > 500
+
+
+def test_what_is_known_of_the_standard_library_is_what_is_in_it(modelica_library: Path) -> None:
+    top = next(path for path in modelica_library.iterdir() if re.fullmatch(r"Modelica( [\d.]+)?", path.name))
+    places = {"Modelica": top}
+    scopes = Scopes(StoredClasses("None", Path("None"), {}, {}, places.get))
+    for name, known in INTERFACES.items():
+        node = scopes.node(name)
+        assert node is not None, name
+        names = {one for one, is_class in scopes.names_in((Type(node),)).items() if not is_class}
+        assert names == known.components.keys(), name

@@ -10,7 +10,7 @@ import pytest
 from rich.console import Console
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import Result
 from urdfsync.merge import Merge, merge
@@ -42,7 +42,7 @@ def rejected(proposal: str | None, why: str) -> Conflict:
 
 
 def seen(
-    *found: Conflict, kind: Kind = Kind.CONFLICT, dry: bool = False, width: int | None = None, **options: Any
+    *found: Conflict, kind: Reason = Reason.CONFLICT, dry: bool = False, width: int | None = None, **options: Any
 ) -> list[str]:
     """What a build says of these conflicts, as it appears on a terminal of this width, or in a pipe."""
     actions = Actions(
@@ -102,9 +102,9 @@ def test_verbose_shows_the_lines() -> None:
 def test_of_many_changes_the_first_are_shown() -> None:
     many = BASE.replace("  Real b", "".join(f"  Real x{number};\n" for number in range(10)) + "  Real b")
     found = Conflict(ELBOW, "link elbow", BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
-    assert seen(found, width=100)[11:14] == [
-        "                component `x7`: added",
-        "                … 2 more changes",
+    assert seen(found, width=100)[8:11] == [
+        "                component `x4`: added",
+        "                … 5 more changes",
         "    the export  component `b`: b 2 → 3",
     ]
 
@@ -118,6 +118,21 @@ def test_of_a_contradiction_nothing_else_is_shown() -> None:
     assert not any("b = 3" in line for line in lines)
 
 
+def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> None:
+    base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
+    generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
+    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    assert seen(found)[4:11] == [
+        "    -- lines 1 to 4: the sides contradict each other",
+        "               1  within Arm;",
+        "               2  model Elbow",
+        "    base       3    Real a = 1;",
+        "    mine       3    Real a = 7;",
+        "    generated  3    Real a = 9;",
+        "               4",
+    ]
+
+
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")
 SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
 
@@ -126,34 +141,34 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
     ("found", "kind", "reason", "after"),
     [
         (
-            *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Kind.CONFLICT),
-            f"{CHANGED} The changes fit together, but the merge declares `x` twice.",
+            *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Reason.CONFLICT),
+            f"{CHANGED} --merge would not be right: the merge declares `x` twice.",
             f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your editor, between markers",
         ),
         (
-            *(texts_of(EDITED, EXPORTED, base=None), Kind.UNOWNED),
+            *(texts_of(EDITED, EXPORTED, base=None), Reason.UNOWNED),
             "urdfsync did not write the file that is there. There is no base, so it can't be merged.",
             f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --edit both",
         ),
         (
-            *(texts_of(EDITED, EXPORTED, base=None), Kind.CONFLICT),
+            *(texts_of(EDITED, EXPORTED, base=None), Reason.CONFLICT),
             f"{CHANGED} Its merge base, the text that urdfsync wrote last, is not recorded, so it can't be merged.",
             "mine 3 Real a = 1; // measured generated 3 Real a = 1;",
         ),
         (
-            *(NEW_NAME, Kind.CONFLICT),
-            f"Its element was renamed: it will be moved to {ELBOW}.",
+            *(NEW_NAME, Reason.CONFLICT),
+            f"It will be moved to {ELBOW}.",
             f"{SHOULDER} --merge --prefer mine both sides' changes, yours (or generated) in doubt --edit",
         ),
         (
-            *(rejected(None, FOLDER), Kind.CONFLICT),
+            *(rejected(None, FOLDER), Reason.CONFLICT),
             f"{CHANGED} You made a folder of the class.",
             f"urdfsync resolve {ELBOW} --keep --keep your file as it is",
         ),
     ],
     ids=["no model", "a file of the user's", "a lost base", "another name", "a folder"],
 )
-def test_why_a_merge_is_not_offered(found: Conflict, kind: Kind, reason: str, after: str) -> None:
+def test_why_a_merge_is_not_offered(found: Conflict, kind: Reason, reason: str, after: str) -> None:
     lines = seen(found, kind=kind)
     assert lines[1] == f"  conflict   {found.origin or ELBOW}  link elbow"
     assert lines[2].endswith(reason)
@@ -165,7 +180,7 @@ def test_why_a_merge_is_not_offered(found: Conflict, kind: Kind, reason: str, af
 
 def test_what_is_no_text_can_be_kept_or_taken() -> None:
     path = "modelica/Arm/Resources/hand.stl"
-    action = Action(path, Kind.CONFLICT, Role.IMPORT, "package://arm/hand.stl", mine="hash")
+    action = Action(path, Reason.CONFLICT, Role.IMPORT, "package://arm/hand.stl", mine="hash")
     assert seen_of(Actions([action])) == [
         "",
         f"  conflict   {path}  package://arm/hand.stl",

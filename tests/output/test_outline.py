@@ -112,6 +112,7 @@ def test_a_change_is_one_line_of_a_build() -> None:
         )
     )
     assert change_lines(found) == [
+        "~3 (1 structural and 2 parameter and 1 unmodelled change)",
         "link a: renamed to b: c",
         "link a: visual 1 added: name x",
         "robot: not modelled 1 change",

@@ -13,7 +13,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MANIFEST, R1, RECORD, configure, edit, own_model, resistor, run, source
 
 from urdfsync.dependencies import Dependencies
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.files import text_digest
 from urdfsync.state import bases, file_operations
 from urdfsync.state.record import Choice
@@ -195,7 +195,7 @@ def test_an_edit_new_templates_and_an_export_in_one_interval_are_merged(
     configure('on_conflict = "merge"\n')
     result = run()
     assert not result.conflicts
-    assert {one.path for one in result.actions if one.kind is Kind.MERGE} == {R1, RECORD}
+    assert {one.path for one in result.actions if one.reason is Reason.MERGE} == {R1, RECORD}
     assert TEMPLATES in Path(R1).read_text()
     assert "// mine" in Path(R1).read_text()
     assert "150" in Path(RECORD).read_text()

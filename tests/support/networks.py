@@ -8,7 +8,7 @@ from typing import Any
 
 from support.choices import options
 from urdfsync import config
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
 
@@ -81,7 +81,7 @@ def failure(**request: Any) -> str:
     return "\n".join(map(str, result.diagnostics)).replace("\\", "/")
 
 
-def kinds(result: Result, folder: str = "") -> dict[str, Kind]:
+def kinds(result: Result, folder: str = "") -> dict[str, Reason]:
     """What happens to each file that does not just stay and does not wait, by its path below a folder."""
-    actions = (action for action in result.actions if action.kind is not Kind.UNCHANGED and not action.held)
-    return {action.path.removeprefix(folder): action.kind for action in actions}
+    actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.held)
+    return {action.path.removeprefix(folder): action.reason for action in actions}

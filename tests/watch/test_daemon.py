@@ -21,6 +21,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import configure
 
 from urdfsync import cli
+from urdfsync.state.lock import build_lock
 
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["settling", "building", "built"]
@@ -89,13 +90,26 @@ def test_a_slow_writer_is_one_build(start: Start) -> None:
     assert watch.kinds(since) == BUILD
 
 
+def test_what_changed_and_who_builds_meanwhile_is_said(start: Start) -> None:
+    watch = start("--rescan", "0.1")
+    await_rescans()  # and the look at what the daemon has written
+    with build_lock(Path.cwd() / ".urdfsync", 0) as lock:
+        lock.acquire()
+        since = watch.mark
+        put(Path("ladder.json"), 330)
+        assert watch.wait("settling", since=since)["file"] == "ladder.json"
+        assert watch.wait("waiting", since=since)["reason"] == f"waiting for process {os.getpid()}, which is building"
+    watch.wait("built", since=since)
+    assert watch.kinds(since) == ["settling", "building", "waiting", "built"]
+
+
 @pytest.mark.parametrize("content", ["", "{", None], ids=["empty", "half", "deleted"])
 def test_a_source_that_is_not_valid_yet_is_waited_for(start: Start, content: str | None) -> None:
     watch = start(*PATIENT)
     since, source = watch.mark, Path("ladder.json")
     source.unlink() if content is None else source.write_text(content)
     waiting = watch.wait("waiting", since=since)
-    assert waiting["reason"] == "waiting for the exporter"
+    assert waiting["reason"] == "waiting for the exporter of ladder.json"
     assert waiting["diagnostics"][0]["code"] == ("no-source" if content is None else "json")
     with building(watch, 330):
         put(source, 330)
@@ -238,8 +252,8 @@ def test_what_a_user_edits_is_left_alone_and_each_is_told_once(start: Start) -> 
     watch = start("--rescan", "0.1")
 
     def acted(what: str, since: int) -> list[str]:
-        event = watch.wait("built", lambda event: any(one["action"] == what for one in event["actions"]), since)
-        return [action["path"] for action in event["actions"] if action["action"] == what]
+        event = watch.wait("built", lambda event: any(one["reason"] == what for one in event["actions"]), since)
+        return [action["path"] for action in event["actions"] if action["reason"] == what]
 
     since = watch.mark
     MODEL.write_text(MODEL.read_text() + "// mine\n")
@@ -348,6 +362,22 @@ def test_a_command_after_builds_that_changed_something(start: Start) -> None:
     assert "ended with exit code 3" in watch.wait("noted", since=since)["diagnostics"][0]["message"]
     assert Path("log").read_text().splitlines()[-1] == "ladder Ladder R2Parameters.mo"
     assert watch.errors == "noise\nnoise\n"
+
+
+def test_a_command_waits_while_the_package_is_broken(start: Start) -> None:
+    watch = start("--exec", 'echo "$(basename -a $URDFSYNC_FILES | tr "\\n" " ")" >> log')
+    watch.wait("ran")
+    since, text = watch.mark, MODEL.read_text()
+    MODEL.write_text(text.replace("\nequation", "\n  Elements.Gone gone;\nequation"))
+    event = watch.wait("built", since=since)
+    assert (event["broken"], event["in_step"]) == (True, False)
+    probe(watch)
+    watch.rest(since)
+    assert watch.kinds().count("ran") == 1
+    since = watch.mark
+    MODEL.write_text(text)
+    watch.wait("ran", since=since)
+    assert Path("log").read_text().splitlines()[-1].split() == ["R2Parameters.mo"]
 
 
 def test_a_command_that_takes_long_holds_nothing_up(start: Start) -> None:

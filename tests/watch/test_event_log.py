@@ -14,7 +14,7 @@ from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
-from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events
@@ -37,7 +37,7 @@ def change(path: str, old: Any, new: Any, unit: str = "", kind: Event = Event.CH
     return Change(tuple(path.split(" / ")), kind, ChangeClass.PARAMETER, old, new, unit)
 
 
-def action(kind: Kind, name: str = "Elbow", generated: str = "generated", held: bool = False) -> Action:
+def action(kind: Reason, name: str = "Elbow", generated: str = "generated", held: bool = False) -> Action:
     path = f"modelica/Arm/Links/{name}.mo"
     return Action(path, kind, Role.RECORD, "link elbow", "base", generated, mine="mine", held=held)
 
@@ -62,11 +62,11 @@ def told(*found: events.Event, **options: Any) -> list[str]:
 HEAVIER = Changes((change("link elbow / mass", 1.2, 1.35, "kg"),))
 MASS = "link elbow: mass 1.2 → 1.35 kg (+12.5 %)"
 STARTED = events.Started(Path("urdfsync.toml"), ("arm", "gripper"))
-UPDATED = built(action(Kind.UPDATE), changes=HEAVIER)
-IN_STEP = built(action(Kind.UNCHANGED))
-RECOVERED = built(action(Kind.UNCHANGED), recovered=True)
-CONFLICT = built(action(Kind.CONFLICT))
-ORPHAN = built(action(Kind.ORPHAN))
+UPDATED = built(action(Reason.UPDATE), changes=HEAVIER)
+IN_STEP = built(action(Reason.UNCHANGED))
+RECOVERED = built(action(Reason.UNCHANGED), recovered=True)
+CONFLICT = built(action(Reason.CONFLICT))
+ORPHAN = built(action(Reason.ORPHAN))
 RIGHT, KNOWN = events.CheckDone("arm", Checked.RIGHT, 2.54), events.CheckDone("arm", Checked.RIGHT)
 WRONG = events.CheckDone("arm", Checked.WRONG, 2.54, (NO_CLASS,))
 BUSY = (
@@ -99,7 +99,7 @@ SAID: dict[str, Case] = {
         [*IS_BROKEN, f"{TIME}arm  in step again"],
     ),
     "an end of an error that comes with a build": (
-        (failed(BROKEN), built(action(Kind.UPDATE), changes=HEAVIER, recovered=True)),
+        (failed(BROKEN), built(action(Reason.UPDATE), changes=HEAVIER, recovered=True)),
         [*IS_BROKEN, f"{TIME}arm  {MASS}, 1 file written, in step again"],
     ),
     "a check is one line": ((events.Checking("arm"), RIGHT), [IS_RIGHT]),
@@ -139,43 +139,43 @@ SAID: dict[str, Case] = {
     ),
     # builds in one line: two changes find room, more are counted
     "two changes": (
-        (built(action(Kind.UPDATE), changes=Changes((*HEAVIER.changes, change("joint a / effort", 54, 60, "N·m")))),),
+        (built(action(Reason.UPDATE), changes=Changes((*HEAVIER.changes, change("joint a / effort", 54, 60, "N·m")))),),
         [f"{TIME}arm  {MASS}; joint a: effort 54 → 60 N·m (+11.1 %), 1 file written"],
     ),
     "many changes": (
         (
             built(
-                *4 * [action(Kind.UPDATE)],
+                *4 * [action(Reason.UPDATE)],
                 changes=Changes((
                     *(change(f"link {name} / inertial / mass", 1, 2 + ord(name), "kg") for name in "abc"),
                     *(change(f"link a / inertial / inertia / {name}", 1, 2, "kg·m²") for name in ("ixx", "iyy")),
                 )),
             ),
         ),
-        [f"{TIME}arm  5 changes in 3 elements, 4 files written"],
+        [f"{TIME}arm  ~3 (5 parameter changes), 4 files written"],
     ),
     "a long change": (
-        (built(action(Kind.UPDATE), changes=Changes((change(f"link {'a' * 120}", None, None, kind=Event.ADDED),))),),
-        [f"{TIME}arm  1 change in 1 element, 1 file written"],
+        (built(action(Reason.UPDATE), changes=Changes((change(f"link {'a' * 120}", None, None, kind=Event.ADDED),))),),
+        [f"{TIME}arm  1 parameter change, 1 file written"],
     ),
     "another name": (
         (
             built(
-                *(action(Kind.CREATE, "Gripper"), action(Kind.DELETE, "Tool"), action(Kind.MOVE, "Wrist")),
+                *(action(Reason.CREATE, "Gripper"), action(Reason.DELETE, "Tool"), action(Reason.MOVE, "Wrist")),
                 changes=Changes((change("link tool", "tool", "gripper", kind=Event.RENAMED),)),
             ),
         ),
         [
             f"{TIME}arm  link tool: renamed to gripper, 1 file written, 1 deleted, 1 moved with your edits",
-            "  move       modelica/Arm/Links/Wrist.mo  its element was renamed; your edits move here",
+            "  move       modelica/Arm/Links/Wrist.mo  its path is new; your edits move here",
         ],
     ),
     "nothing is said of files that stay": (
-        (built(action(Kind.KEEP), action(Kind.UNCHANGED), changes=HEAVIER),),
+        (built(action(Reason.KEEP), action(Reason.UNCHANGED), changes=HEAVIER),),
         [f"{TIME}arm  {MASS}"],
     ),
     "another template": (
-        (built(action(Kind.UPDATE), changes=Changes(HEAVIER.changes, generator=True)),),
+        (built(action(Reason.UPDATE), changes=Changes(HEAVIER.changes, generator=True)),),
         [f"{TIME}arm  a template, an option or urdfsync itself changed, 1 file written"],
     ),
 }  # fmt: skip
@@ -219,10 +219,21 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert f"  conflict   {ELBOW}  link elbow" in first
     assert f"    urdfsync resolve {ELBOW} --keep" in first
     assert told(CONFLICT, CONFLICT) == first
-    assert told(CONFLICT, built(action(Kind.CONFLICT, generated="other"))) == first + first
-    again = built(action(Kind.CONFLICT), changes=HEAVIER)
+    assert told(CONFLICT, built(action(Reason.CONFLICT, generated="other"))) == first + first
+    again = built(action(Reason.CONFLICT), changes=HEAVIER)
     assert told(CONFLICT, again) == [*first, f"{TIME}arm  {MASS}, 1 conflict"]
-    assert told(CONFLICT, built(action(Kind.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
+    assert told(CONFLICT, built(action(Reason.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
-    waiting = built(action(Kind.UPDATE), action(Kind.CONFLICT), action(Kind.UPDATE, "Base", held=True))
+    waiting = built(action(Reason.UPDATE), action(Reason.CONFLICT), action(Reason.UPDATE, "Base", held=True))
     assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
+
+
+def test_what_is_broken_is_one_line_until_it_is_not() -> None:
+    broken = built(action(Reason.KEEP), diagnostics=(NO_CLASS, MOVED, BROKEN), is_broken=True)
+    assert told(broken, broken, built(action(Reason.KEEP)), broken) == [
+        "! arm.urdf:8: warning: this is odd [odd]",
+        f"! {TIME}arm  broken: {ELBOW}:4: there is no class `Foo`, and 1 more",
+        f"{TIME}arm  in step again",
+        "! arm.urdf:8: warning: this is odd [odd]",
+        f"! {TIME}arm  broken: {ELBOW}:4: there is no class `Foo`, and 1 more",
+    ]

@@ -19,7 +19,7 @@ from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
-from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events, report
@@ -75,11 +75,11 @@ def started(*robots: str) -> events.Started:
     return events.Started(Path("urdfsync.toml"), robots)
 
 
-def built(robot: str, *kinds: Kind, **more: Any) -> events.Built:
+def built(robot: str, *kinds: Reason, **more: Any) -> events.Built:
     actions = Actions(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
     return events.Built(
-        Result(robot, "Arm", Path("Arm"), Path(), actions, writes=Kind.UPDATE in kinds, **more),
-        (Path("x"),) * (Kind.UPDATE in kinds),
+        Result(robot, "Arm", Path("Arm"), Path(), actions, writes=Reason.UPDATE in kinds, **more),
+        (Path("x"),) * (Reason.UPDATE in kinds),
     )
 
 
@@ -87,8 +87,8 @@ def failed(robot: str, *diagnostics: Diagnostic) -> events.Failed:
     return events.Failed(Result(robot, "Arm", Path("Arm"), Path(), diagnostics=diagnostics, failed=True))
 
 
-BUILT, UNCHANGED = built("arm", Kind.UPDATE), built("arm", Kind.UNCHANGED)
-CONFLICT, FAILED = built("arm", Kind.CONFLICT, Kind.UPDATE), failed("arm", ODD, BROKEN)
+BUILT, UNCHANGED = built("arm", Reason.UPDATE), built("arm", Reason.UNCHANGED)
+CONFLICT, FAILED = built("arm", Reason.CONFLICT, Reason.UPDATE), failed("arm", ODD, BROKEN)
 SETTLING, BUILDING, CALM = events.Settling("arm"), events.Building("arm"), events.Unchanged("arm")
 CHECKING, RIGHT = events.Checking("arm"), events.CheckDone("arm", Checked.RIGHT, 2.5)
 WRONG = events.CheckDone("arm", Checked.WRONG, 2.5, (ODD, BROKEN))
@@ -108,20 +108,20 @@ def test_the_page_shows_what_a_terminal_shows(terminal: Terminal, monkeypatch: p
     screen, people = terminal(110), TextReport(Console())
     tell(people, started("arm", "crane", "gripper", "cart"))
     found = (
-        built("arm", *2 * [Kind.UPDATE], changes=Changes((mass[0],))),
-        built("gripper", *4 * [Kind.UPDATE], changes=Changes((*mass, *inertia))),
-        built("arm", *4 * [Kind.UPDATE], Kind.MOVE, changes=Changes((renamed,))),
+        built("arm", *2 * [Reason.UPDATE], changes=Changes((mass[0],))),
+        built("gripper", *4 * [Reason.UPDATE], changes=Changes((*mass, *inertia))),
+        built("arm", *4 * [Reason.UPDATE], Reason.MOVE, changes=Changes((renamed,))),
         failed("cart", broken),
     )
     for event, moment in zip(found, moments, strict=True):
         clock(monkeypatch, moment)
         tell(people, event)
-    tell(people, events.Waiting("crane", "waiting for the exporter"))
+    tell(people, events.Waiting("crane", "waiting for the exporter of cad/crane.urdf"))
     assert "\n".join(screen.shown()).replace("F4.mo", "Links/Probe.mo") == example
 
 
 def test_errors_appear_above_the_status_too(terminal: Terminal) -> None:
-    assert look(terminal, built("gripper", Kind.UNCHANGED), FAILED, events.Paused("pre-commit runs")) == [
+    assert look(terminal, built("gripper", Reason.UNCHANGED), FAILED, events.Paused("pre-commit runs")) == [
         "14:03:12  arm      1 error, nothing was changed",
         "arm.urdf:7: warning: this is odd [odd]",
         "arm.urdf:12: error: this is no XML [xml-syntax]",
@@ -205,14 +205,14 @@ WAITING = "waiting for the exporter"
         ([BUILT], IS_BUILT),
         ([UNCHANGED], "in step"),
         ([FAILED], IS_BROKEN),
-        ([CONFLICT], "conflict in F0.mo"),
-        ([built("arm", Kind.CONFLICT, Kind.UNOWNED)], "conflict in 2 files"),
+        ([CONFLICT], "conflict in F0.mo: waiting for `urdfsync resolve`"),
+        ([built("arm", Reason.CONFLICT, Reason.UNOWNED)], "conflict in 2 files: waiting for `urdfsync resolve`"),
         # a build that did nothing keeps the time of the last one
         ([BUILT, BUILDING, UNCHANGED], IS_BUILT),
         ([CONFLICT, UNCHANGED], "in step"),
         # one that calms down is as before
         ([BUILT, SETTLING, CALM], IS_BUILT),
-        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo"),
+        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo: waiting for `urdfsync resolve`"),
         ([FAILED, SETTLING, CALM], IS_BROKEN),
         # a check goes on beside the rest, and counts when it finds something that is not worse
         ([BUILT, CHECKING], "checking"),
@@ -222,7 +222,7 @@ WAITING = "waiting for the exporter"
         ([BUILT, CHECKING, SETTLING, CALM], "checking"),
         ([BUILT, WRONG, BUILDING, UNCHANGED], IS_WRONG),
         ([BUILT, WRONG, CHECKING, RIGHT], IS_BUILT),
-        ([CONFLICT, CHECKING], "conflict in F0.mo"),
+        ([CONFLICT, CHECKING], "conflict in F0.mo: waiting for `urdfsync resolve`"),
         ([CONFLICT, WRONG], IS_WRONG),
         ([WRONG, FAILED], IS_BROKEN),
         # another configuration
@@ -237,7 +237,7 @@ def test_the_status_of_a_robot(found: list[events.Event], text: str) -> None:
 
 ACTIVITIES: dict[Activity, Callable[[str], events.Event]] = {
     Activity.ERROR: failed,
-    Activity.CONFLICT: lambda robot: built(robot, Kind.CONFLICT),
+    Activity.CONFLICT: lambda robot: built(robot, Reason.CONFLICT),
     Activity.WAITING: lambda robot: events.Waiting(robot, "waiting"),
     Activity.BUILDING: events.Building,
     Activity.SETTLING: events.Settling,

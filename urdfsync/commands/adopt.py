@@ -15,7 +15,7 @@ import msgspec
 from urdfsync.commands import arguments
 from urdfsync.commands.edits import edit_lines, edit_values
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.edits import EditedFile, OtherNumber, find_edited, find_other_numbers
 from urdfsync.engine.generation import Generation, generate_robot
@@ -26,6 +26,7 @@ from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import file_line, headline, result_values, show_result
 
 _EDITS = 5
@@ -45,11 +46,11 @@ class AdoptedStatus(enum.StrEnum):
 
 
 _STATUSES = {
-    Kind.UNCHANGED: AdoptedStatus.SAME,
-    Kind.ADOPT: AdoptedStatus.SAME,
-    Kind.KEEP: AdoptedStatus.EDITED,
-    Kind.CREATE: AdoptedStatus.NEW,
-    Kind.RESTORE: AdoptedStatus.NEW,
+    Reason.UNCHANGED: AdoptedStatus.SAME,
+    Reason.ADOPT: AdoptedStatus.SAME,
+    Reason.KEEP: AdoptedStatus.EDITED,
+    Reason.CREATE: AdoptedStatus.NEW,
+    Reason.RESTORE: AdoptedStatus.NEW,
 }
 _STYLES = {AdoptedStatus.EDITED: "cyan", AdoptedStatus.UNKNOWN: "yellow", AdoptedStatus.NEW: "green"}
 
@@ -74,7 +75,7 @@ def add(commands: arguments.Commands) -> None:
         "adopt",
         run,
         "--wait --trust",
-        help="take packages that were there before for edited ones",
+        help="take over packages that exist already; what differs counts as your edits",
         description="Build robots whose packages were there before: written by another tool, or by urdfsync, whose "
         "recorded state is lost. Every file that differs from the generated one counts as edited by you, and stays; "
         "missing files are written. What differs is listed. From then on exports merge with it as with any edit.",
@@ -107,8 +108,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 def adopted_files(result: Result, generation: Generation) -> list[AdoptedFile]:
     """Return all files of the package but `package.order` ones, in the order of their paths."""
     edited = {one.path: one for one in find_edited(generation)}
-    actions = {one.path: one for one in result.actions if one.role is not Role.ORDER and one.kind in _STATUSES}
-    files = [AdoptedFile(path, _STATUSES[one.kind], one.owner, edited.get(path)) for path, one in actions.items()]
+    actions = {one.path: one for one in result.actions if one.role is not Role.ORDER and one.reason in _STATUSES}
+    files = [AdoptedFile(path, _STATUSES[one.reason], one.owner, edited.get(path)) for path, one in actions.items()]
     owners = {class_of(path): one.owner for path, one in actions.items() if one.role in (Role.MODEL, Role.RECORD)}
     paths = (key_of(Path(place), result.root) for place in modelica_files(result.folder))
     files += [_unknown(path, _owner(path, owners), generation) for path in paths if path not in actions]
@@ -136,7 +137,7 @@ def _show(console: Console, result: Result, files: Sequence[AdoptedFile]) -> Non
         told = {key: values[key] for key in ("name", "package", "folder", "failed", "locked", "diagnostics")}
         console.add_robot({**told, "files": list(map(_values, files))})
         return
-    console.findings(result.diagnostics)
+    show_findings(console, result)
     if console.quiet:
         return
     counts = Counter(file.status for file in files)

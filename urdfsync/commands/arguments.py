@@ -43,6 +43,10 @@ class Parser(argparse.ArgumentParser):
         """Raise UsageError."""
         raise UsageError(self, message)
 
+    def options(self) -> list[str]:
+        """Return the names of all options."""
+        return [name for action in self._actions for name in action.option_strings]
+
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 

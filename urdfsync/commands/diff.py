@@ -8,8 +8,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import msgspec
-
 from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config
@@ -17,15 +15,16 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
-from urdfsync.engine.actions import CONFLICTS, Kind
+from urdfsync.engine.actions import Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import RESOLVE_HINT, change_classes, counted, error_count, generator_change
+from urdfsync.output.phrases import change_counts, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, file_line, headline, result_values
 
 _STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
@@ -33,7 +32,7 @@ _WIDEST = 44
 """Longer labels push their values to the right."""
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
-_SILENT = frozenset({Kind.UNCHANGED, Kind.KEEP, Kind.FORGET})
+_SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
 
 
 def add(commands: arguments.Commands) -> None:
@@ -75,7 +74,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json:
             console.add_robot(_to_json(one))
             continue
-        console.findings([found for found in one.result.diagnostics if found.code != CONNECTORS])
+        show_findings(console, one.result, [found for found in one.result.diagnostics if found.code != CONNECTORS])
         if not console.quiet or one.result.conflicts:
             head = headline(one.result, _summary(one), is_fine=one.in_step)
             console.print([head, *_lines(one, console.verbose)], error=one.result.failed)
@@ -139,8 +138,7 @@ def _summary(found: Comparison) -> str:
     changes = found.result.changes
     if changes is None:
         return f"nothing changed {since}{'' if found.in_step else ', but files are out of step'}"
-    what = change_classes(changes) if changes.changes else generator_change(changes)
-    return f"{what} {since}{', only by rounding' if changes.noise else ''}"
+    return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
 
 
 # --- text ---------------------------------------------------------------------------------------------------------
@@ -179,13 +177,15 @@ def _row_line(row: OutlineRow, label: int, value: int) -> StyledLine:
 def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
     """Yield the files that are concerned, and why if it is one that the user edited; these are always named."""
     result = found.result
-    actions = [action for action in result.actions if action.kind not in _SILENT]
+    actions = [action for action in result.actions if action.reason not in _SILENT]
     if found.in_step or not actions:
         return
     heading = f"Next build: {build_summary(result)}"
     if found.against is not None:
-        kinds = Counter(action.kind for action in result.actions)
-        parts = [f"{kinds[kind]} to {kind}" for kind in (Kind.UPDATE, Kind.CREATE, Kind.DELETE) if kinds[kind]]
+        reasons = Counter(action.reason for action in result.actions)
+        parts = [
+            f"{reasons[one]} to {one.word}" for one in (Reason.UPDATE, Reason.CREATE, Reason.DELETE) if reasons[one]
+        ]
         heading = f"{counted(len(result.actions), 'file')} of the package differ{'s' * (len(result.actions) == 1)}"
         heading += f": {', '.join(parts)}" if len(parts) > 1 else ""
     yield from (line(("", "")), line((heading, "bold")))
@@ -195,8 +195,8 @@ def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
         why = ""
         if action.path in found.edited:
             # the word says already that it waits
-            why = "you edited it" if found.against else msgspec.structs.replace(action, held=False).reason
+            why = "you edited it" if found.against else action.reason.text
         lines.append(file_line(shown_path(result, action.path), *action_word(action), why))
     yield from first_lines(lines, max(_FILES, len(found.edited) + 1), "file", verbose=verbose)
-    if any(action.kind in CONFLICTS for action in actions):
-        yield line((RESOLVE_HINT, "dim"))
+    if any(action.kind is Kind.CONFLICT for action in actions):
+        yield line((settle_hint(result), "dim"))

@@ -21,7 +21,7 @@ from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import LSTAT, STAT, VARIABLE, Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError, UrdfsyncError
 from urdfsync.engine import parents
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -35,7 +35,7 @@ from urdfsync.state.store import Store
 
 _FEW = 4
 """So many files are named one by one."""
-_UNNEEDED = (Kind.ORPHAN, Kind.NEEDED, Kind.FORGET)
+_UNNEEDED = (Reason.ORPHAN, Reason.NEEDED, Reason.FORGET)
 """Actions on files that a clone can do without."""
 _ADD, _BUILD = "add to the commit:", "build, and see what to add:"
 _ADD_REST = "add the rest, or put it aside with `git stash push --keep-index`:"
@@ -167,7 +167,7 @@ class RobotFiles:
 
     def note(self, result: Result) -> None:
         """Add the outputs of a plan or a build."""
-        places = [f"{result.root}/{one.path}" for one in result.actions if one.kind not in _UNNEEDED]
+        places = [f"{result.root}/{one.path}" for one in result.actions if one.reason not in _UNNEEDED]
         whole = [f"{place.removesuffix('.mo')}/package.mo" for place in places]  # of classes that are folders now
         self.outputs |= self._commit.paths([*places, *whole])
         self.known |= self.outputs

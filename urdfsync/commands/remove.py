@@ -12,7 +12,7 @@ from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
@@ -22,7 +22,7 @@ from urdfsync.output.phrases import action_counts
 from urdfsync.output.results import action_word, file_line, headline, show_result
 from urdfsync.state.transaction import save
 
-_STAYS = (Kind.ORPHAN, Kind.NEEDED)
+_STAYS = (Reason.ORPHAN, Reason.NEEDED)
 _ATTEMPTS = 5
 """So often the configuration is written, if somebody saves it in between."""
 _FILES = 20
@@ -87,7 +87,7 @@ def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     lines = [file_line(shown_path(result, one.path), *action_word(one)) for one in changed]
     yield from first_lines(lines, _FILES, "file", verbose=verbose)
     paths = {os.path.normpath(result.root / one.path) for one in changed}
-    kept = (action for action in result.actions if action.kind in _STAYS)
+    kept = (action for action in result.actions if action.reason in _STAYS)
     reasons = {os.path.normpath(result.root / one.path): _reason(one) for one in kept}
     there = {str(path) for path in result.folder.rglob("*") if not path.is_dir()}
     for path in sorted(there.union(reasons) - paths):
@@ -96,7 +96,7 @@ def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
 def _reason(action: Action) -> str:
     """Why a file stays."""
-    if action.kind is Kind.NEEDED:
+    if action.reason is Reason.NEEDED:
         return "your own files need it"
     return "you edited it" if action.mine != action.base else "it is in a former folder, and may be yours"
 

@@ -31,8 +31,12 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
     told, code = [*_conflicting(found), *_left(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
     if not (found.texts or found.conflicting or found.left):
-        hint = "" if given else "what an earlier build renamed has to be named: --rename-uses OLD=NEW"
-        told.append(Diagnostic(Severity.NOTE, "no-old-names", "no model of yours uses an old name", hint=hint))
+        hint = "" if given else "for a rename before the last build, give both names: --rename-uses OLD=NEW"
+        told.append(
+            Diagnostic(
+                Severity.NOTE, "no-old-names", "none of your models uses a name that the last build renamed", hint=hint
+            )
+        )
     console.warnings([*told, *(_notes(found) if console.json else ())])
     if not (console.json or console.quiet):
         console.print(_lines(found))

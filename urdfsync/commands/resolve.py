@@ -16,7 +16,7 @@ from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.conflicts import BOTH_SIDES, MERGES, Conflict
 from urdfsync.engine.edits import find_edited
@@ -116,7 +116,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     results = show_results(console, build_and_check(loaded, robots, request))
     actions = {one.path: one for result in results for one in result.actions if not result.failed}
     now = [(target, actions[target.action.path]) for target in targets if target.action.path in actions]
-    accepted = [one for target, one in now if one.sides == target.action.sides and one.kind not in CONFLICTS]
+    accepted = [one for target, one in now if one.sides == target.action.sides and one.kind is not Kind.CONFLICT]
     changed = [_changed(target) for target, one in now if one.sides != target.action.sides]
     taken = set() if args.dry_run else {action.path for action in accepted}
     left = [file for (path, _), file in edited.items() if path not in taken]
@@ -142,7 +142,7 @@ def _meaning(action: Action) -> str:
     """What a choice makes of a file."""
     words = _MEANINGS[action.choice] if action.choice else "your file has both sides' changes already"
     if action.generated is None and action.choice is not Choice.UNDO:
-        words = "deleted" if action.kind is Kind.DELETE else "yours from now on"
+        words = "deleted" if action.reason is Reason.DELETE else "yours from now on"
     return f"{words}, once the other conflicts are resolved" if action.held else words
 
 
@@ -194,7 +194,7 @@ def _refuse(console: Console, found: Sequence[Result], unknown: Sequence[str]) -
 
 def _refuse_undo(targets: Sequence[DisputedFile], planned: Iterable[Result]) -> None:
     """Raise UrdfsyncError for files of which nothing can be given back."""
-    undone = {one.path for result in planned for one in result.actions if one.kind is Kind.UNDO}
+    undone = {one.path for result in planned for one in result.actions if one.reason is Reason.UNDO}
     message = "nothing to undo: no build has merged, replaced or deleted your text here, or you saved the file since"
     hint = "--keep, --take and --merge settle conflicts"
     found = [
@@ -291,8 +291,8 @@ def _find_targets(
                 by_place.setdefault(place, []).append(target)
     for target in (DisputedFile(result, action) for result in results for action in result.actions):
         action = target.action
-        takes = choice is Choice.TAKE and action.kind is Kind.KEEP
-        is_known = action.kind is Kind.ORPHAN or target.is_decided
+        takes = choice is Choice.TAKE and action.reason is Reason.KEEP
+        is_known = action.reason is Reason.ORPHAN or target.is_decided
         if is_known or takes or (choice is Choice.UNDO and action.mine):
             for file in _places(target.action, root):
                 by_place.setdefault(file, []).append(target)
@@ -313,7 +313,7 @@ def _find_targets(
 def _deleted_files(results: Sequence[Result], place: Path) -> list[DisputedFile]:
     """Return a file that is not there, and that a build may have deleted."""
     robots = (one for one in results if place.is_relative_to(one.folder) and not os.path.lexists(place))
-    return [DisputedFile(one, Action(key_of(place, one.root), Kind.FORGET, Role.MODEL)) for one in robots]
+    return [DisputedFile(one, Action(key_of(place, one.root), Reason.FORGET, Role.MODEL)) for one in robots]
 
 
 def _places(action: Action, root: Path) -> set[Path]:
@@ -322,16 +322,16 @@ def _places(action: Action, root: Path) -> set[Path]:
 
 def _problems(target: DisputedFile, choice: Choice) -> Iterator[Diagnostic]:
     """Why the choice can't be had for a file."""
-    if choice is Choice.TAKE and not target.replaceable:
+    if choice is Choice.TAKE and not target.is_on_disk:
         message, hint = f"it can't be replaced: {describe(target)}", "move it away, then build"
-    elif choice in BOTH_SIDES and target.action.kind is Kind.ORPHAN:
+    elif choice in BOTH_SIDES and target.action.reason is Reason.ORPHAN:
         message = "it is no longer generated: there is nothing to merge"
         hint = "--keep makes it yours, --take deletes it"
-    elif choice is Choice.EDIT and not (target.replaceable and (target.texts or target.is_decided)):
+    elif choice is Choice.EDIT and not (target.is_on_disk and (target.texts or target.is_decided)):
         message, hint = f"it can't be edited: {describe(target)}", "use --keep or --take"
     elif choice in MERGES and not target.offers(choice):
         message = f"it can't be merged: {describe(target)}"
-        hint = "use --keep or --take" if target.replaceable else "use --keep"
+        hint = "use --keep or --take" if target.is_on_disk else "use --keep"
         if target.offers(Choice.MERGE_MINE):
             hint = "`--prefer mine` or `--prefer generated` says which side counts there"
         elif merge := saved_texts(target).get("merge"):

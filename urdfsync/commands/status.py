@@ -3,31 +3,30 @@
 from __future__ import annotations
 
 import argparse
-import enum
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.conflicts import shown_path
+from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
     BROKEN,
     NOT_EXPANDED,
-    RESOLVE_HINT,
     action_counts,
-    change_classes,
+    change_counts,
     counted,
     error_count,
     generator_change,
 )
 from urdfsync.output.phrases import reason as reason_of
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_values, file_line, headline, result_values
 
 _INPUTS = 5
@@ -36,34 +35,7 @@ _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
 
 
-class FileStatus(enum.StrEnum):
-    """How a file stands, what asks for most attention first."""
-
-    CONFLICT = "conflict"
-    """The user and urdfsync want different things of it."""
-    MISSING = "missing"
-    """It was written and somebody deleted it."""
-    STALE = "stale"
-    """The next build writes or deletes it."""
-    EDITED = "edited"
-    """The user changed it, and there is nothing new for it."""
-    ORPHAN = "orphan"
-    """Nothing generates it any longer, and it stays because it is the user's or something of the user's needs it."""
-    IN_STEP = "in step"
-
-
-_STATUSES = {
-    **dict.fromkeys((Kind.UNCHANGED, Kind.ADOPT), FileStatus.IN_STEP),
-    **dict.fromkeys(
-        (Kind.CREATE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.LEAVE), FileStatus.STALE
-    ),
-    **dict.fromkeys((Kind.KEEP, Kind.INCLUDED), FileStatus.EDITED),
-    **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), FileStatus.CONFLICT),
-    **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), FileStatus.ORPHAN),
-    Kind.RESTORE: FileStatus.MISSING,
-}
-"""Status by what a build would do; FORGET is left out, since its file is gone for good."""
-_QUIET = (Kind.UNCHANGED, Kind.KEEP)
+_QUIET = (Reason.UNCHANGED, Reason.KEEP)
 """Actions of which the status says all."""
 _STYLES = {
     FileStatus.CONFLICT: "bold red",
@@ -106,7 +78,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         source, found = (sources[result.robot], ".xacro"), result.diagnostics
         quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
         told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
-        console.findings(told)
+        show_findings(console, result, told)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
@@ -115,29 +87,24 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     return code
 
 
-def file_status(action: Action) -> FileStatus | None:
-    """How a file stands; None for one that is gone for good."""
-    return _STATUSES.get(action.kind)
-
-
 def is_built(result: Result) -> bool:
     """Whether a build has written any file of the package, its record lost or not."""
-    return any(action.base is not None or action.kind is Kind.ADOPT for action in result.actions)
+    return any(action.base is not None or action.reason is Reason.ADOPT for action in result.actions)
 
 
 def _path(action: Action) -> str:
     """Where the user's file is: that of a conflict may wait for its new name."""
-    return action.origin or action.path if file_status(action) is FileStatus.CONFLICT else action.path
+    return action.origin or action.path if action.kind is Kind.CONFLICT else action.path
 
 
 def _reason(action: Action, result: Result) -> str:
-    return "" if action.kind in _QUIET and not action.held else reason_of(action, result.effective_changes)
+    return "" if action.reason in _QUIET and not action.held else reason_of(action, result.effective_changes)
 
 
 def _values(result: Result) -> dict[str, Any]:
     """The robot in the JSON document."""
     values = result_values(result)
-    actions = sorted((action for action in result.actions if file_status(action)), key=_path)
+    actions = sorted((one for one in result.actions if one.reason.status), key=_path)
     extra = {
         "built": is_built(result),
         "in_step": result.in_step,
@@ -147,8 +114,8 @@ def _values(result: Result) -> dict[str, Any]:
             {
                 **action_values(action),
                 "path": _path(action),
-                "status": file_status(action),
-                "reason": _reason(action, result),
+                "status": action.reason.status,
+                "text": _reason(action, result),
             }
             for action in actions
         ],
@@ -169,21 +136,25 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
     if changes and changes.generator:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
-        yield line((f"  {change_classes(changes)} in the source{' (rounding)' if changes.noise else ''}", ""))
-    if (actions := action_counts(result, {Kind.KEEP})) and not (result.in_step or result.failed):
+        yield line((f"  {change_counts(changes)} in the source", ""))
+    if (actions := action_counts(result, {Reason.KEEP})) and not (result.in_step or result.failed):
         yield line((f"  next build: {', '.join(actions)}", ""))
     found: dict[bool, list[StyledLine]] = {False: [], True: []}
+    disputed = {one.action.path: describe(one) for one in find_conflicts([result])}
     has_package = is_built(result)
     for action in sorted(result.actions, key=lambda action: _path(action).rpartition("/")):
-        status = file_status(action)
+        status = action.reason.status
         is_stale = status is FileStatus.STALE
-        if status and (verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))):
+        is_listed = verbose or (status is not FileStatus.IN_STEP and (has_package or not is_stale))
+        if status and is_listed:
             path = shown_path(result, _path(action))
-            found[is_stale].append(file_line(path, status, _STYLES[status], _reason(action, result)))
+            found[is_stale].append(
+                file_line(path, status, _STYLES[status], disputed.get(action.path) or _reason(action, result))
+            )
     yield from (*found[False], *first_lines(found[True], _STALE, "stale file", verbose=verbose))
     if result.conflicts:
         adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"
-        yield line((RESOLVE_HINT if is_built(result) else adopts, "dim"))
+        yield line((settle_hint(result) if is_built(result) else adopts, "dim"))
 
 
 def summary(result: Result) -> str:
@@ -192,7 +163,7 @@ def summary(result: Result) -> str:
         return f"{error_count(result.diagnostics)}, so its files were not compared"
     if result.stale and not result.actions:
         return "not expanded, so its files were not compared"
-    counts = Counter(filter(None, map(file_status, result.actions)))
+    counts = Counter(filter(None, (action.reason.status for action in result.actions)))
     told = {status: counts[status] for status in FileStatus if counts[status] and status is not FileStatus.IN_STEP}
     stand = "in step" if result.in_step else NOT_EXPANDED if result.stale else "out of step"
     stand = BROKEN if result.is_broken else stand

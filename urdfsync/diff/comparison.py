@@ -23,7 +23,7 @@ from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
-from urdfsync.engine.actions import Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import NO_MODEL, inspect
@@ -34,12 +34,15 @@ from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
+from urdfsync.spelling import nearest
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
-_MINE = frozenset({Kind.CONFLICT, Kind.UNOWNED, Kind.MERGE, Kind.MOVE, Kind.LEAVE, Kind.INCLUDED, Kind.ORPHAN})
+_MINE = frozenset(
+    {Reason.CONFLICT, Reason.UNOWNED, Reason.MERGE, Reason.MOVE, Reason.MOVED_AWAY, Reason.INCLUDED, Reason.ORPHAN}
+)
 """Actions on files that the user edited, and that the changes concern."""
 
 
@@ -101,7 +104,9 @@ def find_sources(
         using = using or [robot for robot in config.robots if robot.name == source and not is_file]
         if not (using or is_file):
             message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            hint = f"its robots are {', '.join(robot.name for robot in config.robots)}"
+            known = [robot.name for robot in config.robots]
+            near = nearest(source, known)
+            hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
             raise _config_error("no-source", message, hint=hint)
         if not (using or names):
             if against is not None:
@@ -171,7 +176,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
             effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
-    edited = frozenset(action.path for action in result.actions.decided if action.kind in _MINE)
+    edited = frozenset(action.path for action in result.actions.decided if action.reason in _MINE)
     return Comparison(result, shown(robot.source), None, missing, effects, edited)
 
 
@@ -225,14 +230,14 @@ def _with_version(
     for path, (role, owner, _) in (older | newer).items():
         if path in older and path in newer and older[path][2] == newer[path][2]:
             continue
-        kind = Kind.CREATE if path not in older else Kind.DELETE if path not in newer else Kind.UPDATE
+        kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
     edited: frozenset[str] = frozenset()
     if config:  # a dry build knows which files are others than the last one wrote
         (dry,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
-        edited = frozenset(action.path for action in dry.actions.decided if action.kind in {*_MINE, Kind.KEEP})
+        edited = frozenset(action.path for action in dry.actions.decided if action.reason in {*_MINE, Reason.KEEP})
     effects = _effects(domain, old, new, found, robot)
     return Comparison(result, shown(robot.source), against, "", effects, edited)
 

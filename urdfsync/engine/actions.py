@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Iterable
+from typing import Self
 
 import msgspec
 
@@ -14,62 +15,112 @@ from urdfsync.state.record import Choice, sides_hash
 class Kind(enum.StrEnum):
     """What happens to a file."""
 
-    UNCHANGED = "unchanged"
-    CREATE = "create"
-    RESTORE = "restore"
-    ADOPT = "adopt"
-    UPDATE = "update"
-    KEEP = "keep"
-    CONFLICT = "conflict"
-    UNOWNED = "unowned-conflict"
+    WRITE = "write"
     DELETE = "delete"
-    ORPHAN = "orphan"
-    NEEDED = "needed"
-    INCLUDED = "included"
-    MERGE = "merge"
-    MOVE = "move"
-    UNDO = "undo"
     LEAVE = "leave"
-    FORGET = "forget"
+    CONFLICT = "conflict"
+    """It stays although other content is wanted."""
 
 
-WRITES = frozenset({Kind.CREATE, Kind.RESTORE, Kind.UPDATE, Kind.DELETE, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.LEAVE})
-"""Actions that change a file."""
-DELETES = frozenset({Kind.DELETE, Kind.LEAVE})
-"""Actions that take a file away."""
-CONFLICTS = frozenset({Kind.CONFLICT, Kind.UNOWNED})
-"""Actions that leave a file alone although other content is wanted."""
-DISPUTED = CONFLICTS | {Kind.MOVE}
+class FileStatus(enum.StrEnum):
+    """How a file stands before the build, what asks for most attention first."""
+
+    CONFLICT = "conflict"
+    """The user and urdfsync want different things of it."""
+    MISSING = "missing"
+    """It was written and somebody deleted it."""
+    STALE = "stale"
+    """The next build writes or deletes it."""
+    EDITED = "edited"
+    """The user changed it, and there is nothing new for it."""
+    ORPHAN = "orphan"
+    """Nothing generates it any longer, and it stays because it is the user's or something of the user's needs it."""
+    IN_STEP = "in step"
+
+
+class Reason(enum.Enum):
+    """Why something happens to a file. What happens, and all words about it, follow."""
+
+    # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
+    # Then what a dry run says of n such files, and what a build does: in this order, where it says anything.
+    UPDATE = (
+        ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed"),
+        ("{n} file{s} to write", "{n} file{s} written"),
+    )
+    CREATE = ("create", Kind.WRITE, FileStatus.STALE, "new"), ("", "")
+    RESTORE = (
+        ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it"),
+        ("{n} to restore", "{n} restored because you deleted {them}"),
+    )
+    DELETE = ("delete", Kind.DELETE, FileStatus.STALE, "no longer generated"), ("{n} to delete", "{n} deleted")
+    ADOPT = (
+        ("adopt", Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text"),
+        ("{n} already equal to the generated text",) * 2,
+    )
+    MERGE = (
+        ("merge", Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged"),
+        ("{n} to merge with your edits", "{n} merged with your edits"),
+    )
+    UNDO = (
+        ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build"),
+        ("{n} to give back as you had {them}", "{n} given back as you had {them}"),
+    )
+    MOVE = (
+        ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here"),
+        ("{n} to move with your edits", "{n} moved with your edits"),
+    )
+    INCLUDED = (
+        ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new"),
+        ("{n} that you edited already {have} what is new",) * 2,
+    )
+    KEEP = (
+        ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it"),
+        ("{n} kept because you edited {them}",) * 2,
+    )
+    ORPHAN = (
+        ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept"),
+        ("{n} no longer generated but kept because you edited {them}",) * 2,
+    )
+    NEEDED = (
+        ("needed", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept"),
+        ("{n} no longer generated but kept because your files need {them}",) * 2,
+    )
+    CONFLICT = (
+        ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too"),
+        ("{n} conflict{s}",) * 2,
+    )
+    UNOWNED = (
+        ("unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"),
+        ("", ""),
+    )
+    UNCHANGED = ("unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"), ("", "")
+    MOVED_AWAY = (
+        ("moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"),
+        ("", ""),
+    )
+    FORGET = ("forget", Kind.LEAVE, None, "no longer generated, and already gone"), ("", "")
+
+    def __init__(self, row: tuple[str, Kind, FileStatus | None, str], phrases: tuple[str, str]) -> None:
+        self.word, self.kind, self.status, self.text = row
+        self.to_do, self.done = phrases
+
+    def __deepcopy__(self, _memo: object) -> Self:
+        return self
+
+
+DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE})
 """Actions that the texts, or the user, decide on."""
-USERS = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.CONFLICT, Kind.ORPHAN})
+USERS = frozenset(
+    {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.CONFLICT, Reason.ORPHAN}
+)
 """Actions after which the file still has text of the user's."""
-
-_REASONS = {
-    Kind.UNCHANGED: "nothing to do",
-    Kind.CREATE: "new",
-    Kind.RESTORE: "you deleted it",
-    Kind.ADOPT: "it already equals the generated text",
-    Kind.UPDATE: "its generated text changed",
-    Kind.KEEP: "you edited it; there is nothing new for it",
-    Kind.CONFLICT: "you edited it, and its generated text changed too",
-    Kind.UNOWNED: "urdfsync did not write the file that is there",
-    Kind.DELETE: "no longer generated",
-    Kind.ORPHAN: "no longer generated, but you edited it; kept",
-    Kind.NEEDED: "no longer generated, but your files need it; kept",
-    Kind.FORGET: "no longer generated, and already gone",
-    Kind.INCLUDED: "you edited it, and it already has what is new",
-    Kind.MERGE: "your edits and what is new, merged",
-    Kind.MOVE: "its element was renamed; your edits move here",
-    Kind.UNDO: "it is as you had it before the last build",
-    Kind.LEAVE: "its element was renamed; your edits move to its new file",
-}
 
 
 class Action(msgspec.Struct, frozen=True):
     """What happens to one file, and the hashes that the decision rests on; `path` is as in the record."""
 
     path: str
-    kind: Kind
+    reason: Reason
     role: Role
     owner: str = ""
     base: str | None = None
@@ -86,14 +137,19 @@ class Action(msgspec.Struct, frozen=True):
     """Waits until the robot's other conflicts are resolved."""
 
     @property
+    def kind(self) -> Kind:
+        """What happens to the file, once it waits for nothing."""
+        return self.reason.kind
+
+    @property
+    def writes(self) -> bool:
+        """Whether a file changes now."""
+        return self.kind in (Kind.WRITE, Kind.DELETE) and not self.held
+
+    @property
     def sides(self) -> str:
         """One hash for the texts of both sides: a choice holds as long as it is the same."""
         return sides_hash(self.mine, self.generated)
-
-    @property
-    def reason(self) -> str:
-        """Why, as the end of a sentence that begins with the path."""
-        return _REASONS[self.kind]
 
     @property
     def waits_for(self) -> str:
@@ -104,19 +160,14 @@ class Action(msgspec.Struct, frozen=True):
         return f"{waits} conflicts are resolved"
 
     @property
-    def replaceable(self) -> bool:
-        """Whether the generated content can replace what is there, which must be a file."""
+    def is_on_disk(self) -> bool:
+        """Whether there is a file that the generated content can replace."""
         return self.mine is not None
 
     @property
-    def writes(self) -> bool:
-        """Whether a file changes now."""
-        return self.kind in WRITES and not self.held
-
-    @property
-    def released(self) -> bool:
+    def handed_to_user(self) -> bool:
         """Whether the user keeps a file that is no longer generated: urdfsync no longer tracks it."""
-        return self.kind is Kind.FORGET and self.choice is Choice.KEEP
+        return self.reason is Reason.FORGET and self.choice is Choice.KEEP
 
 
 class Actions(tuple[Action, ...]):
@@ -131,4 +182,4 @@ class Actions(tuple[Action, ...]):
     @property
     def decided(self) -> tuple[Action, ...]:
         """All actions but `unchanged`: for most builds a few of thousands."""
-        return tuple(action for action in self if action.kind is not Kind.UNCHANGED)
+        return tuple(action for action in self if action.reason is not Reason.UNCHANGED)

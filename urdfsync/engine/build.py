@@ -17,7 +17,7 @@ from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
-from urdfsync.engine.actions import DELETES, Actions, Kind
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
 
 
+WAITING = "waiting for"
+"""What progress says while another process builds, before the name of that one."""
 _ATTEMPTS = 5
 """Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
 
@@ -155,7 +157,7 @@ class _Builder:
             raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(self._state_folder), hint=hint))
 
     def _wait(self) -> None:
-        self._options.progress("waiting for another build", 0, 1)
+        self._options.progress(f"{WAITING} {self._lock.holder()}, which is building", 0, 1)
 
 
 def _joined(first: Plan, second: Plan) -> Plan:
@@ -165,9 +167,9 @@ def _joined(first: Plan, second: Plan) -> Plan:
     """
     known = {action.path for action in second.actions}
     done = {action.path: action for action in first.actions if action.writes}
-    in_order = (Kind.UNCHANGED, Kind.ADOPT, Kind.INCLUDED, Kind.FORGET)
-    actions = [done.get(one.path, one) if one.kind in in_order else one for one in second.actions]
-    deleted = [one for path, one in done.items() if path not in known and one.kind in DELETES]
+    in_order = (Reason.UNCHANGED, Reason.ADOPT, Reason.INCLUDED, Reason.FORGET)
+    actions = [done.get(one.path, one) if one.reason in in_order else one for one in second.actions]
+    deleted = [one for path, one in done.items() if path not in known and one.kind is Kind.DELETE]
     return msgspec.structs.replace(
         second,
         actions=Actions([*actions, *deleted]),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.engine.actions import CONFLICTS, Action, Kind
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.package_files import text_hash
 from urdfsync.state.record import Choice
 
@@ -104,41 +104,41 @@ def resolve(
     """
     found, texts = [], {}
     for action in actions:
-        kind, choice, text = _outcome(action, conflicts.get(action.path), choices.get(action.path), merging)
+        reason, choice, text = _outcome(action, conflicts.get(action.path), choices.get(action.path), merging)
         if text is not None:
             texts[action.path] = text
-        if (kind, choice, text) != (action.kind, action.choice, None):
+        if (reason, choice, text) != (action.reason, action.choice, None):
             result = None if text is None else text_hash(text)
-            base = action.generated if kind is Kind.KEEP else action.base
-            action = msgspec.structs.replace(action, kind=kind, base=base, choice=choice, result=result)
+            base = action.generated if reason is Reason.KEEP else action.base
+            action = msgspec.structs.replace(action, reason=reason, base=base, choice=choice, result=result)
         found.append(action)
     return tuple(found), texts
 
 
 def _outcome(
     action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
-) -> tuple[Kind, Choice | None, str | None]:
+) -> tuple[Reason, Choice | None, str | None]:
     """Return what happens to a file, the choice that counts, and the text that it gets if that is not the generated."""
     merged = conflict.merged(choice) if conflict else None
     if conflict and choice is Choice.EDIT and merged == conflict.mine:
         choice, merged = Choice.KEEP, None
-    if action.kind is Kind.ORPHAN:
+    if action.reason is Reason.ORPHAN:
         if choice is Choice.TAKE and action.mine is not None:
-            return Kind.DELETE, choice, None
-        return (Kind.FORGET, choice, None) if choice is Choice.KEEP else (Kind.ORPHAN, None, None)
-    if action.kind is Kind.MOVE and conflict:
+            return Reason.DELETE, choice, None
+        return (Reason.FORGET, choice, None) if choice is Choice.KEEP else (Reason.ORPHAN, None, None)
+    if action.reason is Reason.MOVE and conflict:
         text = None if choice is Choice.TAKE else conflict.kept if choice is Choice.KEEP else merged
-        return Kind.CONFLICT if text is None and choice is not Choice.TAKE else Kind.MOVE, choice, text
-    if action.kind is Kind.KEEP and choice is Choice.TAKE and action.replaceable:
-        return Kind.UPDATE, choice, None
-    if action.kind not in CONFLICTS:
-        return action.kind, action.choice, None
+        return Reason.CONFLICT if text is None and choice is not Choice.TAKE else Reason.MOVE, choice, text
+    if action.reason is Reason.KEEP and choice is Choice.TAKE and action.is_on_disk:
+        return Reason.UPDATE, choice, None
+    if action.kind is not Kind.CONFLICT:
+        return action.reason, action.choice, None
     if conflict and merged == conflict.mine:  # by a preference for the user's side, which has to be remembered
-        return (Kind.KEEP, choice, None) if choice in PREFERENCES else (Kind.INCLUDED, None, None)
+        return (Reason.KEEP, choice, None) if choice in PREFERENCES else (Reason.INCLUDED, None, None)
     if choice is Choice.KEEP:
-        return Kind.KEEP, choice, None
-    if choice is Choice.TAKE and action.replaceable:
-        return Kind.UPDATE, choice, None
+        return Reason.KEEP, choice, None
+    if choice is Choice.TAKE and action.is_on_disk:
+        return Reason.UPDATE, choice, None
     if merged is not None and (choice in BOTH_SIDES or merging):
-        return Kind.MERGE, choice, merged
-    return action.kind, choice, None
+        return Reason.MERGE, choice, merged
+    return action.reason, choice, None

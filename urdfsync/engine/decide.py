@@ -10,7 +10,7 @@ import msgspec
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, DISPUTED, Action, Actions, Kind
+from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.fit import LostNames, Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
@@ -25,7 +25,7 @@ from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
 from urdfsync.state.record import Choice
 
-_GONE = DELETES | {Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}
+_GONE = frozenset({Reason.DELETE, Reason.MOVED_AWAY, Reason.ORPHAN, Reason.NEEDED, Reason.FORGET})
 """Actions on files that are not generated any more."""
 _MARKER = r"(?m)^(?:<{7}|>{7}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
@@ -49,7 +49,7 @@ class Decision(msgspec.Struct, frozen=True):
     @property
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
-        return not any(action.held or action.kind in CONFLICTS for action in self.actions)
+        return not any(action.held or action.kind is Kind.CONFLICT for action in self.actions)
 
 
 def decide_package(generation: Generation) -> Decision:
@@ -64,11 +64,11 @@ def decide_package(generation: Generation) -> Decision:
     on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
     actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
     if inputs.options.adopts:
-        actions = tuple(_as_edit(action) if action.kind is Kind.UNOWNED else action for action in actions)
+        actions = tuple(_as_edit(action) if action.reason is Reason.UNOWNED else action for action in actions)
     chosen = valid_choices(inputs.options.choices, actions)
     actions, undone = apply_undo(generation, actions, chosen)
 
-    disputed = [action for action in actions if action.kind in DISPUTED and action.role is not Role.IMPORT]
+    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
@@ -82,17 +82,20 @@ def decide_package(generation: Generation) -> Decision:
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(inputs, actions, orders.keys())
-    numbers = _renumbered(generation, actions, merged) if any(action.kind in CONFLICTS for action in actions) else ()
+    has_conflicts = any(action.kind is Kind.CONFLICT for action in actions)
+    numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
     return Decision(
         held,
         {**orders, **merged},
-        tuple(conflicts[action.path] for action in actions if action.kind in CONFLICTS and action.path in conflicts),
+        tuple(
+            conflicts[action.path] for action in actions if action.kind is Kind.CONFLICT and action.path in conflicts
+        ),
         {
             action.path: conflicts[action.path]
             for action in actions
-            if action.kind is Kind.MOVE and action.path in conflicts
+            if action.reason is Reason.MOVE and action.path in conflicts
         },
         tuple(file for file in shared if files.key(file.path) not in waiting),
         tuple(find_misfits(generation, held, merged)),
@@ -101,7 +104,7 @@ def decide_package(generation: Generation) -> Decision:
 
 def _as_edit(action: Action) -> Action:
     """Keep a file that urdfsync did not write as an edit of the generated one."""
-    return msgspec.structs.replace(action, kind=Kind.KEEP, base=action.generated)
+    return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
 
 
 def renamed(generation: Generation) -> Mapping[str, str]:
@@ -156,8 +159,8 @@ def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple
         return generation.is_rendered(path, (action.base or "",))
 
     return tuple(
-        msgspec.structs.replace(action, kind=Kind.ORPHAN)
-        if action.kind in DELETES and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
+        msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        if action.kind is Kind.DELETE and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
         else action
         for action in actions
     )
@@ -204,20 +207,31 @@ def _without_misfits(
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
     """Keep what texts of the user's need."""
     used: Collection[str] = ()
-    if any(action.kind is Kind.DELETE and action.role is Role.RECORD for action in actions):
+    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
         from urdfsync.engine.needed import mentioned_files
 
         used = mentioned_files(generation, actions, merged)
     return keep_needed(actions, generation.inputs.files.has_classes, used)
 
 
-def _renumbered(generation: Generation, actions: Iterable[Action], merged: Mapping[str, str]) -> frozenset[str]:
-    """Return the records of which only numbers change."""
+def _renumbered(
+    generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
+) -> frozenset[str]:
+    """Return the records of which only numbers change, those in conflict included."""
     files, found = generation.inputs.files, set()
+    changes = generation.changes.by_element() if generation.changes else {}
     for action in actions:
-        if action.kind in (Kind.UPDATE, Kind.MERGE) and action.role is Role.RECORD:
+        if action.role is not Role.RECORD or action.origin is not None:
+            continue
+        if action.reason in (Reason.UPDATE, Reason.MERGE):
             text = merged.get(action.path) or generation.content(action.path).decode()
             if numbers_only(files.text(action.path) or "", text):
+                found.add(action.path)
+        elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
+            # the record of a whole robot has no changes of its own: a number in its tables may be its structure
+            own = changes.get(action.owner, ())
+            is_parameter = own and all(one.change_class.rank <= ChangeClass.PARAMETER.rank for one in own)
+            if is_parameter and numbers_only(base, conflicts[action.path].generated):
                 found.add(action.path)
     return frozenset(found)
 
@@ -246,9 +260,9 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
     staying = set()
     for action in actions:
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-        if action.kind in (Kind.ORPHAN, Kind.NEEDED) or (action.kind in _GONE and action.released):
+        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or (action.reason in _GONE and action.handed_to_user):
             staying.add((f"{folder}/package.order", name))
-        elif action.kind in _GONE and f"{folder}/package.order" in lines:
+        elif action.reason in _GONE and f"{folder}/package.order" in lines:
             lines[f"{folder}/package.order"].append(name)
     return {key: tuple(name for name in names if (key, name) not in staying) for key, names in lines.items()}
 
@@ -257,7 +271,7 @@ def _lines_of_gone_classes(
     inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
 ) -> dict[str, tuple[str, ...]]:
     """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
-    deleted, inside, found = {one.path for one in actions if one.kind in DELETES}, f"{inputs.folder}/", {}
+    deleted, inside, found = {one.path for one in actions if one.kind is Kind.DELETE}, f"{inputs.folder}/", {}
     for key, names in lines.items():
         folder = key.removesuffix("package.order")
         files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
@@ -280,7 +294,7 @@ def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[s
 
 def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
     """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
-    files = (one.path for one in actions if one.kind is Kind.UNDO and one.generated is None)
+    files = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
     folder = order.removesuffix("package.order")
     names = (path.removeprefix(folder).removesuffix(".mo") for path in files if path.startswith(folder))
     return [name for name in names if is_identifier(name)]
@@ -307,9 +321,9 @@ def _decide_orders(
         names = (*names, *_returning_classes(actions, key))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
-            kind = Kind.FORGET if not new else Kind.RESTORE if key in recorded else Kind.CREATE
+            kind = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:
-            kind = Kind.UNCHANGED if new == old else Kind.UPDATE if new else Kind.DELETE
+            kind = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
         found.append(Action(key, kind, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, owned))
@@ -317,8 +331,8 @@ def _decide_orders(
         key = files.key(one.path)
         if one.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
-            found.append(Action(key, Kind.CREATE, Role.PACKAGE, "parent package"))
+            found.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, one.names):
-            kind = Kind.CREATE if old is None else Kind.UPDATE
+            kind = Reason.CREATE if old is None else Reason.UPDATE
             found.append(Action(key, kind, Role.ORDER, "parent package"))
     return found, texts, [*shared, *inputs.parents.shared]

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import Generation
 from urdfsync.merge.elements import ROUNDING
@@ -41,7 +41,7 @@ def find_edited(generation: Generation) -> Iterator[EditedFile]:
     files = generation.inputs.files
     for action in decide_package(generation).actions:
         key = action.origin or action.path
-        is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.kind is not Kind.LEAVE
+        is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         if is_text and action.mine not in (None, action.base, action.generated):
             base = generation.inputs.base(action.base) if action.base else None
             if action.base == action.generated:  # it need not be stored yet, as before a package is adopted

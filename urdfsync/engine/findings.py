@@ -9,7 +9,7 @@ import msgspec
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import CONFLICTS, DELETES, Actions, Kind
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.fit import diagnose
 from urdfsync.engine.generation import Generation
@@ -53,7 +53,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.held for action in actions):
         return
-    gone = {files.path(action.path) for action in actions if action.kind in DELETES}
+    gone = {files.path(action.path) for action in actions if action.kind is Kind.DELETE}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
     is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
@@ -102,7 +102,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """
     if inputs.last is None or inputs.record is None or inputs.record.generator.revision >= inputs.domain.fits_since:
         return
-    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind in CONFLICTS]
+    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind is Kind.CONFLICT]
     if conflicts and any(action.held for action in actions):
         named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
@@ -111,7 +111,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         folder = shown(inputs.files.path(inputs.old_folder))
         yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
     for action in actions:
-        if action.kind is Kind.KEEP and action.choice is Choice.KEEP:
+        if action.reason is Reason.KEEP and action.choice is Choice.KEEP:
             message = f"this file stays as it is, but it was made for an older library {LIBRARY}"
             hint = f"`urdfsync check {inputs.robot.name}` tells whether it fits the rest of the package"
             file = shown(inputs.files.path(action.path))

@@ -19,7 +19,7 @@ from urdfsync.config import find_own_library
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role, brings_back
-from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Kind
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.fit_cache import Fit, FitCache, Source
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode
@@ -33,7 +33,10 @@ from urdfsync.modelica.syntax import Class
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
-_ON_DISK = frozenset({Kind.KEEP, Kind.INCLUDED, Kind.ORPHAN, Kind.NEEDED, Kind.FORGET}) | CONFLICTS
+_ON_DISK = frozenset(one for one in Reason if one.kind in (Kind.LEAVE, Kind.CONFLICT)) - {
+    Reason.UNCHANGED,
+    Reason.ADOPT,
+}
 """Actions that leave the file on disk."""
 
 
@@ -109,20 +112,21 @@ class Package:
                 continue
             keys.add(key)
             classes |= {key} if action.generated else set()
+            is_expected = action.generated is not None
             if not action.held and key in merged:
-                sha256 = text_digest(encode(merged[key]))
-                found[inputs.path(key)] = _Text(key, sha256, text=merged[key], is_edited=sha256 != action.generated)
-            elif self._is_open and action.kind in CONFLICTS:
+                sha256, text = text_digest(encode(merged[key])), merged[key]
+                is_edited = sha256 != action.generated
+                found[inputs.path(key)] = _Text(key, sha256, text=text, is_edited=is_edited, is_expected=is_expected)
+            elif self._is_open and action.kind is Kind.CONFLICT:
                 found[inputs.path(key)] = _Text(key, text_digest(b""), text="")
-            elif action.held or action.kind in _ON_DISK:
+            elif action.held or action.reason in _ON_DISK:
                 if (sha256 := files.hash(key, action.role) or "") and not (
-                    action.kind is Kind.FORGET and not action.released
+                    action.reason is Reason.FORGET and not action.handed_to_user
                 ):
                     record = inputs.recorded_files.get(key)
                     is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
-                    is_expected = action.generated is not None
                     found[inputs.path(key)] = _Text(key, sha256, is_edited=is_edited, is_expected=is_expected)
-            elif action.kind not in DELETES:
+            elif action.kind is not Kind.DELETE:
                 found[inputs.path(key)] = _Text(key, action.generated or "", is_generated=True)
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = f"{key.removesuffix('/package.mo')}.mo" in classes

@@ -51,7 +51,7 @@ class FitCache:
 
     def __init__(self, folder: Path, robot: str) -> None:
         """`folder` is the configuration's. What is known lies in the user's cache folder: no repository brings it."""
-        self._name = digest(f"{folder}\0{robot}\0{_program()}".encode())
+        self._name = digest(f"{folder}\0{robot}\0{_program()}".encode(errors="surrogateescape"))
         self._parsed = dict[str, StoredText]()
         """Interfaces, and whole texts of files that are looked at, by the hashes of the texts."""
         self._used, self._is_new = set[str](), False
@@ -102,7 +102,7 @@ class FitCache:
 
     def save(self) -> None:
         """Write what is new. If it cannot be written, it is found out again."""
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, UnicodeEncodeError):  # the latter for a path that is not UTF-8
             if self.fits != self.known_fits:
                 _save(self._file(), self.fits)
             if self._is_new:

@@ -100,7 +100,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
         `actions` are those on all files of urdfsync's; `written` are texts that files are about to get.
         """
-        own = self.files.classes(self.folder) - {action.path for action in actions if not action.released}
+        own = self.files.classes(self.folder) - {action.path for action in actions if not action.handed_to_user}
         keys = {action.path for action in edited} | own
         return {key: written.get(key) or self.files.any_text(key) for key in sorted(keys)}
 

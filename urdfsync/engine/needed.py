@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import USERS, Action, Kind
+from urdfsync.engine.actions import USERS, Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_names import class_of
 from urdfsync.modelica.files import text_of
@@ -36,11 +36,11 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     or shown by what stays.
     """
     inputs, files, before = generation.inputs, generation.inputs.files, generation.inputs.last_package
-    leaving = {one.path: one for one in actions if one.kind is Kind.DELETE}
-    texts = inputs.users_classes([one for one in actions if one.kind in USERS], actions, merged)
+    leaving = {one.path: one for one in actions if one.reason is Reason.DELETE}
+    texts = inputs.users_classes([one for one in actions if one.reason in USERS], actions, merged)
     all_words = {word for text in texts.values() for word in code_words(text)}
     all_words |= {word for content in inputs.users_files.mentioning.values() for word in code_words(text_of(content))}
-    kept = {one.path for one in actions if one.choice is Choice.KEEP and one.kind in USERS}
+    kept = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
     kept_words = {word for key in kept & texts.keys() for word in code_words(texts[key])}
     left = set(generation.moves.values())
     used = set()

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import OutputError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
-from urdfsync.files import Tree, digest, placed, text_digest
+from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 
 class FileState(NamedTuple):
@@ -54,10 +54,16 @@ class PackageFiles:
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
-        """Return a file as text; bytes that are not UTF-8 survive `encode`."""
+        """Return a file as text. Raises OutputError as `read`, and for what is not UTF-8."""
         content = self.read(key)
         self._states.setdefault(self._place(key), None if content is None else state_of(content))
-        return None if content is None else content.decode(errors="surrogateescape")
+        try:
+            return None if content is None else content.decode()
+        except UnicodeDecodeError as error:
+            line = error.object.count(b"\n", 0, error.start) + 1
+            hint, place = "save it as UTF-8, then try again", shown(self.path(key))
+            message = "the file is not UTF-8, which Modelica demands"
+            raise OutputError(Diagnostic(Severity.ERROR, "no-text", message, place, line, hint=hint)) from None
 
     def any_text(self, key: str) -> str:
         """Return the text of a file that is only searched: empty if it can't be read, since it may be the user's."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, Action, Actions, Kind
+from urdfsync.engine.actions import Action, Actions, Kind, Reason
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -71,7 +71,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def conflicts(self) -> list[Action]:
         """The files that were left alone although they should be otherwise."""
-        return [action for action in self.actions.decided if action.kind in CONFLICTS]
+        return [action for action in self.actions.decided if action.kind is Kind.CONFLICT]
 
     @property
     def in_step(self) -> bool:
@@ -94,7 +94,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def is_first(self) -> bool:
         """Whether no build has written any file of the package before."""
-        new = any(action.kind is Kind.CREATE for action in self.actions)
+        new = any(action.reason is Reason.CREATE for action in self.actions)
         return new and all(action.base is None for action in self.actions)
 
 

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, DELETES, Action, Kind
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.state.record import Choice, FileRecord
 
 
@@ -41,21 +41,21 @@ OnDisk: TypeAlias = str | ClassFolder | None
 _NEVER_WRITTEN = FileRecord()
 
 
-def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Kind:
+def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
     """Decide on one file by the table of the design; a hash is None where there is no such text."""
     if generated is None:
         if base is None or mine is None:
-            return Kind.FORGET
-        return Kind.DELETE if mine == base else Kind.ORPHAN
+            return Reason.FORGET
+        return Reason.DELETE if mine == base else Reason.ORPHAN
     if mine is None:
-        return Kind.CREATE if base is None else Kind.RESTORE
+        return Reason.CREATE if base is None else Reason.RESTORE
     if mine == generated:
-        return Kind.UNCHANGED if base == generated else Kind.ADOPT
+        return Reason.UNCHANGED if base == generated else Reason.ADOPT
     if base is None:
-        return Kind.UNOWNED
+        return Reason.UNOWNED
     if mine == base:
-        return Kind.UPDATE
-    return Kind.KEEP if generated == base else Kind.CONFLICT
+        return Reason.UPDATE
+    return Reason.KEEP if generated == base else Reason.CONFLICT
 
 
 def decide(
@@ -82,24 +82,24 @@ def decide(
         there = on_disk.get(old) if old else None
         old_base = recorded[old].base(there, generated) if old else None
         if old and path in edited:
-            kind, origin, base, mine = Kind.MOVE, old, old_base, there
+            reason, origin, base, mine = Reason.MOVE, old, old_base, there
         elif old and old_base and there == old_base and mine != generated and _is_free(record, mine):
-            kind, origin, base = Kind.CREATE if mine is None else Kind.UPDATE, old, old_base
+            reason, origin, base = Reason.CREATE if mine is None else Reason.UPDATE, old, old_base
         elif path in left and target is None:
-            kind, mine = Kind.LEAVE, None
+            reason, mine = Reason.MOVED_AWAY, None
         else:
             if path in left:
                 base, mine = None, None
             elif old_base and there is None and isinstance(mine, str) and path not in recorded:
                 base = old_base  # the user moved the file there by hand
-            kind = decide_file(base, mine, generated)
-            if kind is Kind.DELETE and record.is_ambiguous:
-                kind = Kind.ORPHAN
-        if kind is Kind.FORGET and (record.is_users or not record.hashes):
+            reason = decide_file(base, mine, generated)
+            if reason is Reason.DELETE and record.is_ambiguous:
+                reason = Reason.ORPHAN
+        if reason is Reason.FORGET and (record.is_users or not record.hashes):
             continue  # it was never written, and is not wanted any more; or it is the user's
         role, owner = (target.role, target.owner) if target else known[path]
         on_disk_hash = mine if isinstance(mine, str) else None
-        actions.append(Action(path, kind, role, owner, base, generated, origin, mine=on_disk_hash))
+        actions.append(Action(path, reason, role, owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
 
 
@@ -133,12 +133,12 @@ def keep_needed(
     in `gone`.
     """
     actions = tuple(actions)
-    gone = {action.path: action for action in actions if action.kind in DELETES}
-    kept = {path: msgspec.structs.replace(gone[path], kind=Kind.NEEDED) for path in used if path in gone}
+    gone = {action.path: action for action in actions if action.kind is Kind.DELETE}
+    kept = {path: msgspec.structs.replace(gone[path], reason=Reason.NEEDED) for path in used if path in gone}
     packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
     for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
         if has_classes(path, gone.keys() - kept.keys()):
-            kept[path] = msgspec.structs.replace(gone[path], kind=Kind.NEEDED)
+            kept[path] = msgspec.structs.replace(gone[path], reason=Reason.NEEDED)
     return tuple(kept.get(action.path, action) for action in actions)
 
 
@@ -149,26 +149,27 @@ def hold(
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
     `numbers_only`), imported files, and files that are restored or taken as they were; but none of `origins`, which
-    elements leave that have another name now. Nothing is if the package `moves`.
+    elements leave that have another name now. Nothing is if the package `moves`. Conflicts about numbers alone put off
+    nothing else.
     """
     actions = tuple(actions)
-    if not any(action.kind in CONFLICTS for action in actions):
+    if all(action.path in numbers_only and not moves for action in actions if action.kind is Kind.CONFLICT):
         return actions
 
     def waits(action: Action) -> bool:
         if not action.writes:
-            return action.choice is not None and action.kind not in CONFLICTS
+            return action.choice is not None and action.kind is not Kind.CONFLICT
         if action.choice is Choice.UNDO and not moves:
             return False
         if moves or action.origin is not None or action.path in origins:
             return True
         if action.role is Role.IMPORT:
-            return action.kind is Kind.DELETE
-        if action.kind is Kind.RESTORE:
+            return action.reason is Reason.DELETE
+        if action.reason is Reason.RESTORE:
             return action.role is Role.ORDER or action.base != action.generated
         if action.choice is Choice.TAKE and action.base == action.generated:
             return False
-        return action.kind not in (Kind.UPDATE, Kind.MERGE) or action.path not in numbers_only
+        return action.reason not in (Reason.UPDATE, Reason.MERGE) or action.path not in numbers_only
 
     return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
 
@@ -179,11 +180,11 @@ def files_after(actions: Iterable[Action], recorded: Mapping[str, FileRecord]) -
     for action in actions:
         if action.role is Role.ORDER:
             continue
-        if action.kind in (Kind.ORPHAN, Kind.NEEDED):
+        if action.reason in (Reason.ORPHAN, Reason.NEEDED):
             hashes = recorded[action.path].hashes
             # one is left of an ambiguous base: not that of the file, or the next build would delete it
             found[action.path] = FileRecord((next((one for one in hashes if one != action.mine), hashes[0]),))
-        elif action.released:
+        elif action.handed_to_user:
             found[action.path] = FileRecord(is_users=True)
         elif action.generated is not None:
             found[action.path] = FileRecord((action.generated,))
@@ -197,7 +198,7 @@ def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
         for action in actions
         if action.role is not Role.ORDER
         and action.generated is not None
-        and (action.kind in (Kind.UNCHANGED, Kind.ADOPT) or (action.writes and action.kind not in DELETES))
+        and (action.reason in (Reason.UNCHANGED, Reason.ADOPT) or (action.writes and action.kind is not Kind.DELETE))
     }
 
 
@@ -212,7 +213,7 @@ def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Itera
 
     An edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's.
     """
-    found = valid_choices(pending, (one for one in actions if one.kind is not Kind.KEEP))
+    found = valid_choices(pending, (one for one in actions if one.reason is not Reason.KEEP))
     return {path: choice for path, choice in found.items() if choice is not Choice.UNDO}
 
 

@@ -11,7 +11,7 @@ from urdfsync.changes import Changes
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import DELETES, Action, Actions
+from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -131,7 +131,7 @@ def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
         if action.writes and action.path not in shared:
-            content = None if action.kind in DELETES else _content(generation, decision, action)
+            content = None if action.kind is Kind.DELETE else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
             old, file = state.sha256 if state else None, recorded.get(action.path)

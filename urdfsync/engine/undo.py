@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import text_hash
@@ -31,7 +31,9 @@ def apply_undo(
         _undone(generation, action) if choices.get(action.path) is Choice.UNDO else action for action in actions
     )
     found += tuple(_find_deleted(generation, {action.path for action in actions}))
-    return found, {one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.kind is Kind.UNDO}
+    return found, {
+        one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.reason is Reason.UNDO
+    }
 
 
 def _undone(generation: Generation, action: Action) -> Action:
@@ -43,7 +45,7 @@ def _undone(generation: Generation, action: Action) -> Action:
     if not one.is_users or action.mine != after or action.base != action.generated:
         return action
     result = text_hash(one.before)
-    return msgspec.structs.replace(action, kind=Kind.UNDO, choice=Choice.UNDO, result=result)
+    return msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO, result=result)
 
 
 def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Action]:
@@ -56,7 +58,7 @@ def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Ac
         role = role_of(path)
         if inputs.files.on_disk(key, role) is None:
             result = text_hash(inputs.replaced[path].before)
-            yield Action(key, Kind.UNDO, role, choice=choice, result=result)
+            yield Action(key, Reason.UNDO, role, choice=choice, result=result)
 
 
 def put_aside(
@@ -85,8 +87,8 @@ def _written_over(
 ) -> Iterator[tuple[str, Replaced]]:
     inputs, files = generation.inputs, generation.inputs.files
     for action in actions:
-        is_taken = action.kind is Kind.DELETE and action.choice is Choice.TAKE
-        is_replaced = action.kind in (Kind.UPDATE, Kind.MERGE) and action.origin is None
+        is_taken = action.reason is Reason.DELETE and action.choice is Choice.TAKE
+        is_replaced = action.reason in (Reason.UPDATE, Reason.MERGE) and action.origin is None
         if action.writes and action.mine and (is_taken or is_replaced):
             before = files.text(action.path) or ""
             base = before if action.mine == action.base else None

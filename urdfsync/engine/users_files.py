@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync import dependencies
 from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.modelica.files import class_of_file, files_that_mention, modelica_files
+from urdfsync.modelica.files import class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 """Files that make a folder another project, or a virtual environment of Python."""
@@ -49,4 +49,4 @@ def find_users_files(
             if path not in found and not any(str(parent) in packages for parent in path.parents):
                 with contextlib.suppress(OSError):
                     found[path] = dependencies.read_file(path)
-    return UsersFiles(found, files_that_mention(found, names))
+    return UsersFiles(found, files_that_use(found, names))

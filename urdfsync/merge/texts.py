@@ -12,6 +12,7 @@ from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
 from urdfsync.merge.pairs import TooManyPairsError
 from urdfsync.merge.renames import find_renamed, rename, without_clashes
+from urdfsync.merge.stubs import Stubs
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
@@ -135,16 +136,29 @@ def merge_pieces(
 
 def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
-    trees = [read_tree(text) for text in (base, mine, generated)]
-    one, two, three = trees
+    stubs = Stubs(base, mine, generated)
+    one, two, three = map(read_tree, stubs.texts)
     if not (one and two and three):
         return None
-    if names := find_renamed(one, two, three):
+    names = find_renamed(one, two, three)
+    if names:  # they may stand in what was not read
         one, three = (read_tree(text) for text in rename(base, generated, names, modifiers=False))
+        two = read_tree(mine)
     try:
-        return merge_trees(one, two, three) if one and three else None
+        pieces = merge_trees(one, two, three) if one and two and three else None
     except TooManyPairsError:
         return None
+    return pieces if names or not pieces else [_expanded(piece, stubs, (base, mine, generated)) for piece in pieces]
+
+
+def _expanded(piece: Piece, stubs: Stubs, texts: Sequence[str]) -> Piece:
+    """A piece of merged text as it is without stand-ins, which have as many lines as what they stand for."""
+    if isinstance(piece, str):
+        return stubs.expand(piece)
+    lines = [text.count("\n", 0, start) for text, start in zip(stubs.texts, piece.starts, strict=True)]
+    starts = [sum(map(len, text.split("\n", line)[:line])) + line for text, line in zip(texts, lines, strict=True)]
+    base, mine, generated = (stubs.expand(text) for text in (piece.base, piece.mine, piece.generated))
+    return Contradiction(piece.path, base, mine, generated, (starts[0], starts[1], starts[2]))
 
 
 def _merge_by_lines(mine: str, texts: Sequence[str], ending: str) -> list[Piece]:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import zip_longest
+
 from urdfsync.merge.elements import Contradiction
 
 _LONGEST = 60
@@ -32,6 +35,8 @@ def place_of(path: tuple[str, ...]) -> tuple[str, str]:
     role = _ROLES.get(path[-1], "") if path else ""
     if path[-1:] == ("expression",) and len(names) == 1:
         names.append(name)  # the value of a declaration
+    if kind == "statements":
+        return f"statements {name}", ""
     if kind == "connect":
         kind, name = "", f"connect({name.replace(' ', ', ')})"
     return f"{kind} `{quoted(name)}`".lstrip() if name else f"the {kind}", " ".join(
@@ -58,8 +63,30 @@ def describe(found: Contradiction) -> str:
     elif is_value:
         told = f"you set `{part} = {mine}`, the export changes {base} to {generated}"
     else:
-        told = f"you changed {what} to `{mine}`, the export to `{generated}`"
-    return f"{element}: {told}"
+        yours, theirs = _change(found.base, found.mine, what), _change(found.base, found.generated, what)
+        shared = f"changed {what} "
+        is_alike = yours.startswith(shared) and theirs.startswith(shared)
+        told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
+    is_base = element.startswith("extends ") and is_value  # the name of the value tells enough
+    return told if is_base else f"{element}: {told}"
+
+
+def _change(base: str, side: str, what: str) -> str:
+    """Say what a side did with a text of several lines: added `y = 3;`, removed some, or changed them."""
+    old, new = ([one.strip() for one in text.splitlines() if one.strip()] for text in (base, side))
+    start = _same_count(old, new)
+    end = _same_count(old[start:][::-1], new[start:][::-1])
+    before, after = (quoted(" ".join(lines[start : len(lines) - end])) for lines in (old, new))
+    if not start + end or "order" in what:
+        return f"changed {what} to `{after}`"
+    if before and after:
+        return f"changed `{before}` to `{after}`"
+    return f"added `{after}`" if after else f"removed `{before}`"
+
+
+def _same_count(old: Sequence[str], new: Sequence[str]) -> int:
+    """Return how many lines at the beginning are the same."""
+    return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
 def quoted(text: str) -> str:

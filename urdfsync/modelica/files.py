@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies import is_file, read_file, scan_folder
+from urdfsync.dependencies import is_file, read_file, scan_modelica
 from urdfsync.modelica.classes import OPAQUE, Node
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
@@ -92,7 +92,7 @@ class StoredClasses:
         file = self.seen[name] = self.file(name)
         if file is None:
             return None
-        if name in self.users:  # another one each time: a node has what was resolved with it
+        if name in self.users and name not in self.own:  # another one each time: a node has what was resolved with it
             return Node(self.users[name].definition, name, file)
         try:
             text = self._read(self.content(file))
@@ -103,10 +103,10 @@ class StoredClasses:
 
     def file(self, name: ClassName) -> str | None:
         """Return the file in which a class is stored; None if there is none."""
-        if name in self.users:
-            return self.users[name].file
         if name in self.own:
             return self.own[name]
+        if name in self.users:
+            return self.users[name].file
         if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
         unread = next((path for path in self.unread if name[-1] == class_of_file(path)), None)
@@ -172,7 +172,7 @@ def modelica_files(folder: Path, others: Collection[str] = (), left_out: Collect
         current = waiting.pop()
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(scan_folder(current), key=lambda entry: entry.name)
+            inside = sorted(scan_modelica(current), key=lambda entry: entry.name)
         if current != str(folder) and any(entry.name in others for entry in inside):
             continue
         for entry in inside:

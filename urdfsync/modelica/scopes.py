@@ -31,6 +31,19 @@ _ANYTHING = FUNCTIONS | {"integer", "Clock", "Connections", "ExternalObject"}
 """Functions and predefined types of whose elements nothing is said."""
 _ICONS = ("Modelica", "Icons")
 """The package of the Modelica Standard Library whose classes are pictures: there is nothing to inherit."""
+_MULTIBODY, _ROTATIONAL = ("Modelica", "Mechanics", "MultiBody"), ("Modelica", "Mechanics", "Rotational")
+_TRANSLATIONAL = ("Modelica", "Mechanics", "Translational")
+_SUPPORT = "useSupport flange_a flange_b phi_support support"
+_INTERFACES = {
+    (*_MULTIBODY, "Interfaces", "PartialOneFrame_a"): "frame_a world",
+    (*_MULTIBODY, "Interfaces", "PartialTwoFrames"): "frame_a frame_b world",
+    (*_ROTATIONAL, "Interfaces", "PartialTwoFlanges"): "flange_a flange_b",
+    (*_ROTATIONAL, "Interfaces", "PartialElementaryTwoFlangesAndSupport2"): _SUPPORT,
+    (*_TRANSLATIONAL, "Interfaces", "PartialTwoFlanges"): "flange_a flange_b",
+}
+"""What is in the classes of the Modelica Standard Library that UrdfSync's own extend: builds do not read it."""
+INTERFACES = {name: predefined(".".join(name), names.split()) for name, names in _INTERFACES.items()}
+"""These as classes, by their full names."""
 _DEEPEST = 40
 """So many lookups may lead to each other: more of them go in circles."""
 
@@ -300,6 +313,8 @@ class Scopes:
             found += _modified(types, [Scoped(definition.arguments, node)])
         for one in definition.extends:
             types = self.types_of(one, node)
+            if types == ANYTHING.types and one.type.parts in INTERFACES:
+                types = (Type(INTERFACES[one.type.parts]),)
             found += () if types == ANYTHING.types and one.type.parts[:2] == _ICONS else types
         return found
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
-_ELEMENTS = 8
+_ELEMENTS = 5
 """So many changes of each side are listed."""
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
@@ -52,7 +52,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
         """Whether it does not conflict, but can be decided about all the same."""
         action = self.action
         waits = action.held and action.choice is not None
-        return action.kind in (Kind.MERGE, Kind.MOVE) or waits
+        return action.reason in (Reason.MERGE, Reason.MOVE) or waits
 
     @property
     def merges(self) -> bool:
@@ -64,9 +64,9 @@ class DisputedFile(msgspec.Struct, frozen=True):
         return self.is_decided or (self.texts is not None and self.texts.merged(choice) is not None)
 
     @property
-    def replaceable(self) -> bool:
+    def is_on_disk(self) -> bool:
         """Whether `--take` settles it: a file stands there, and the generated one is at hand."""
-        return self.is_decided or self.action.replaceable
+        return self.is_decided or self.action.is_on_disk
 
 
 def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
@@ -84,7 +84,7 @@ def describe(target: DisputedFile) -> str:
     if texts is None:
         return "it is not a text, so it can't be merged"
     if texts.merge is None:
-        is_unowned = target.action.kind is Kind.UNOWNED
+        is_unowned = target.action.reason is Reason.UNOWNED
         base = (
             "there is no base" if is_unowned else "its merge base, the text that urdfsync wrote last, is not recorded"
         )
@@ -92,7 +92,7 @@ def describe(target: DisputedFile) -> str:
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
-        return f"the changes fit together, but {texts.rejected}"
+        return f"--merge would not be right: {texts.rejected}"
     found = [conflict.what for conflict in texts.merge.conflicts]
     if not all(found):
         return f"the changes contradict each other{f' in {len(found)} places' if len(found) > 1 else ''}"
@@ -138,7 +138,7 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     command = _command(["resolve", "--all", "--robot", result.robot, f"--{choice}"], console)
     yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
-    if never_built and all(target.action.kind is Kind.UNOWNED for target in found):
+    if never_built and all(target.action.reason is Reason.UNOWNED for target in found):
         what = "takes them for your edits, and lists these"
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
@@ -147,9 +147,9 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
     """One conflict: what happened, the versions, where they are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
-    story = f"{_sentence(reason(action, result.changes))} {_sentence(describe(target))}"
+    story = f"{_sentence(reason(action, result.changes, brief=True))} {_sentence(describe(target))}"
     if action.origin:
-        story += f" Its element was renamed: it will be moved to {shown_path(result, action.path)}."
+        story += f" It will be moved to {shown_path(result, action.path)}."
     yield from _paragraph(story, "", screen)
     if target.texts:
         from urdfsync.output.differences import difference_lines  # only a conflict needs it
@@ -173,6 +173,15 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
         yield line((f"      {choice:<{width}}  {words}", "dim"))
 
 
+def settle_hint(result: Result) -> str:
+    """Return what settles the conflicts of a robot: the options that do so for each of them."""
+    found = find_conflicts([result])
+    best, *others = [choice for choice in _choices(found[0]) if all(choice in _choices(one) for one in found[1:])]
+    what, file = ("the conflict", found[0].shown) if len(found) == 1 else ("each conflict", "FILE")
+    more = f" (or {', '.join(others)})" if others else ""
+    return f"  settle {what} with `urdfsync resolve {file} {best}`{more}"
+
+
 def _choices(target: DisputedFile) -> dict[str, str]:
     """The options that settle a conflict, the best one first, and what they do."""
     found = {}
@@ -180,14 +189,14 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         found["--merge"] = "both sides' changes"
     elif target.offers(Choice.MERGE_MINE):
         found["--merge --prefer mine"] = "both sides' changes, yours (or generated) in doubt"
-    if target.texts and target.texts.merge and target.replaceable:
+    if target.texts and target.texts.merge and target.is_on_disk:
         found["--edit"] = "both in your editor, between markers"
     found["--keep"] = "your file as it is"
     if target.action.origin:
         found["--keep"] += ", under its new name"
-    if target.texts and target.replaceable:
+    if target.texts and target.is_on_disk:
         found.setdefault("--edit", "both texts in your editor, between markers")
-    if target.replaceable:
+    if target.is_on_disk:
         found["--take"] = "the generated file"
     return found
 

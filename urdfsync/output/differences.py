@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CONTEXT = 2
 """So many unchanged lines are shown around changed ones."""
-LINES = 30
+LINES = 16
 """So many lines of a conflict are shown without --verbose."""
 _ROWS = 3
 """A changed line may take so many rows of a terminal, others one; of a longer one, its change is shown."""
@@ -56,23 +56,34 @@ def find_hunks(base: str | None, mine: str, generated: str, merge: Merge | None)
     versions = {"base": mine if base is None else base, "mine": mine, "generated": generated}
     texts = {name: split_lines(one.replace("\r\n", "\n")) for name, one in versions.items()}
     clashes = [conflict.base for conflict in merge.conflicts] if merge else []
-    groups: list[list[ChangedLines]] = []
+    groups: list[tuple[bool, list[ChangedLines]]] = []
     for change in find_changes(**texts):
-        if not groups or change.base.start - groups[-1][-1].base.stop > 2 * CONTEXT:
-            groups.append([])
-        groups[-1].append(change)
-    hunks = []
-    for changes in groups:
+        clash = any(_touches(change.base, one) for one in clashes)
+        if not groups or groups[-1][0] != clash or change.base.start - groups[-1][1][-1].base.stop > 2 * CONTEXT:
+            groups.append((clash, []))
+        groups[-1][1].append(change)
+    hunks: list[Hunk] = []
+    end, same = 0, texts["mine"]
+    starts = [*(changes[0].mine.start for _, changes in groups[1:]), len(same)]
+    for (clash, changes), following in zip(groups, starts, strict=False):
         lines: list[Line] = []  # those of the changes, those between them, and some around them
-        same, end = texts["mine"], max(0, changes[0].mine.start - CONTEXT)
+        end = max(end, changes[0].mine.start - CONTEXT)
         for change in changes:
             lines += (Line("", index + 1, same[index]) for index in range(end, change.mine.start))
             lines += _changed_lines(texts, change, base is not None)
             end = change.mine.stop
-        lines += (Line("", index + 1, same[index]) for index in range(end, min(end + CONTEXT, len(same))))
-        start, stop = changes[0].base.start, changes[-1].base.stop
-        hunks.append(Hunk(lines, any(start < one.start <= one.stop <= stop + 1 for one in clashes)))
+        behind = range(end, min(end + CONTEXT, following))
+        lines += (Line("", index + 1, same[index]) for index in behind)
+        end = behind.stop
+        hunks.append(Hunk(lines, clash))
     return hunks
+
+
+def _touches(change: range, clash: range) -> bool:
+    """Return whether lines, by indices, are part of a contradiction, by numbers; an empty range is a place."""
+    start, stop = clash.start - 1, clash.stop - 1
+    is_inside = start < change.stop and change.start < stop
+    return is_inside or (not (change and clash) and start <= change.stop and change.start <= stop)
 
 
 def _changed_lines(texts: Texts, change: ChangedLines, has_base: bool) -> Iterator[Line]:

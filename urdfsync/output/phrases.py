@@ -7,8 +7,8 @@ from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.outline import change_row, outline
 
@@ -19,13 +19,10 @@ NOT_EXPANDED = "inputs changed since the last build"
 """What is said of a source that xacro, or a command, would have to make again."""
 BROKEN = "broken: a file that you edited does not fit"
 """What is said of a package in which a name means nothing, or a file is no Modelica."""
-RESOLVE_HINT = "  settle a conflict with `urdfsync resolve FILE --merge` (or --edit, --keep, --take)"
-_SETTLES = (Kind.ADOPT, Kind.CONFLICT, Kind.UNOWNED)
-"""Actions that write to the state alone, and are told by themselves."""
 _NAMED = {
-    Kind.UPDATE: "{}",
-    Kind.MERGE: "{}; merged with your edits",
-    Kind.CONFLICT: "you edited it, and its generated text changed too: {}",
+    Reason.UPDATE: "{}",
+    Reason.MERGE: "{}; merged with your edits",
+    Reason.CONFLICT: "you edited it, and its generated text changed too: {}",
 }
 """Reasons of actions that follow from a change of the model, which takes the place of `{}`."""
 
@@ -46,9 +43,9 @@ def summary(result: Result) -> str:
         end = "the next build finishes it" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
     parts = [NOT_EXPANDED, *action_counts(result)] if result.stale else action_counts(result)
-    if result.in_step and not any(action.writes or action.kind is Kind.ADOPT for action in result.actions.decided):
-        fine = (Kind.UNCHANGED, Kind.KEEP, Kind.INCLUDED)
-        total = sum(action.kind in fine for action in result.actions)
+    if result.in_step and not any(action.writes or action.reason is Reason.ADOPT for action in result.actions.decided):
+        fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
+        total = sum(action.reason in fine for action in result.actions)
         parts.insert(0, f"in step, {counted(total, 'file')}")
     if result.is_broken:
         parts.insert(0, BROKEN)
@@ -65,40 +62,27 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
     }[checked]
 
 
-def action_counts(result: Result, silent: Container[Kind] = ()) -> list[str]:
-    """A phrase for each kind of action that is not `silent`, with the number of files, and for what waits."""
-    kinds = Counter(action.kind for action in result.actions.decided if not action.held)
-    kinds[Kind.UPDATE] += kinds.pop(Kind.CREATE, 0)
-    kinds[Kind.CONFLICT] += kinds.pop(Kind.UNOWNED, 0)
+def action_counts(result: Result, silent: Container[Reason] = ()) -> list[str]:
+    """A phrase for each reason that is not `silent`, with the number of files, and for what waits."""
+    reasons = Counter(action.reason for action in result.actions.decided if not action.held)
+    reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
+    reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0)
     phrases = []
-    for kind, (to_do, done) in _ACTION_PHRASES.items():
-        if (number := kinds[kind]) and kind not in silent:
+    for reason in Reason:  # in the order in which they are told
+        if (number := reasons[reason]) and reason not in silent and reason.done:
             them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
-            phrases.append((to_do if result.dry else done).format(n=number, them=them, have=have, s=s))
-    is_told = any(action.writes or action.kind in _SETTLES for action in result.actions.decided)
-    if result.dry and result.writes and not is_told:
+            phrase = reason.to_do if result.dry else reason.done
+            phrases.append(phrase.format(n=number, them=them, have=have, s=s))
+    if (
+        result.dry
+        and result.writes
+        and all(reason.kind is Kind.LEAVE and reason is not Reason.ADOPT for reason in +reasons)
+    ):
         phrases.append("recorded state to write")
     if waiting := sum(action.held for action in result.actions.decided):
-        what = "the conflict is" if kinds[Kind.CONFLICT] == 1 else "all conflicts are"
+        what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
         phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
     return phrases
-
-
-_ACTION_PHRASES = {
-    Kind.UPDATE: ("{n} file{s} to write", "{n} file{s} written"),
-    Kind.RESTORE: ("{n} to restore", "{n} restored because you deleted {them}"),
-    Kind.DELETE: ("{n} to delete", "{n} deleted"),
-    Kind.ADOPT: ("{n} already equal to the generated text",) * 2,
-    Kind.MERGE: ("{n} to merge with your edits", "{n} merged with your edits"),
-    Kind.UNDO: ("{n} to give back as you had {them}", "{n} given back as you had {them}"),
-    Kind.MOVE: ("{n} to move with your edits", "{n} moved with your edits"),
-    Kind.INCLUDED: ("{n} that you edited already {have} what is new",) * 2,
-    Kind.KEEP: ("{n} kept because you edited {them}",) * 2,
-    Kind.ORPHAN: ("{n} no longer generated but kept because you edited {them}",) * 2,
-    Kind.NEEDED: ("{n} no longer generated but kept because your files need {them}",) * 2,
-    Kind.CONFLICT: ("{n} conflict{s}",) * 2,
-}
-"""For each kind of action what a build would do and what it did, in the order in which they are told."""
 
 
 def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
@@ -111,8 +95,8 @@ def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> s
 
 
 def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
-    if action.kind not in _NAMED or changes is None:
-        return action.reason
+    if action.reason not in _NAMED or changes is None:
+        return action.reason.text
     # records follow from the changes of their element, models and packages from structural ones
     found = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
@@ -120,7 +104,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
         own = [change for change in structural if change.element == action.owner]
         found = own or structural or ([] if changes.generator else found)
     if not (found or changes.generator):
-        return action.reason
+        return action.reason.text
     cause = generator_change(changes)
     if found and brief:
         elements = list(dict.fromkeys(change.element for change in found))
@@ -128,7 +112,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
     elif found:
         more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
         cause = f"{found[0].element}: {change_row(found[:1])}{more}"
-    return _NAMED[action.kind].format(cause)
+    return _NAMED[action.reason].format(cause)
 
 
 def generator_change(changes: Changes) -> str:
@@ -139,16 +123,33 @@ def generator_change(changes: Changes) -> str:
     return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
 
 
-def change_lines(changes: Changes, *, everything: bool = False) -> list[str]:
-    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`."""
+def change_lines(changes: Changes, most: int | None = None, *, everything: bool = False) -> list[str]:
+    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`.
+
+    How much it is comes first, if it is several things. Where that takes more than `most` lines, each element has one.
+    """
     lines = [generator_change(changes)] if changes.generator else []
-    rows = outline(changes, everything=everything).items()
-    return [*lines, *(f"{title}: {row}" for title, own in rows for row in own)]
+    elements = outline(changes, everything=everything)
+    if sum(map(len, elements.values())) > 1:
+        lines.append(change_counts(changes))
+    if most is None or len(lines) + sum(map(len, elements.values())) <= most:
+        return [*lines, *(f"{title}: {row}" for title, rows in elements.items() for row in rows)]
+    for title, (first, *others) in elements.items():
+        lines.append(f"{title}: {first}{f', and {len(others)} more' if others else ''}")
+    return lines
 
 
-def change_classes(changes: Changes) -> str:
-    """`1 structural and 2 parameter changes`."""
+def change_counts(changes: Changes) -> str:
+    """`+2 −1 ~42 (4 structural and 51 parameter changes)`: elements that come, go and change, unless it is one."""
+    marks = {change.element: "~" for change in changes.changes}
+    marks |= {one.element: _SIGNS.get(one.kind, "~") for one in changes.changes if len(one.path) == 1}
+    elements = Counter(marks.values())
     classes = Counter(change.change_class for change in changes.changes)
     counts = [(classes[one], one) for one in reversed(ChangeClass) if classes[one]]
-    words = " and ".join(f"{number} {one}" for number, one in counts)
-    return f"{words} change{'' if counts[-1][0] == 1 else 's'}"
+    words = f"{' and '.join(f'{number} {one}' for number, one in counts)} change{'' if counts[-1][0] == 1 else 's'}"
+    words += " by rounding" if changes.noise else ""
+    signs = [f"{sign}{elements[sign]}" for sign in "+−~" if elements[sign]]
+    return f"{' '.join(signs)} ({words})" if len(marks) > 1 else words
+
+
+_SIGNS = {ChangeKind.ADDED: "+", ChangeKind.REMOVED: "−"}

@@ -9,24 +9,21 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Action, Kind
+from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
-from urdfsync.output.phrases import change_lines, counted, reason, summary
+from urdfsync.output.phrases import change_counts, change_lines, counted, reason, summary
+from urdfsync.output.repeated import has_same_changes, show_findings
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
-_STYLES = {
-    **dict.fromkeys((Kind.CREATE, Kind.RESTORE, Kind.ADOPT, Kind.UPDATE, Kind.MERGE, Kind.MOVE, Kind.UNDO), "green"),
-    **dict.fromkeys((Kind.LEAVE, Kind.DELETE), "magenta"),
-    **dict.fromkeys((Kind.INCLUDED, Kind.KEEP), "cyan"),
-    **dict.fromkeys((Kind.ORPHAN, Kind.NEEDED), "yellow"),
-    **dict.fromkeys((Kind.CONFLICT, Kind.UNOWNED), "bold red"),
-}
-_ALWAYS_LISTED = (Kind.MERGE, Kind.MOVE, Kind.UNDO, Kind.ORPHAN, Kind.NEEDED)
+_STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
+_STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
+"""Styles of files that are left as they are, by how they stand."""
+_ALWAYS_LISTED = (Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.ORPHAN, Reason.NEEDED)
 _ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
 """So many changes of a model are shown at most, without --verbose."""
@@ -36,7 +33,8 @@ def action_word(action: Action) -> tuple[str, str]:
     """What happens to a file in a word, and its style."""
     if action.held:
         return "waiting", "yellow"
-    return action.kind.value.removeprefix("unowned-"), _STYLES.get(action.kind, "dim")
+    left = _STYLES_LEFT.get(action.reason.status, "dim")
+    return action.reason.word, _STYLES.get(action.kind, left)
 
 
 def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
@@ -66,34 +64,44 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
     if console.json:
         console.add_robot(result_values(result))
         return
-    console.findings(result.diagnostics)
+    is_brief = not (console.verbose or explain) and has_same_changes(result)
+    show_findings(console, result)
     if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return
     lines = [headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))]
     if not console.quiet:
-        lines += result_lines(result, verbose=console.verbose, explain=explain)
+        lines += result_lines(result, verbose=console.verbose, explain=explain, is_brief=is_brief)
     console.print(lines, error=result.failed)
     if result.conflicts:
         screen = rich_console(sys.stderr if result.failed else sys.stdout)
         console.print(conflict_lines(result, console, screen), error=result.failed)
 
 
-def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
-    """What changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
-    changed = change_lines(result.effective_changes, everything=verbose) if result.effective_changes else []
-    yield from first_lines(
-        [line((f"  {words}", "")) for words in changed], _CHANGES, "change", verbose=verbose or explain
-    )
+def result_lines(
+    result: Result, *, verbose: bool, explain: bool = False, is_brief: bool = False
+) -> Iterator[StyledLine]:
+    """What changed, files and the diagram: all but headline and conflicts; `explain` names every file.
+
+    If `is_brief`, changes are counted.
+    """
+    if result.effective_changes and is_brief:
+        yield line((f"  {change_counts(result.effective_changes)}, as before; --verbose lists them", "dim"))
+    elif result.effective_changes:
+        most = None if verbose or explain else _CHANGES
+        changed = [
+            line((f"  {words}", "")) for words in change_lines(result.effective_changes, most, everything=verbose)
+        ]
+        yield from first_lines(changed, _CHANGES, "change", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
-        actions = [action for action in actions if action.kind in _ALWAYS_LISTED and not action.held]
+        actions = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         why = reason(action, result.effective_changes, brief=True)
         yield file_line(shown_path(result, action.path), *action_word(action), why)
     if explain and (rest := len(result.actions) - len(actions)):
         yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
-    if any(action.kind is Kind.ORPHAN for action in actions):
+    if any(action.reason is Reason.ORPHAN for action in actions):
         yield line((_ORPHANS, "dim"))
     if result.drawing:
         yield line((f"  diagram: {shown(result.drawing)}", ""))
@@ -104,10 +112,11 @@ def action_values(action: Action, changes: Changes | None = None) -> dict[str, A
     return {
         "path": action.path,
         "action": action.kind,
+        "reason": action.reason.word,
         "held": action.held,
         "owner": action.owner,
         "role": action.role,
-        "reason": reason(action, changes),
+        "text": reason(action, changes),
     }
 
 

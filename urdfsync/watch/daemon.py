@@ -21,6 +21,7 @@ import msgspec
 from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
+from urdfsync.engine.build import WAITING
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
@@ -79,6 +80,8 @@ class Daemon:
         self._watched = WatchedPaths()
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
+        self._building: Sequence[str] = ()
+        """Robots that are built, until the user was told for whom they wait."""
         self._is_working = True
         self._is_paused = False
         self._next_poll = self._next_rescan = 0.0
@@ -139,10 +142,13 @@ class Daemon:
         if diagnostics:
             self._listener(events.Noted(diagnostics))
 
-    def _progress(self, _what: str, _done: int, _total: int) -> None:
-        """Give up the build under way, which has come to a place for that."""
+    def _progress(self, what: str, _done: int, _total: int) -> None:
+        """Give up the build under way, which has come to a place for that; or say whom it waits for."""
         if self._stop_signal:
             raise KeyboardInterrupt
+        if what.startswith(WAITING):
+            self._show_all([events.Waiting(name, what) for name in self._building])
+            self._building = []
 
     # The configuration
 
@@ -219,7 +225,8 @@ class Daemon:
         due = time.monotonic() + self._options.settle
         for watched in robots:
             if not watched.is_told:
-                self._listener(events.Settling(watched.name))
+                file, watched.changed_file = watched.changed_file, ""
+                self._listener(events.Settling(watched.name, shown(Path(file)) if file else ""))
             watched.state = Unsettled(due)
 
     # Looks without an event
@@ -323,7 +330,7 @@ class Daemon:
             return False
         source = watched.files[str(watched.robot.source)].sha256
         if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
-            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone: waiting for the exporter"
+            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone: {_waiting_for(watched)}"
             self._listener(events.Waiting(watched.name, reason))
             watched.state = Unsettled(now + self._options.recheck_shrunk, watched.hashes, shrunk=source)
             return False
@@ -344,12 +351,13 @@ class Daemon:
             self._take_failure(watched, build.failed_result(self._config, watched.robot, errors))
             self._rest(watched)
         else:
-            self._listener(events.Waiting(watched.name, "waiting for the exporter", errors))
+            self._listener(events.Waiting(watched.name, _waiting_for(watched), errors))
             watched.state = Invalid(now + min(_POLL, self._options.give_up_after), now)
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
         """Build robots. One that has written, or of which a file is other than before, has to settle again."""
-        self._show_all([events.Building(watched.name) for watched in robots if watched.is_told])
+        self._building = [watched.name for watched in robots if watched.is_told]
+        self._show_all(list(map(events.Building, self._building)))
         before, writers = {watched.name: watched.hashes for watched in robots}, set()
         for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
@@ -394,14 +402,24 @@ class Daemon:
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
-        left_alone = frozenset((action.path, str(action.kind)) for action in decided if not action.writes)
+        left_alone = frozenset((action.path, str(action.reason)) for action in decided if not action.writes)
+        if result.is_broken:
+            left_alone |= {(one.file, one.message) for one in result.diagnostics}
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener(events.Built(result, files, recovered))
         watched.failure, watched.left_alone = None, left_alone
-        if files:
-            self._show_all(self._commands.run(watched.robot, files))
+        watched.pending = tuple(dict.fromkeys((*watched.pending, *files)))
+        if watched.pending and not result.is_broken:
+            self._show_all(self._commands.run(watched.robot, watched.pending))
+            watched.pending = ()
+
+
+def _waiting_for(watched: WatchedRobot) -> str:
+    return f"waiting for the exporter of {shown(watched.robot.source)}"
 
 
 def _is_new(watched: WatchedRobot, before: Hashes, now: Hashes) -> bool:
     """Whether an input is other than before: somebody saved it, since the daemon writes none."""
-    return any(path in before and before[path] != now[path] for path in watched.paths.inputs)
+    changed = [path for path in watched.paths.inputs if path in before and before[path] != now[path]]
+    watched.changed_file = min(changed, default="")
+    return bool(changed)

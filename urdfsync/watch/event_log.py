@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import CONFLICTS, Actions, Kind
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line
-from urdfsync.output.phrases import action_counts, change_lines, check_result, counted, summary
+from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
 from urdfsync.output.results import result_lines
 from urdfsync.watch import events
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 NAME_WIDTH = 24
 """Columns of the robots' names at most."""
 _PLAIN: dict[type[events.Event], str] = {
-    events.Settling: "changed, settling",
+    events.Settling: "{0.file} changed, settling",
     events.Waiting: "{0.reason}",
     events.Unchanged: "as before",
     events.Building: "building",
@@ -42,8 +42,9 @@ _PLAIN: dict[type[events.Event], str] = {
 """Texts of events that are one line."""
 _ALWAYS = (events.Recovered, events.Stopping)
 """Those of them that are told without `--verbose`."""
-_KEPT = frozenset({Kind.ORPHAN, Kind.NEEDED})
+_KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
 """Files that are no longer generated, but kept."""
+_CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
 _FEW = 2
 """So many changes of a model are spelled out, in at most so many characters; more are counted."""
 _MAX_LENGTH = 100
@@ -85,7 +86,7 @@ class EventLog:
                 yield from self._findings(diagnostics, clock)
             case _ if self._console.verbose or (isinstance(event, _ALWAYS) and not self._console.quiet):
                 style = "" if isinstance(event, _ALWAYS) else "dim"
-                yield self._line(clock, getattr(event, "robot", ""), _PLAIN[type(event)].format(event), style)
+                yield self._line(clock, getattr(event, "robot", ""), _PLAIN[type(event)].format(event).strip(), style)
                 yield from self._findings(getattr(event, "diagnostics", ()))
             case _:
                 pass
@@ -96,16 +97,22 @@ class EventLog:
         before = self._told.get((robot, "findings"), ())
         keys = self._told[robot, "findings"] = [(one.code, one.message, one.file) for one in result.diagnostics]
         new = [one for one, key in zip(result.diagnostics, keys, strict=True) if verbose or key not in before]
-        yield from self._findings(new)
+        errors = [one for one in result.diagnostics if one.severity is Severity.ERROR]
+        yield from self._findings([one for one in new if verbose or one not in errors])
+        was_broken = bool(self._told.get((robot, "broken")))
+        if self._is_new(robot, "broken", {(one.code, one.message, one.file) for one in errors}):
+            place = f"{errors[0].file}:{errors[0].line}" if errors[0].line else errors[0].file
+            more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
+            yield self._line(clock, robot, f"broken: {place}: {errors[0].message}{more}", "bold red", error=True)
         had_conflicts = bool(self._told.get((robot, "conflicts")))
         conflicts = self._is_new(robot, "conflicts", {(one.path, one.mine, one.generated) for one in result.conflicts})
-        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.kind in _KEPT})
+        kept = self._is_new(robot, "kept", {one.path for one in result.actions.decided if one.reason in _KEPT})
         if self._console.quiet and not conflicts:
             return
         said = []
         if event.files or event.recovered or result.effective_changes or conflicts or kept:
-            said = [*_changes(result), *action_counts(result, {Kind.KEEP} | (frozenset() if kept else _KEPT))]
-        if not result.conflicts and (event.recovered or had_conflicts):
+            said = [*_changes(result), *action_counts(result, {Reason.KEEP} | (frozenset() if kept else _KEPT))]
+        if not (result.conflicts or result.is_broken) and (event.recovered or had_conflicts or was_broken):
             said.append("in step again")
         if not said and (verbose or result.effective_changes):
             said = [summary(result)]
@@ -113,8 +120,8 @@ class EventLog:
             return
         yield self._line(clock, robot, ", ".join(said), "yellow" if result.conflicts else "")
         if not self._console.quiet:
-            hidden = frozenset() if verbose else CONFLICTS | (frozenset() if kept else _KEPT)
-            actions = Actions(one for one in result.actions if one.kind not in hidden)
+            hidden = frozenset() if verbose else _CONFLICTS | (frozenset() if kept else _KEPT)
+            actions = Actions(one for one in result.actions if one.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
@@ -148,14 +155,11 @@ class EventLog:
 
 
 def _changes(result: Result) -> list[str]:
-    """Return what changed in the model: a few changes in words, else their number."""
+    """Return what changed in the model: a few changes in words, else how many."""
     if result.effective_changes is None:
         return []
-    lines = change_lines(result.effective_changes)
-    if result.effective_changes.generator:
+    changes, lines = result.effective_changes, change_lines(result.effective_changes)
+    words = "; ".join(lines[-_FEW:])
+    if changes.generator:
         return lines[:1]
-    words = "; ".join(lines)
-    if len(lines) <= _FEW and len(words) <= _MAX_LENGTH:
-        return [words]
-    found = result.effective_changes
-    return [f"{counted(len(found.changes), 'change')} in {counted(len(found.by_element()), 'element')}"]
+    return [words if len(lines) <= _FEW + 1 and len(words) <= _MAX_LENGTH else change_counts(changes)]

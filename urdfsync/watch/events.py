@@ -39,6 +39,9 @@ class Started(Event, frozen=True):
 class Settling(RobotEvent, frozen=True):
     """A file of the robot changed; the robot is built when nothing changes any more."""
 
+    file: str = ""
+    """One that changed, as people see it; empty if none is known."""
+
 
 class Unchanged(RobotEvent, frozen=True, tag="calm"):
     """The files of the robot are the same as before `Settling`: nothing to build."""
@@ -47,12 +50,12 @@ class Unchanged(RobotEvent, frozen=True, tag="calm"):
 class Waiting(RobotEvent, frozen=True):
     """The robot is not built for now, although its files have settled.
 
-    Either its source is invalid (see `diagnostics`), which an exporter may be about to change; `Failed` follows if that
-    lasts. Or the source lost many elements, and is watched a little longer.
+    Another process may be building. Or the source is invalid (see `diagnostics`), which an exporter may be about to
+    change; `Failed` follows if that lasts. Or the source lost many elements, and is watched a little longer.
     """
 
     reason: str
-    """In words that follow the robot's name, for example `waiting for the exporter`."""
+    """In words that follow the robot's name, for example `waiting for the exporter of arm.urdf`."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 

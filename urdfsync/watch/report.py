@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import msgspec
 
-from urdfsync.engine.actions import Kind
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Result
 from urdfsync.output.console import JSON_VERSION, Console, has_marks, rich_console, write_lines
 from urdfsync.output.results import result_values
@@ -34,7 +34,7 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
     for name, value in msgspec.structs.asdict(event).items():
         if isinstance(value, Result):
             inside = {key: part for key, part in result_values(value).items() if key != "checked"}
-            actions = [action for action in inside["actions"] if action["action"] != Kind.UNCHANGED]
+            actions = [action for action in inside["actions"] if action["action"] != Reason.UNCHANGED]
             values |= {"robot": inside.pop("name"), **inside, "actions": actions}
         else:
             values[name] = msgspec.to_builtins(value, enc_hook=str)

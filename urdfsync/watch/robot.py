@@ -8,6 +8,7 @@ import os
 import stat
 import time
 from collections.abc import Collection, Mapping
+from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 import msgspec
@@ -88,8 +89,12 @@ class WatchedRobot(msgspec.Struct):
     """All files before and after the last build, which changed none; None if the robot has to be built."""
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
+    changed_file: str = ""
+    """One file that was other at the last look, an input before outputs; empty if none was."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build did not write although they differ, each with the kind of its action."""
+    """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
+    pending: tuple[Path, ...] = ()
+    """Files that were written while the package is broken: the command of `--exec` waits until it is not."""
 
     @property
     def name(self) -> str:
@@ -130,7 +135,11 @@ class WatchedRobot(msgspec.Struct):
         """
         before = self.hashes
         if not paths or not self.files.keys() >= set(paths):
-            return before != self.read_files()
-        for path in paths:
-            self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
-        return any(self.files[path].sha256 != before[path] for path in paths)
+            paths = before.keys() | self.read_files().keys()
+        else:
+            for path in paths:
+                self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
+        now = self.hashes
+        changed = [path for path in paths if now.get(path, "") != before.get(path, "")]
+        self.changed_file = min(changed, key=lambda path: (path not in self.paths.inputs, path), default="")
+        return bool(changed)

@@ -79,9 +79,10 @@ class StatusTable:
                 self._results = {name: self._results.get(name, starting) for name in robots}
                 self._builds = {name: status for name, status in self._builds.items() if name in robots}
                 self._checks = {}
-            case events.Settling(robot) | events.Building(robot):
-                activity = Activity(str(event.__struct_config__.tag))
-                self._builds[robot] = RobotStatus(activity, activity)
+            case events.Settling(robot, file):
+                self._builds[robot] = RobotStatus(Activity.SETTLING, f"settling: {file}" if file else "settling")
+            case events.Building(robot):
+                self._builds[robot] = RobotStatus(Activity.BUILDING, Activity.BUILDING)
             case events.Waiting(robot, reason, diagnostics):
                 self._builds[robot] = RobotStatus(Activity.WAITING, _with_error(reason, diagnostics))
             case events.Unchanged(robot):
@@ -134,7 +135,9 @@ def _after_build(result: Result, clock: str, before: RobotStatus | None) -> Robo
     if result.conflicts:
         files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
         where = files[0] if len(files) == 1 else f"{len(files)} files"
-        return RobotStatus(Activity.CONFLICT, f"{Activity.CONFLICT} in {where}")
+        return RobotStatus(Activity.CONFLICT, f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`")
+    if result.is_broken:
+        return RobotStatus(Activity.ERROR, _with_error("broken", result.diagnostics))
     if not result.writes and before is not None and before.activity is Activity.IN_STEP:
         return before  # with the time of the build that wrote something
     return RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")

@@ -1,0 +1,144 @@
+"""Whether what the user wrote fits the package: all commands say the same, and none is green on what is broken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import support.urdfs as urdfs
+from support.commands import Execute
+from support.git import Repository
+
+ARM = Path("modelica/Arm")
+ELBOW, MODEL = ARM / "Joints/Elbow.mo", ARM / "Arm.mo"
+CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
+
+
+def write_source(joint: str = "elbow", mass: float = 1.0) -> None:
+    links = (urdfs.link("base", mass), urdfs.link("limb", 2.0))
+    Path("arm.urdf").write_text(urdfs.robot(*links, urdfs.joint(joint, "continuous", "base", "limb")))
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
+    """An arm that was built; what is known of fits is forgotten."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path.parent / "cache"))
+    Path("urdfsync.toml").write_text(CONFIG)
+    write_source()
+    execute("build")
+    return tmp_path
+
+
+def undone_merge(execute: Execute) -> None:
+    edit(MODEL, "equation", "  Real mine = 1;\n\nequation")
+    write_source("wrist")
+    execute("build", "--merge")
+    execute("resolve", str(MODEL), "--undo", code=None)
+
+
+BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
+    "a joint that has another name now": (
+        lambda _: edit(MODEL, "connect(elbow.frame_b", "connect(wrist.frame_b"),
+        "Arm has no `wrist`",
+    ),
+    "a syntax error": (lambda _: edit(ELBOW, "\nequation", "\nequatoin"), "the file lacks"),
+    "an empty file": (lambda _: ELBOW.write_text(""), "the file holds no class"),
+    "another class": (
+        lambda _: ELBOW.write_text("within Arm.Joints;\nmodel Elbo\nend Elbo;\n"),
+        "the class is called `Elbo`, but its file `Elbow`",
+    ),
+    "another within": (lambda _: edit(ELBOW, "within Arm.Joints", "within Arm"), "the file says `within Arm;`"),
+    "nowhere": (
+        lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Nowhere.To.Be;\n  extends UrdfSync.Icons"),
+        "there is no class `Nowhere.To.Be`; name the library in `uses` if `Nowhere` is one",
+    ),
+    "a merge that was undone": (undone_merge, "there is no class `Joints.Elbow`"),
+    "a connector": (lambda _: edit(MODEL, "elbow.frame_b", "elbow.frame_c"), "Elbow has no `frame_c`"),
+    "a middle part": (lambda _: edit(ELBOW, "UrdfSync.Interfaces.", "UrdfSync.Interface."), "did you mean `UrdfSync.I"),
+    "what another file lacks": (
+        lambda _: edit(MODEL, "elbowAxis", "elbowShaft"),
+        "it has no `elbowAxis`, which modelica/Arm/ArmRun.mo:",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_nothing_is_green_on_what_is_broken(
+    arm: Path, execute: Execute, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make, words = BROKEN[name]
+    make(execute)
+    repository = Repository(arm, monkeypatch)
+    repository.git("add", "-A")
+    for command, code in (
+        (["status"], 1),
+        (["build", "--check"], 1),
+        (["hook", "check"], 1),
+        (["build", "-q"], 3),
+        (["build", "--dry-run"], 1),
+        (["build"], 3),
+        (["build", "--full"], 3),
+        (["status"], 1),
+    ):
+        printed = execute(*command, code=code)
+        assert words in printed.err, command
+        assert "error: " in printed.err
+        assert "broken" in printed.lines[0]
+    (robot,) = execute("build", "--json", code=3).json["robots"]
+    assert (robot["broken"], robot["in_step"]) == (True, False)
+
+
+def test_what_is_mended_is_in_step(arm: Path, execute: Execute) -> None:
+    edit(MODEL, "equation", "  Real mine = wrong;\n\nequation")
+    execute("build", code=3)
+    edit(MODEL, "mine = wrong", "mine = 1")
+    for command in (["build"], ["build", "--check"], ["status"]):
+        assert execute(*command).err == ""
+
+
+def test_a_finding_holds_nothing_back(arm: Path, execute: Execute) -> None:
+    edit(ELBOW, "\nequation", "\n  Real mine = wrong;\n\nequation")
+    write_source(mass=3)
+    assert "Elbow has no `wrong`" in execute("build", code=3).err
+    assert "mass = 3" in (ARM / "Links/BaseParameters.mo").read_text()
+
+
+def test_models_of_the_users_are_warnings_as_long_as_they_are_true(arm: Path, execute: Execute) -> None:
+    Path("Cell.mo").write_text("model Cell\n  Arm.Arm robot;\n  Real x = robot.elbw.phi;\nend Cell;\n")
+    Path("modelica/Arm/Own.mo").write_text("within Arm;\nmodel Own\n  Links.Gone gone;\nend Own;\n")
+    for command in (["build"], ["status"], ["build", "--check"], ["build", "--dry-run"]):
+        errors = execute(*command).errors
+        assert "Cell.mo:3: warning: Arm has no `elbw`; did you mean `robot.elbow.phi`? [unresolved]" in errors
+        assert any("Own.mo:3: warning: there is no class `Links.Gone`" in one for one in errors)
+
+
+def test_a_library_that_uses_names_may_have_anything(arm: Path, execute: Execute) -> None:
+    cell = "model Cell\n  extends Plant.Cells.Cell;\n  Arm.Arm robot;\n  Real y = x;\n{}end Cell;\n"
+    Path("Cell.mo").write_text(cell.format(""))
+    assert "there is no class `Plant.Cells.Cell`; name the library in `uses`" in execute("build").err
+    Path("Cell.mo").write_text(cell.format('  annotation (uses(Plant(version="1.0.0")));\n'))
+    assert execute("build").err == ""
+
+
+def test_what_is_remembered_of_fits_changes_no_finding(arm: Path, execute: Execute) -> None:
+    """Neither where the file itself changes, nor where something that it uses does."""
+    edit(MODEL, "equation", "  Real mine = elbow.extra;\n\nequation")
+    edit(ELBOW, "\nequation", "\n  Real extra = 1;\n\nequation")
+    for _ in range(2):
+        assert execute("build").err == ""
+    edit(ELBOW, "Real extra = 1", "Real extra = 2")
+    assert execute("build").err == ""
+    edit(ELBOW, "Real extra", "Real other")
+    assert "Elbow has no `extra`" in execute("build", code=3).err
+    edit(ELBOW, "Real other", "Real extra")
+    assert execute("build").err == ""
+    (arm / ELBOW).rename("Elbow.mo")
+    assert "Elbow has no `extra`" in execute("build", code=3).err
