@@ -226,7 +226,7 @@ class Walk:
         if self.random.random() < 0.3 and not self.repository.git("status", "--porcelain"):
             assert (self.run("hook check").code == 0) == status["in_step"]
         assert self.everything() == before
-        conflicts = tuple(one["path"] for one in check["actions"] if one["action"].endswith("conflict"))
+        conflicts = tuple(one["path"] for one in check["actions"] if one["action"] == "conflict")
         self.tally.update(verdicts=1, broken=check["broken"], conflicts=bool(conflicts), green=check["in_step"])
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
         broken = tuple(sorted(files & self.status.keys())) if check["broken"] else ()
@@ -304,9 +304,9 @@ class Walk:
     def follow_moves(self, robots: Any) -> None:
         """What may differ may differ where it moves to."""
         inside = f"{PACKAGE.as_posix()}/"
-        paths = [(one["action"], one["path"].removeprefix(inside)) for one in robots[0]["actions"]]
-        if self.free & {path for action, path in paths if action == "leave"}:
-            self.free |= {path for action, path in paths if action == "move"}
+        paths = [(one["reason"], one["path"].removeprefix(inside)) for one in robots[0]["actions"]]
+        if self.free & {path for reason, path in paths if reason == "moved-away"}:
+            self.free |= {path for reason, path in paths if reason == "move"}
 
     # What must hold
 
@@ -338,8 +338,8 @@ class Walk:
         )
         for path in sorted(odd - self.free):
             state = self.status.get(f"{PACKAGE.as_posix()}/{path}")
-            is_left = path not in wanted and (state is None or state["action"] in ("orphan", "needed"))
-            has_edits = self.is_wild and (state is None or state["action"] in ("keep", "included"))
+            is_left = path not in wanted and (state is None or state["reason"] in ("orphan", "needed"))
+            has_edits = self.is_wild and (state is None or state["reason"] in ("keep", "included"))
             is_order = path.endswith("package.order") and set(wanted.get(path, "").split()) <= set(found[path].split())
             assert is_left or has_edits or is_order, "\n".join(
                 [f"{path}: {state}", *difference(found.get(path, ""), wanted.get(path, ""))]
