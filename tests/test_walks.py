@@ -178,6 +178,8 @@ class Walk:
         self.hand = edits.Hand(random)
         self.odd: set[str] | None = None
         """Of these files, those that do; None after a build that left anything to do."""
+        self.gives_up = False
+        """Whether edits have been given up since the last build, be it that this waits; they are put aside."""
         self.status: Mapping[str, Any] = {}
         """What `status` said last of each file."""
         self.built = dict[str, dict[str, str]]()
@@ -241,7 +243,7 @@ class Walk:
 
     def build(self) -> None:
         """Build, answer conflicts, and see that nothing is lost; what is broken is mended at last."""
-        verdict, self.odd = self.verdict(), None
+        verdict, self.odd, self.gives_up = self.verdict(), None, False
         before, there = tags(PACKAGE), self.everything()
         command = "build --full" if self.random.random() < 0.2 else "build"
         printed = self.run(f"{command} --json")
@@ -283,7 +285,8 @@ class Walk:
         self.follow_moves(printed.json["robots"])
         if answer in ("--keep", "--merge --prefer mine"):
             self.free |= {path.removeprefix(f"{PACKAGE.as_posix()}/") for path in verdict.conflicts}
-        places = [PACKAGE, Path(".urdfsync")] if answer.endswith(("take", "generated")) else [PACKAGE]
+        self.gives_up |= answer.endswith(("take", "generated"))
+        places = [PACKAGE, Path(".urdfsync")] if self.gives_up else [PACKAGE]
         assert not before - tags(*places), ("lost", answer, before - tags(*places))
         verdict = self.verdict()
         assert printed.code in ((0,) if verdict.in_step else (3,)), printed
