@@ -30,7 +30,7 @@ SENSOR = (
     '    "By hand"\n    annotation (Placement(transformation(extent={{500, 500}, {520, 520}})));'
 )
 PARAMETER = "\n  parameter Real byHand = 1;"
-EQUATION = "\n  byHand = 2*time;"
+EQUATION = '\n  assert(time < 1e9, "byHand");'
 DRAWING = ',\n      Ellipse(extent={{0, 0}, {1, 1}}, fillColor={7, 7, 7}, textString="byHand")'
 
 
