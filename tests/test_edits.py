@@ -199,11 +199,12 @@ def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) 
 
 
 @pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
-def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str) -> None:
+@pytest.mark.parametrize("length", [7, 8])  # 8 where both branches gave a file another name
+def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str, length: int) -> None:
     merging()
     run()
     text = Path(path).read_text()
-    Path(path).write_text(f"<<<<<<< HEAD\n{text}=======\n{text}>>>>>>> theirs\n")
+    Path(path).write_text(f"{'<' * length} HEAD\n{text}{'=' * length}\n{text}{'>' * length} theirs\n")
     resistor(150)
     with unchanged(project):
         for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):

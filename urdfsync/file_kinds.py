@@ -27,7 +27,7 @@ _OTHERS = (
     ),
 )
 """Codes, how the files begin, messages."""
-_CONFLICT_MARKER = r"(?m)^(?:<{7}|>{7})(?= |$)"
+_CONFLICT_MARKER = r"(?m)^(?:<{7,}|>{7,})(?= |$)"
 HINTS = {
     "compressed": "unpack it, and name what is in it",
     "lfs-pointer": "run `git lfs pull`",

@@ -18,7 +18,7 @@ _PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
 _PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
 _HEADER = re.compile(r"\s*\[\[?")
 _QUOTED = r"'([^']*)'"
-_MARKER = r"^(<{7}|={7}|>{7})(\s|$)"
+_MARKER = r"^(<{7,}|={7}|>{7,})(\s|$)"
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:

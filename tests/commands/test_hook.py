@@ -67,7 +67,9 @@ def run(line: str) -> None:
             subprocess.run(command, check=True, capture_output=True)
 
 
-STATE = MANIFEST
+BASE = ".urdfsync/bases/ladder/7"
+"""Where the text of the record goes that a resistance of 120 gives."""
+STATE = f"{BASE} {MANIFEST}"
 STALE = '"ohm": 100}', '"ohm": 120}'
 STAGE, DROP, BUILD = "git add ladder.json", "git rm -q --cached", "urdfsync hook build"
 ADD = f"git add {STATE} {RECORD}"
@@ -79,9 +81,9 @@ OUT, NOT_STAGED = "ladder: out of step: ", "ladder: in step, but not staged: "
     [
         (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
         (STALE, STAGE, "check", f"{OUT}1 file to write", BUILD),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}1 file", f"git add {STATE}"),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}1 file", f"git add {STATE}"),
-        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}2 files", f"git add {STATE} ladder.json"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}2 files", f"git add {STATE}"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}2 files", f"git add {STATE}"),
+        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}3 files", f"git add {STATE} ladder.json"),
         (STALE, "git status", "build", f"{OUT}1 file written", f"git add {STATE} ladder.json {RECORD}"),
         ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", f"git add {RECORD}"),
         ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", "git add ladder.json"),
@@ -162,7 +164,7 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
         Path("modelica/Ladder/notes.txt").write_text("mine")
     line = said(capsys, "build")[-1]
     assert not Path("modelica/Ladder/Elements/R2.mo").exists()
-    assert (line == f"  git add {STATE} modelica/Ladder") is is_alone
+    assert (line == f"  git add .urdfsync/bases/ladder/2 {MANIFEST} modelica/Ladder") is is_alone
     run(line)
     assert "D  modelica/Ladder/Elements/R2.mo\n" in repo.git("status", "--porcelain")
     assert ("?? modelica/Ladder/notes.txt" in repo.git("status", "--porcelain")) is not is_alone
@@ -216,7 +218,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
         assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
     lines = said(capsys, "check")
-    assert lines[0] == "ladder: in step, but not staged: 1 file"
+    assert lines[0] == "ladder: in step, but not staged: 2 files"
     run(lines[-1])
     assert said(capsys, "check", code=0) == []
 

@@ -28,7 +28,7 @@ def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, o
     capsys.readouterr()
     cli.main(["diff", "r.urdf", "--json", *arguments])
     (robot,) = json.loads(capsys.readouterr().out)["robots"]
-    files = sorted((a["path"], a["action"]) for a in robot["actions"] if a["action"] in BUILDS)
+    files = sorted((a["path"], a["reason"]) for a in robot["actions"] if a["reason"] in BUILDS)
     return {**{key: robot[key] for key in ("class", "changes", "effects", "in_step")}, "files": files}
 
 

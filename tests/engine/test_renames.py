@@ -69,7 +69,7 @@ def test_one_declared_joint_tells_two_legs_apart(built: Path, execute: Execute) 
         "[rename-done]"
     )
     for command in ("build", "status"):
-        assert note in execute(command).words
+        assert note in execute(command, "--verbose").words
 
 
 def test_a_name_is_that_of_the_link_and_of_the_joint(built: Path, execute: Execute) -> None:

@@ -48,7 +48,7 @@ def test_an_edit_during_a_build_is_seen_without_its_event(running: list[Daemons]
     daemon = Daemons(edit, poll=True, rescan=NEVER)
     running.append(daemon)
     result = daemon.wait(events.Built, 3).result
-    assert [(one.reason, one.path) for one in result.actions.decided] == KEEP
+    assert [(one.reason.word, one.path) for one in result.actions.decided] == KEEP
 
 
 def test_what_is_stashed_away_during_a_build_is_not_built(project: Path, running: list[Daemons]) -> None:

@@ -8,12 +8,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.files import shown
 from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
@@ -67,18 +64,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Show how each robot's package stands."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
-    sources = {robot.name: shown(robot.source) for robot in robots}
     results = []
     for result in build(configuration, robots, arguments.request(args, console, dry=True, expands=False)):
         results.append(result)
         if console.json:
             console.add_robot(_values(result))
             continue
-        # notes about the source are for whoever builds it
-        source, found = (sources[result.robot], ".xacro"), result.diagnostics
-        quiet = [one for one in found if one.file.endswith(source) and one.severity is Severity.NOTE]
-        told = [one for one in found if console.verbose or one not in quiet or one.code == CONNECTORS]
-        show_findings(console, result, told)
+        show_findings(console, result)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)

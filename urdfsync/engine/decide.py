@@ -27,7 +27,7 @@ from urdfsync.state.record import Choice
 
 _GONE = frozenset({Reason.DELETE, Reason.MOVED_AWAY, Reason.ORPHAN, Reason.NEEDED, Reason.FORGET})
 """Actions on files that are not generated any more."""
-_MARKER = r"(?m)^(?:<{7}|>{7}) "
+_MARKER = r"(?m)^(?:<{7,}|>{7,}) "
 """A merge marker of git; a line of equal signs alone may be an ornament."""
 
 

@@ -123,6 +123,7 @@ class PackageFiles:
         """Return all Modelica files below the folder with this key, the user's own included."""
         from urdfsync.modelica.files import modelica_files
 
+        folder = folder.removesuffix("/")
         place = str(self.path(folder))  # strings: there are thousands of files
         return {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
 

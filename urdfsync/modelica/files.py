@@ -185,29 +185,15 @@ def modelica_files(folder: Path, others: Collection[str] = (), left_out: Collect
                     yield entry.path
 
 
-def files_that_mention(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """Return the files in which one of these names stands, or the class of another such file.
-
-    A class is called like its file. Strings and comments count, too, see `files_that_use`.
-    """
-    return _with_words(files, names, lambda word, content: has_word(content, word.encode()))
-
-
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
     """Return the files that use one of these names, or the class of another such file, which is called like that file.
 
     Strings and comments do not count: a library of words about robots is no user.
     """
-    return _with_words(files, names, _is_used)
-
-
-def _with_words(
-    files: Mapping[Path, bytes], names: Iterable[str], has: Callable[[str, bytes], bool]
-) -> dict[Path, bytes]:
     waiting, words, found = dict(files), list(names), {}
     while words:
         word = words.pop()
-        for path in [path for path, content in waiting.items() if has(word, content)]:
+        for path in [path for path, content in waiting.items() if _is_used(word, content)]:
             found[path] = waiting.pop(path)
             words.append(class_of_file(path))
     return dict(sorted(found.items()))

@@ -21,7 +21,7 @@ _TOKEN = re.compile(
 )
 _ENDLESS = {"endless_comment": "comment", "endless_string": "string", "endless_name": "quoted name"}
 
-_MARKER = re.compile(r"(<{7}|\|{7}|={7}|>{7})(\s|$)")
+_MARKER = re.compile(r"(<{7,}|\|{7}|={7}|>{7,})(\s|$)")
 
 
 class Fault(NamedTuple):

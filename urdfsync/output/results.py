@@ -26,7 +26,7 @@ _STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileSta
 _ALWAYS_LISTED = (Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.ORPHAN, Reason.NEEDED)
 _ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
-"""So many changes of a model are shown at most, without --verbose."""
+"""So many lines about changes of a model are shown at most, without --verbose."""
 
 
 def action_word(action: Action) -> tuple[str, str]:
@@ -92,7 +92,7 @@ def result_lines(
         changed = [
             line((f"  {words}", "")) for words in change_lines(result.effective_changes, most, everything=verbose)
         ]
-        yield from first_lines(changed, _CHANGES, "change", verbose=verbose or explain)
+        yield from first_lines(changed, _CHANGES, "line", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
         actions = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]

@@ -133,13 +133,14 @@ class WatchedRobot(msgspec.Struct):
 
         If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
         """
-        before = self.hashes
         if not paths or not self.files.keys() >= set(paths):
-            paths = before.keys() | self.read_files().keys()
+            before = self.hashes
+            now = self.read_files()
+            changed = [path for path in before.keys() | now.keys() if now.get(path) != before.get(path)]
         else:
-            for path in paths:
-                self.files[path] = read_state(path, self.files[path], follow=path not in self.paths.outputs)
-        now = self.hashes
-        changed = [path for path in paths if now.get(path, "") != before.get(path, "")]
+            old = {path: self.files[path] for path in paths}
+            new = {path: read_state(path, old[path], follow=path not in self.paths.outputs) for path in paths}
+            self.files |= new
+            changed = [path for path in paths if new[path].sha256 != old[path].sha256]
         self.changed_file = min(changed, key=lambda path: (path not in self.paths.inputs, path), default="")
         return bool(changed)

@@ -226,7 +226,7 @@ def test_a_change_of_another_file_is_a_change_of_the_mesh(painted: Path, execute
     assert "color = {0, 0, 255}" in record()
     (painted / "meshes/textures/wood.png").unlink()
     for _ in range(2):
-        said = execute("build").words
+        said = execute("build", "--verbose").words
         assert "arm.urdf:1: warning: mesh `meshes/a.obj` lacks colours: " in said
         assert "texture `textures/wood.png` not found; put what is missing beside the mesh" in said
     assert "color = {51, 51, 51}" in record()
