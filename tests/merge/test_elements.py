@@ -341,6 +341,18 @@ BODIES = {
     "an array in another order, an item of it": (
         "  R r(v = {a.x, b.x, c.x});\n", "  R r(v = {a.x, 5, c.x});\n", "  R r(v = {b.x, c.x, a.x});\n", None,
     ),
+    "an array of which one side moves what the other removes": (
+        "  R r(v = {a, b, c, d, e});\n",
+        "  R r(v = {b, c, d, a, e});\n",
+        "  R r(v = {b, c, d, e});\n",
+        None,
+    ),
+    "an array of which one side removes what the other moves": (
+        "  R r(v = {a, b, c, d, e});\n",
+        "  R r(v = {b, c, d, e});\n",
+        "  R r(v = {b, c, d, a, e});\n",
+        None,
+    ),
     "an array in which items are alike": (
         "  R r(v = {a.x, a.x, b.x, c.x});\n", "  R r(v = {a.x, m, a.x, b.x, c.x});\n",
         "  R r(v = {a.x, a.x, b.x, c.x, d.x});\n", None,

@@ -235,7 +235,8 @@ def _merge_parts(
             pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
-    if sequence is None or [key for key in order if key in sequence] != sequence:
+    # what one side moved and the other removed has a place, but is no longer there
+    if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated, mine)]
     return _text_of(trees, [items[key] for key in order], notes)
