@@ -231,7 +231,8 @@ class Package:
             old = {name for name, key in every.items() if name in known and self._still_fits(known[name], key, classes)}
             self.cache.fits.update((name, known[name]) for name in old)
             new = every.keys() - old
-            for name in sorted(new):
+            # what an edited file lacks is told with its line, which an interface does not have
+            for name in sorted(new | ({*paths} if new & {*lacking} else set())):
                 self.cache.parse(self._content(name) if name in keys else around[Path(name)])
             if new:
                 classes = self.classes()

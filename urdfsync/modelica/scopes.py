@@ -230,7 +230,7 @@ class Scopes:
 
     def _in_scope(self, scope: Node, name: str) -> Element | Missing:
         found = self._member(Type(scope), name)
-        if isinstance(found, Element) or not found.is_certain:
+        if isinstance(found, Element):
             return found
         for one in scope.definition.imports:
             if name in one.names:

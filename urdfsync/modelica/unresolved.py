@@ -155,7 +155,7 @@ class _Walk:
         if isinstance(found, Element):
             return
         # a model inherits components from a library that is not read, but hardly ever classes
-        is_class = kind is UnresolvedKind.CLASS and len(name.parts) == 1 and scope is not None
+        is_class = kind is UnresolvedKind.CLASS and found.number == 0 and scope is not None
         if not (
             found.is_certain or found.part in self._lost or (is_class and not _is_in_open_package(scope, self._scopes))
         ):
