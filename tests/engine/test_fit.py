@@ -60,6 +60,10 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
         lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Nowhere.To.Be;\n  extends UrdfSync.Icons"),
         "there is no class `Nowhere.To.Be`; name the library in `uses` if `Nowhere` is one",
     ),
+    "itself": (
+        lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Elbow;\n  extends UrdfSync.Icons"),
+        "Elbow extends itself",
+    ),
     "a merge that was undone": (undone_merge, "there is no class `Joints.Elbow`"),
     "a connector": (lambda _: edit(MODEL, "elbow.frame_b", "elbow.frame_c"), "Elbow has no `frame_c`"),
     "a middle part": (lambda _: edit(ELBOW, "UrdfSync.Interfaces.", "UrdfSync.Interface."), "did you mean `UrdfSync.I"),

@@ -22,6 +22,8 @@ class UnresolvedKind(enum.Enum):
     """It is used as a class, and there is none."""
     ELEMENT = "element"
     """A class has no component or function of this name."""
+    CIRCLE = "circle"
+    """A class extends itself, by way of others or not: then nothing is known of what it has."""
     NESTED_REDECLARE = "nested-redeclare"
     """Legal: it redeclares an element inside of an element."""
     DOTTED_MODIFIER = "dotted-modifier"
@@ -54,6 +56,8 @@ class Unresolved(NamedTuple):
         """What is wrong, as a sentence."""
         if self.kind is UnresolvedKind.ELEMENT and self.owner:
             return f"{self.owner.rpartition('.')[2]} has no `{self.part}`"
+        if self.kind is UnresolvedKind.CIRCLE:
+            return f"{self.owner.rpartition('.')[2]} extends itself"
         return f"there is no {self.kind.value} `{self.name}`"
 
     @property
@@ -97,6 +101,10 @@ class _Walk:
         for base in definition.extends:
             yield from self._missing(base.type, scopes.lookup_base(base.type, node), node, UnresolvedKind.CLASS)
             yield from self._arguments(base.arguments, scopes.types_of(base, node), node)
+        if definition.extends and self._extends_itself(node):
+            name = definition.extends[0].type
+            text = ".".join(name.parts)
+            yield Unresolved(UnresolvedKind.CIRCLE, text, text, ".".join(node.name), name.line)
         for name in (name for one in definition.imports for name in one.names.values() or (one.name,)):
             yield from self._missing(name, scopes.lookup(name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
@@ -106,6 +114,15 @@ class _Walk:
             child = scopes.node((*node.name, inner.name.parts[0]))
             if child is not None and child.definition is inner:
                 yield from self._class(child)
+
+    def _extends_itself(self, node: Node) -> bool:
+        waiting, seen = [one.node for one in self._scopes.bases(node)], {OPAQUE}
+        while waiting and node not in waiting:
+            base = waiting.pop()
+            if base not in seen:
+                seen.add(base)
+                waiting += [one.node for one in self._scopes.bases(base)]
+        return bool(waiting)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
         """Yield what is wrong with a class that is used, and with the modifiers beside it."""
