@@ -22,10 +22,12 @@ from benchmarks.published import Published
 from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
 from urdfsync.check.cache import UserCache
 from urdfsync.check.libraries import find_standard_library, standard_library_copy
+from urdfsync.merge import merge
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
 REFERENCE = 12.0
 """Milliseconds of `python -c pass` on the machine that bars in milliseconds are meant for."""
+_ADDED = "Modelica.Blocks.Sources.Constant added(k = 1);"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -145,6 +147,42 @@ def daemon(tools: Tools) -> Iterator[Pair]:
             yield Pair(f"{links:,} links", *pair)
 
 
+def edited(tools: Tools) -> Iterator[Pair]:
+    """One mass changed where the robot model is edited, beside one that nobody edited; alone and in the daemon."""
+    for links in (100, 1000):
+        places = [write_workspace(tools.folder / f"{kind} {links}", 1, links) for kind in ("edited", "untouched")]
+        mine, other = (changed(tools, place) for place in places)
+        _edit_model(places[0])
+        yield Pair(f"{links:,} links, alone", mine, "not edited", other, [ratio(1.5), CPU])
+        quick = ("--settle", "0", "--sample", "0", "--rescan", "3600")
+        with Watch(places[0], *quick) as watch, Watch(places[1], *quick) as watch_other:
+            watch.rest()
+            watch_other.rest()
+            pair = (Edits(watch, places[0]), "not edited", Edits(watch_other, places[1]))
+            yield Pair(f"{links:,} links, in the daemon", *pair, [ratio(1.5), CPU])
+
+
+def merged(tools: Tools) -> Iterator[Pair]:
+    """The merge of a robot model to which a component was added with an export that has one more link."""
+    texts = []
+    for links in (1000, 1001):
+        place = write_workspace(tools.folder / f"{links}", 1, links)
+        run(tools.urdfsync("build", "--quiet"), place)
+        texts.append((place / "modelica/Robot0/Robot0.mo").read_text(encoding="utf-8"))
+    base, generated = texts
+    mine = _with_component(base)
+
+    def measurement() -> Cost:
+        begin, used = time.perf_counter(), time.process_time()
+        found = merge(base, mine, generated, is_modelica=True)
+        cost = Cost(time.perf_counter() - begin, time.process_time() - used)
+        if not found.text or "link1000" not in found.text or _ADDED not in found.text:
+            raise UnexpectedError(f"the merge lacks a side: {found.conflicts} {found.flaw}")
+        return cost
+
+    yield Pair("1,000 links", measurement, "python -c pass", tools.python, [scaled(1000), CPU])
+
+
 def check(tools: Tools) -> Iterator[Pair]:
     """A check whose answers are cached."""
     command = tools.urdfsync("check", "six_axis_arm", "--config", str(REPOSITORY / "urdfsync.toml"))
@@ -190,6 +228,8 @@ TABLES = {
     "change": ("one mass changed, whole process", one_mass_changed),
     "build": ("first build", first_build),
     "watch": ("one mass changed in the daemon", daemon),
+    "edited": ("one mass changed, robot model edited", edited),
+    "merge": ("merge of an edited robot model, one link more", merged),
     "growth": ("growth of a first build", growth),
     "check": ("check with warm caches", check),
     "simulate": ("simulation", simulate),
@@ -284,6 +324,19 @@ def put_aside(path: Path) -> None:
     """Move a folder away, if it is there. It is not deleted: ext4 makes files slowly where many have just gone."""
     if path.exists():
         path.rename(Path(tempfile.mkdtemp(prefix="old-", dir=path.parent.parent)) / path.name)
+
+
+def _edit_model(folder: Path) -> None:
+    """Add a component to the robot model, as a user does; the folder is built before."""
+    model = folder / "modelica/Robot0/Robot0.mo"
+    model.write_text(_with_component(model.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def _with_component(text: str) -> str:
+    changed = text.replace("\nequation\n", f"\n  {_ADDED}\n\nequation\n", 1)
+    if changed == text:
+        raise UnexpectedError("the model has no equations")
+    return changed
 
 
 def _command(command: list[str], folder: Path, expected: str) -> Measurement:
