@@ -181,13 +181,16 @@ UNKNOWN = {
     "element": "extends User.MyCrane;\nredeclare User.Telescope boom;\nequation\nboom.length = 1;",
     "hidden by a component": ".Plant.Crane Plant;\nReal u = Plant.boomPin.u;",
     "circle": "model B = A;\nmodel A = B;\nA a(x = 1);",
-    "its own base": "extends Mine;\nReal x = y;",
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("body", UNKNOWN.values(), ids=UNKNOWN)
 def test_nothing_is_said_of_what_cannot_be_told(body: str) -> None:
     assert told(body) == []
+
+
+def test_a_class_that_extends_itself_is_told_and_nothing_of_what_it_may_have() -> None:
+    assert told("extends Mine;\nReal x = y;") == ["2: Mine Mine [Mine]"]
 
 
 def test_the_standard_library_is_no_misspelled_name() -> None:
