@@ -77,7 +77,7 @@ def nothing_to_do(tools: Tools) -> Iterator[Pair]:
     ]
     for title, bar, place in places:
         commands = {"build": tools.urdfsync("build"), "status": tools.urdfsync("status")}
-        run([*commands["build"], "--quiet"], place)
+        run(commands["build"], place)  # which says notes in full: the next ones count them
         time.sleep(2.1)  # no answer is saved while a file is younger
         for name, command in commands.items():
             run(command, place)
