@@ -11,22 +11,12 @@ from typing import NamedTuple
 import pytest
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
+from support.urdfs import ELBOW_ARM
 
 from urdfsync import cli
 
 pytestmark = NEEDS_GIT
 
-ROBOT = """\
-<robot name="arm">
-  <link name="base"/>
-  <link name="fore">
-    <inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
-  </link>
-  <joint name="elbow" type="revolute">
-    <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>
-  </joint>
-</robot>
-"""
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 PACKAGE = "modelica/Arm"
 MODEL, RECORD = f"{PACKAGE}/Links/Fore.mo", f"{PACKAGE}/Links/ForeParameters.mo"
@@ -52,7 +42,7 @@ def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
     """A robot, built and committed; the working folder is its top."""
     repository = Repository(tmp_path / "project", monkeypatch)
     monkeypatch.chdir(repository.folder)
-    Path("arm.urdf").write_text(ROBOT)
+    Path("arm.urdf").write_text(ELBOW_ARM)
     Path("urdfsync.toml").write_text(CONFIGURATION)
     assert cli.main(["build", "--quiet"]) == 0
     repository.commit()

@@ -18,23 +18,13 @@ from support import corpus
 from support.cases import CASES
 from support.commands import Execute
 from support.modelica import CACHE, URDFSYNC
+from support.urdfs import ELBOW_ARM
 
 from urdfsync.check import libraries
 from urdfsync.check.compilers import rumoca
 from urdfsync.check.compilers.compiler import CompileJob, CompileTask
 from urdfsync.modelica.lexer import lex
 
-ROBOT = """\
-<robot name="arm">
-  <link name="base"/>
-  <link name="fore">
-    <inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
-  </link>
-  <joint name="elbow" type="revolute">
-    <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>
-  </joint>
-</robot>
-"""
 MODELS, RECORDS = (
     ("Arm.mo", "Links/Fore.mo", "Joints/Elbow.mo"),
     ("Links/ForeParameters.mo", "Joints/ElbowParameters.mo"),
@@ -290,7 +280,7 @@ def random_edit(random: Random, texts: Mapping[str, str]) -> Edit:
 @pytest.fixture
 def project(folder: Path, execute: Execute) -> Path:
     """A robot that is built; its folder."""
-    Path("arm.urdf").write_text(ROBOT)
+    Path("arm.urdf").write_text(ELBOW_ARM)
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     execute("build", "--quiet")
     return folder

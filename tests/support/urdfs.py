@@ -83,3 +83,17 @@ def parsed(urdf: str) -> Robot:
 def version(*elements: str) -> Version:
     """A robot of elements, as it is recorded."""
     return Version(to_snapshot(parsed(robot(*elements))))
+
+
+ELBOW_ARM = """\
+<robot name="arm">
+  <link name="base"/>
+  <link name="fore">
+    <inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+  </link>
+  <joint name="elbow" type="revolute">
+    <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>
+  </joint>
+</robot>
+"""
+"""Two links, one of 2.5 kg, and the joint between them."""
