@@ -19,8 +19,7 @@ pytestmark = NEEDS_GIT
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 PACKAGE = "modelica/Arm"
-MODEL, RECORD = f"{PACKAGE}/Links/Fore.mo", f"{PACKAGE}/Links/ForeParameters.mo"
-JOINT, JOINT_RECORD = f"{PACKAGE}/Joints/Elbow.mo", f"{PACKAGE}/Joints/ElbowParameters.mo"
+RECORD = f"{PACKAGE}/Links/ForeParameters.mo"
 STATE = ".urdfsync/robots/arm.state"
 
 

@@ -174,13 +174,6 @@ def _new_comments(mine: str, base: str) -> list[str]:
     return [f"{note}\n" if note.startswith("//") else note for note in comments(mine) if note not in old]
 
 
-def _runs_on(blanks: str) -> bool:
-    """Whether what follows these blanks and comments would be in a comment."""
-    # one comment after the other: a pattern for all of them would try each end of a comment with each end of the others
-    *_, last = "", *_COMMENT.findall(blanks)
-    return last.startswith("//") and blanks.endswith(last)
-
-
 class _Item(msgspec.Struct, eq=False):
     """A part of the merged text."""
 
