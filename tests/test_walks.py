@@ -412,6 +412,9 @@ class Walk:
             side = all_sides or self.random.choice(["ours", "theirs"])
             if not self.git("checkout", f"--{side}", "--", path):  # that side has deleted it
                 Path(path).unlink(missing_ok=True)
+            elif b"<<<<<<< " in Path(path).read_bytes():  # of two renames to one path, git marks the sides themselves
+                if not self.git("checkout", "theirs", "--", path):
+                    Path(path).unlink()
             elif Path(path).is_relative_to(PACKAGE):  # an edited one may lack what the other side's export brought
                 name = Path(path).relative_to(PACKAGE).as_posix()
                 if texts().get(name) not in [package.get(name) for package in self.built.values()]:
