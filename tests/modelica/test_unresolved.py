@@ -206,6 +206,24 @@ def test_the_standard_library_is_no_misspelled_name() -> None:
     assert [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)] == []
 
 
+def test_a_file_in_a_wrong_place_hides_no_class_of_its_name(tmp_path: Path) -> None:
+    (tmp_path / "package.mo").write_text("package Shop\nend Shop;\n")
+    (tmp_path / "Rotational.mo").write_text(
+        "within Shop;\npackage Rotational\n model Gear\n end Gear;\nend Rotational;\n"
+    )
+    users = {
+        Path("/nowhere/Part/package.mo"): b"package Part\nend Part;",
+        Path("/nowhere/Part/Rotational.mo"): b"within Elsewhere;\nmodel Rotational\nend Rotational;",
+        Path("/nowhere/Mine.mo"): b"model Mine\n Shop.Rotational.Gear gear;\nend Mine;",
+    }
+    sources = StoredClasses("None", Path("None"), {}, users, lambda name: tmp_path if name == "Shop" else None)
+    assert sources.unread == [Path("/nowhere/Part/Rotational.mo")]
+    scopes = Scopes(sources)
+    mine = scopes.node(("Mine",))
+    assert isinstance(mine, Node)
+    assert list(unresolved(mine, scopes)) == []
+
+
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
     assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)

@@ -109,9 +109,9 @@ class StoredClasses:
             return self.users[name].file
         if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
-        unread = next((path for path in self.unread if name[-1] == class_of_file(path)), None)
-        found = unread or self._file(name)
-        return str(found) if found else None
+        # a file that stands in a wrong place may be meant for any package that lacks its class
+        path = self._file(name) or next((path for path in self.unread if name[-1] == class_of_file(path)), None)
+        return str(path) if path else None
 
     def content(self, file: str) -> bytes:
         """Return the content of a file. Raises OSError."""
