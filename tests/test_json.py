@@ -197,7 +197,6 @@ def test_the_other_events_look_as_shown() -> None:
         events.Running("arm"),
         events.Ran("arm", 2),
         events.Noted((warning,)),
-        events.Recovered("all folders are watched again"),
         events.Paused("pre-commit (process 4711) has stashed unstaged changes away"),
         events.Resumed(),
     )

@@ -93,12 +93,12 @@ class UrdfsyncError(Exception):
     """Whether another process is at work on the same: exit code 4 instead of 2."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__("\n".join(map(str, diagnostics)))
+        super().__init__(*diagnostics)  # by which it is pickled, when a worker of a pool raises it
         self.diagnostics = diagnostics
 
-    def __reduce__(self) -> tuple[type[UrdfsyncError], tuple[Diagnostic, ...]]:
-        """Pickle the diagnostics: workers of a pool raise errors in the process of the command."""
-        return type(self), self.diagnostics
+    def __str__(self) -> str:
+        """Return each finding as a line."""
+        return "\n".join(map(str, self.diagnostics))
 
 
 class ConfigError(UrdfsyncError):

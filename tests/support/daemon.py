@@ -23,7 +23,7 @@ REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
 """Seconds after which something does not happen any more, however busy the machine is."""
 
-QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1, "recheck_shrunk": 0.05}
+QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1}
 
 RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 MODEL = Path("modelica/Ladder/Elements/R2.mo")

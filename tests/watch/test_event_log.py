@@ -121,11 +121,10 @@ SAID: dict[str, Case] = {
         [IS_ODD, IS_ODD],
     ),
     "what concerns the daemon": (
-        (events.Noted((ODD, BROKEN)), events.Recovered("all folders are watched again"), events.Stopping("SIGINT")),
+        (events.Noted((ODD, BROKEN)), events.Stopping("SIGINT")),
         [
             IS_ODD.replace("! ", f"! {TIME}"),
             NO_XML.replace("! ", f"! {TIME}"),
-            f"{TIME}all folders are watched again",
             f"{TIME}stopped by SIGINT",
         ],
     ),
@@ -205,7 +204,7 @@ def test_verbose_says_what_goes_on_and_lists_changes_and_files() -> None:
 
 
 def test_quiet_leaves_errors_and_conflicts() -> None:
-    noise = (STARTED, UPDATED, events.Noted((ODD,)), built(diagnostics=(ODD,)), events.Recovered("all is well"))
+    noise = (STARTED, UPDATED, events.Noted((ODD,)), built(diagnostics=(ODD,)))
     assert told(*noise, built(recovered=True), RIGHT, events.Stopping("SIGTERM"), quiet=True) == []
     assert told(failed(ODD, BROKEN), WRONG, RIGHT, WRONG, quiet=True) == [*IS_BROKEN, *IS_WRONG, *IS_WRONG]
     lines = told(CONFLICT, CONFLICT, quiet=True)

@@ -121,7 +121,6 @@ def test_folders_that_can_not_be_watched_are_told_once_and_looked_at(
     assert hint in found.hint
     daemon.after(lambda: put(330), events.Built)
     full.clear()
-    daemon.wait(events.Recovered)
     daemon.after(lambda: put(331), events.Built)
     assert daemon.kinds().count("Noted") == 1
 

@@ -16,7 +16,7 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, StateError, UrdfsyncError
 from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
@@ -79,9 +79,14 @@ class _Builder:
                 raise ConfigError(untrusted)
             plan = self._plan_and_write(robot)
         except UrdfsyncError as error:
-            locked, unfinished = isinstance(error, LockedError), isinstance(error, UnfinishedError)
-            found = error.diagnostics
-            return msgspec.structs.replace(result, diagnostics=found, failed=True, locked=locked, unfinished=unfinished)
+            return msgspec.structs.replace(
+                result,
+                diagnostics=error.diagnostics,
+                failed=True,
+                locked=isinstance(error, LockedError),
+                unfinished=isinstance(error, UnfinishedError),
+                source_error=error if isinstance(error, SourceError) else None,
+            )
         except OSError as error:
             place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
             found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)

@@ -31,7 +31,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     expands: bool = True
     """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
     expansions: dict[str, Expansion] = msgspec.field(default_factory=dict)
-    """Sources that this command, or the daemon, has expanded, by robot: the daemon judges a source, then builds it."""
+    """Sources that this command, or the daemon, has expanded, by robot: for a second plan of the same."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False

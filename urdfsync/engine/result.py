@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, SourceError
 from urdfsync.engine.actions import Action, Actions, Kind, Reason
 
 if TYPE_CHECKING:
@@ -52,6 +52,8 @@ class Result(msgspec.Struct, frozen=True):
     """It failed because another process is building."""
     unfinished: bool = False
     """It failed half way, and what was begun could not be put back: the next build does that."""
+    source_error: SourceError | None = None
+    """It failed since the source can't be read as a model; an exporter may be at work on it."""
     dry: bool = False
     """Nothing was written, whatever the actions say."""
     writes: bool = False

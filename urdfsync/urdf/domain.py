@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import get_args
@@ -43,27 +42,6 @@ from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import left_to_package, massless_passive_joints, out_of_scope
 from urdfsync.urdf.validate import ADVICE
 
-
-@functools.lru_cache(maxsize=1)
-def _read(content: bytes, file: str, options: Options) -> Reading:
-    """Read a URDF, but not the same bytes twice in a row: the daemon judges a source, and then builds it.
-
-    Serves the rows "one mass changed in the daemon" of docs/speed.md: a fifth with 133 links, and with 1,000.
-    """
-    robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
-    if robot is None:
-        return Reading(None, diagnostics, lines)
-    diagnostics += located(find_implausible(robot), file, lines) + unmodelled
-    tree = KinematicTree.of(robot)
-    if "record" in options.approach:
-        diagnostics += tuple(out_of_scope(tree, file, lines))
-    if "package" not in options.approach:
-        diagnostics += tuple(left_to_package(tree, options, file))
-    else:
-        diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
-    return Reading(to_snapshot(robot), diagnostics, lines)
-
-
 WARNINGS = frozenset(
     {
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
@@ -89,7 +67,18 @@ class UrdfDomain(Domain):
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
         """Read a URDF; of one without errors, say also what can't be simulated."""
-        return _read(content, file, options)
+        robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
+        if robot is None:
+            return Reading(None, diagnostics, lines)
+        diagnostics += located(find_implausible(robot), file, lines) + unmodelled
+        tree = KinematicTree.of(robot)
+        if "record" in options.approach:
+            diagnostics += tuple(out_of_scope(tree, file, lines))
+        if "package" not in options.approach:
+            diagnostics += tuple(left_to_package(tree, options, file))
+        else:
+            diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
+        return Reading(to_snapshot(robot), diagnostics, lines)
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
         """Return where yourdfpy finds other links, joints or poses."""

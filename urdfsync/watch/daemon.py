@@ -1,42 +1,45 @@
 """The daemon: one thread that waits for events, lets files settle, and builds.
 
-An event only says where to look. What is built is decided by the files on disk, so an event too many or too few costs
-time and nothing else.
-
-A robot is built until a build leaves all files as they were before it. So the daemon need not know what it wrote
-itself: after a build that wrote something, or during which somebody else did, the files settle, and are built again.
+1. Wait for an event, or for the next look that is due. An event only says where to look. What is built is decided by
+   the files on disk, so an event too many or too few costs time and nothing else.
+2. The robots of which a file has changed have to settle: no event for some time, and two looks that show the same.
+3. All that have settled are built together. A source that is invalid may be an exporter's who is still writing it, so
+   it is an error only if it stays as it is.
+4. A build that wrote something, or during which a file was saved, is followed by another one once the files have
+   settled. So the daemon need not know what it wrote itself: a robot rests after a build that left all files alone.
 """
 
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
 import msgspec
 
 from urdfsync import config
-from urdfsync.config import STATE_FOLDER, Config, warnings
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError
-from urdfsync.engine.build import WAITING
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig, warnings
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, internal_error
+from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError
-from urdfsync.watch import build, events, precommit
+from urdfsync.watch import events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import Observer
 from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import Hashes, Invalid, Resting, Unsettled, WatchedRobot, read_state
+from urdfsync.watch.robot import WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
 _POLL = 1.0
-"""Seconds between two reads of all inputs, where there are no events; and of a source that is invalid."""
+"""Seconds between two reads of all inputs, where there are no events."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -52,8 +55,6 @@ class WatchOptions(msgspec.Struct, frozen=True):
     """Between the two looks that have to show the same; with 0 there is one look."""
     give_up_after: float = 30.0
     """Until an invalid source is an error."""
-    recheck_shrunk: float = 2.0
-    """Until a source that has lost many elements is believed."""
     rescan: float = 30.0
     """Between two reads of everything."""
     poll: bool = False
@@ -119,14 +120,25 @@ class Daemon:
         self._use(loaded)
         self._next_rescan = time.monotonic() + self._options.rescan
         while not self._stop_signal:
-            self._receive()
+            paths = self._receive()
+            self._touch(self._find_changed(paths))
             if time.monotonic() >= self._next_rescan:
                 with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
                     self._acquire(lock)
                 self._rescan()
             elif self._is_polling and time.monotonic() >= self._next_poll:
                 self._poll()
-            self._build_settled()
+            settled = self._find_settled()
+            if settled and self._reload_config():
+                continue  # which has all robots settle again
+            changed = [watched for watched in settled if self._has_to_be_built(watched)]
+            if changed or self._is_paused:
+                self._update_pause()
+            if not self._is_paused:
+                self._build(changed)
+                continue
+            for watched in changed:
+                watched.due = time.monotonic() + _PAUSE
 
     def _acquire(self, lock: Lock) -> None:
         """Take the daemon's lock; again if its file was deleted, since another daemon could not see it."""
@@ -158,11 +170,12 @@ class Daemon:
         self._config = loaded
         self._checks.use(loaded)
         before, self._robots = self._robots, {}
+        due = time.monotonic() + self._options.settle
         for robot in robots:  # of those that were watched before, the last results are still known
             paths = find_robot_paths(loaded, robot, self._options.build.package_paths)
-            state = Unsettled(time.monotonic() + self._options.settle)
-            watched = before.get(robot.name) or WatchedRobot(robot, paths, state)
-            watched.robot, watched.paths, watched.state, watched.built = robot, paths, state, None
+            watched = before.get(robot.name) or WatchedRobot(robot, paths)
+            watched.robot, watched.paths, watched.built = robot, paths, None
+            watched.settle(due, is_told=True)
             self._robots[robot.name] = watched
         self._listener(events.Started(loaded.file, tuple(self._robots), again))
         self._note(tuple(warnings.find_warnings(loaded, robots)))
@@ -183,10 +196,10 @@ class Daemon:
             return False
         return True
 
-    # Events
+    # Events and looks
 
-    def _receive(self) -> None:
-        """Wait until something happens or is due; let settle what has changed, and take note of all else."""
+    def _receive(self) -> set[str]:
+        """Wait until something happens or is due; return the paths that may have changed."""
         paths: set[str] = set()
         with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
             message = self._queue.get(timeout=self._seconds_until_due())
@@ -199,26 +212,25 @@ class Daemon:
                     case CheckEnded():
                         self._show_all(self._checks.finish(message))
                 message = self._queue.get_nowait()
+        return paths
+
+    def _seconds_until_due(self) -> float:
+        now = time.monotonic()
+        due = [self._next_rescan, *(watched.due for watched in self._robots.values())]
+        due += [self._next_poll] if self._is_polling else []
+        due += [now + _PAUSE] if self._is_paused else []
+        return max(min(due) - now, 0.0)
+
+    def _find_changed(self, paths: Iterable[str]) -> list[WatchedRobot]:
+        """Return the robots that have to settle after events of these paths."""
         by_robot: dict[str, set[str]] = {}
         for path in paths:
             for name in self._watched.robots_for(path):
                 by_robot.setdefault(name, set()).add(path)
         affected = [watched for name, watched in self._robots.items() if name in by_robot]
-        known = (path in one.files or path in one.paths.outputs for one in affected for path in by_robot[one.name])
-        if not all(known):
+        if not all(watched.has_files(by_robot[watched.name]) for watched in affected):
             self._watch_folders()  # a folder or a link may have been replaced
-        self._touch([one for one in affected if one.is_told or one.has_changed(by_robot[one.name])])
-
-    def _show_all(self, found: Iterable[events.Event]) -> None:
-        for event in found:
-            self._listener(event)
-
-    def _seconds_until_due(self) -> float:
-        now = time.monotonic()
-        due = [self._next_rescan, *(watched.state.due for watched in self._robots.values())]
-        due += [self._next_poll] if self._is_polling else []
-        due += [now + _PAUSE] if self._is_paused else []
-        return max(min(due) - now, 0.0)
+        return [watched for watched in affected if watched.is_told or watched.has_changed(by_robot[watched.name])]
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let robots settle, since something changed; all from the same moment, so that they are built together."""
@@ -227,9 +239,11 @@ class Daemon:
             if not watched.is_told:
                 file, watched.changed_file = watched.changed_file, ""
                 self._listener(events.Settling(watched.name, shown(Path(file)) if file else ""))
-            watched.state = Unsettled(due)
+            watched.settle(due, is_told=True)
 
-    # Looks without an event
+    def _show_all(self, shown_events: Iterable[events.Event]) -> None:
+        for event in shown_events:
+            self._listener(event)
 
     @property
     def _is_polling(self) -> bool:
@@ -240,32 +254,55 @@ class Daemon:
         if self._options.poll:
             return
         self._watched = find_watched_paths(self._config, {name: one.paths for name, one in self._robots.items()})
-        found = self._observer.watch_folders(self._watched)
-        known = {diagnostic.hint for diagnostic in self._unwatched}
-        self._note(tuple(diagnostic for diagnostic in found if diagnostic.hint not in known))
-        if self._unwatched and not found:
-            self._listener(events.Recovered("all folders are watched again"))
-        self._unwatched = found
+        unwatched = self._observer.watch_folders(self._watched)
+        told = {diagnostic.hint for diagnostic in self._unwatched}
+        self._note(tuple(diagnostic for diagnostic in unwatched if diagnostic.hint not in told))
+        self._unwatched = unwatched
 
     def _rescan(self) -> None:
-        """Look at everything: events may be lost, and a build that failed may work now."""
+        """Look at all files, since events may be lost."""
         now = time.monotonic()
         self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
         self._watch_folders()
-        resting = [watched for watched in self._robots.values() if watched.is_resting]
-        self._touch([watched for watched in resting if watched.has_changed()])
-        for watched in resting:
-            if watched.failure is not None and watched.is_resting:
-                watched.state = Unsettled(now, is_told=False)
+        self._touch([watched for watched in self._robots.values() if watched.has_changed()])
 
     def _poll(self) -> None:
         """Look at the inputs of all robots."""
         self._next_poll = time.monotonic() + _POLL
-        resting = [watched for watched in self._robots.values() if watched.is_resting]
-        self._touch([one for one in resting if one.has_changed(one.files.keys() - one.paths.outputs)])
+        robots = self._robots.values()
+        self._touch([one for one in robots if one.has_changed(one.files.keys() - one.paths.outputs)])
 
-    def _update_pause(self) -> bool:
-        """Return whether nothing must be built now, since pre-commit has stashed changes away."""
+    def _find_settled(self) -> list[WatchedRobot]:
+        """Look at the robots that are due; return those whose files are as they were at the look before."""
+        now, settled = time.monotonic(), []
+        for watched in self._robots.values():
+            if watched.due > now:
+                continue
+            before = watched.hashes
+            watched.read_files()
+            if not watched.is_told and watched.has_new_input(before):
+                self._touch([watched])  # its event may come later
+            elif watched.hashes == watched.sample or not self._options.sample:
+                settled.append(watched)
+            else:
+                watched.settle(now + self._options.sample, is_told=watched.is_told)
+                watched.sample = watched.hashes
+        return settled
+
+    # Builds
+
+    def _has_to_be_built(self, watched: WatchedRobot) -> bool:
+        """Return whether the files of a robot are other than after the last build, which then rests."""
+        # a build that failed may work now, whatever it failed of
+        if watched.failure is not None or watched.hashes != watched.built:
+            return True
+        if watched.is_told:
+            self._listener(events.Unchanged(watched.name))
+        self._rest(watched)
+        return False
+
+    def _update_pause(self) -> None:
+        """Find out whether nothing must be built now, since pre-commit has stashed changes away."""
         stash = precommit.find_stash(self._config.root)
         if stash and not self._is_paused:
             reason = f"pre-commit (process {stash[1]}) has stashed unstaged changes away"
@@ -273,131 +310,78 @@ class Daemon:
         elif self._is_paused and not stash:
             self._listener(events.Resumed())
         self._is_paused = stash is not None
-        return self._is_paused
-
-    # Builds
-
-    def _build_settled(self) -> None:
-        """Look at the robots that are due, and build those whose files have settled."""
-        now = time.monotonic()
-        if self._is_paused:
-            self._update_pause()
-        due = [watched for watched in self._robots.values() if watched.state.due <= now]
-        settled = [watched for watched in due if self._has_settled(watched, now)]
-        if settled and self._reload_config():
-            return
-        ready = [watched for watched in settled if self._is_ready(watched, now)]
-        if ready and self._update_pause():
-            for watched in ready:
-                watched.state = Unsettled(now + _PAUSE, is_told=watched.is_told)
-        elif ready:
-            self._build(ready)
-
-    def _has_settled(self, watched: WatchedRobot, now: float) -> bool:
-        """Look at a robot's files; return whether they are as at the last look, or time is up for an invalid source."""
-        options, before = self._options, watched.hashes
-        sample = watched.read_files()
-        match watched.state:
-            case Invalid(_, since) as state:
-                end = since + options.give_up_after
-                if sample == before and now < end:
-                    watched.state = Invalid(min(now + _POLL, end), since)
-                    return False
-                if sample == before:
-                    return True
-                watched.state = Unsettled(now + options.sample, sample)
-                return not options.sample
-            case Unsettled(is_told=False) if _is_new(watched, before, sample):
-                self._touch([watched])  # its event may come later
-                return False
-            case Unsettled() as state:
-                watched.state = msgspec.structs.replace(state, due=now + options.sample, sample=sample)
-                return sample == state.sample or not options.sample
-        return False
-
-    def _is_ready(self, watched: WatchedRobot, now: float) -> bool:
-        """Return whether a robot is to be built, of which the files have settled."""
-        # not after a failure, which may have had another cause
-        if watched.failure is None and watched.hashes == watched.built:
-            if watched.is_told:
-                self._listener(events.Unchanged(watched.name))
-            self._rest(watched)
-            return False
-        error, lost = build.judge_source(self._config, watched.robot, watched.paths, self._build_options)
-        if error is not None:
-            self._watch_culprits(watched, error)
-            self._wait_for_valid(watched, error.diagnostics, now)
-            return False
-        source = watched.files[str(watched.robot.source)].sha256
-        if lost and isinstance(watched.state, Unsettled) and watched.state.shrunk != source:
-            reason = f"{lost} of {len(watched.paths.built_names)} elements are gone: {_waiting_for(watched)}"
-            self._listener(events.Waiting(watched.name, reason))
-            watched.state = Unsettled(now + self._options.recheck_shrunk, watched.hashes, shrunk=source)
-            return False
-        return True
-
-    def _watch_culprits(self, watched: WatchedRobot, error: SourceError) -> None:
-        """Watch what xacro has read, or looked for, that no build has recorded yet."""
-        paths = watched.paths
-        found = paths.inputs.union(error.reads), paths.patterns.union(error.patterns)
-        if found != (paths.inputs, paths.patterns):
-            watched.paths = msgspec.structs.replace(paths, inputs=found[0], patterns=found[1])
-            watched.read_files()
-            self._watch_folders()
-
-    def _wait_for_valid(self, watched: WatchedRobot, errors: tuple[Diagnostic, ...], now: float) -> None:
-        """Wait for the exporter, which may be at work on a source that is invalid; after some time that is an error."""
-        if isinstance(watched.state, Invalid) or errors == watched.failure:
-            self._take_failure(watched, build.failed_result(self._config, watched.robot, errors))
-            self._rest(watched)
-        else:
-            self._listener(events.Waiting(watched.name, _waiting_for(watched), errors))
-            watched.state = Invalid(now + min(_POLL, self._options.give_up_after), now)
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
         """Build robots. One that has written, or of which a file is other than before, has to settle again."""
         self._building = [watched.name for watched in robots if watched.is_told]
         self._show_all(list(map(events.Building, self._building)))
-        before, writers = {watched.name: watched.hashes for watched in robots}, set()
-        for result in build.build_robots(self._config, [watched.robot for watched in robots], self._build_options):
-            watched = self._robots[result.robot]
+        before, results = {watched.name: watched.hashes for watched in robots}, {}
+        for result in self._results([watched.robot for watched in robots]):
+            watched, results[result.robot] = self._robots[result.robot], result
             watched.built = None  # what is saved meanwhile is built, even if it is as before the last change
-            if result.writes:
-                writers.add(result.robot)
             if not result.failed:
                 self._take_result(watched, result)
-            elif watched.read_files() == before[watched.name]:
+                continue
+            watched.read_files()
+            if watched.hashes == before[watched.name]:  # else it is built again
                 self._take_failure(watched, result)
-        self._renew_paths(robots)
+        self._renew_paths(robots, results)
         for watched in robots:
-            old, now = before[watched.name], watched.read_files()
-            if now == old and watched.name not in writers:  # git may have taken back what was written
+            old = before[watched.name]
+            watched.read_files()
+            if watched.has_new_input(old):
+                # somebody saved meanwhile: the user is told, unless he knows that the robot waits for that
+                watched.is_told = watched.invalid_until > 0
+                self._touch([watched])
+            elif watched.invalid_until:
+                watched.sample, watched.due = watched.hashes, watched.invalid_until
+            elif watched.hashes == old and not results[watched.name].writes:  # git may have taken back what was written
                 self._rest(watched)
-            elif _is_new(watched, old, now):
-                watched.state = Resting()
-                self._touch([watched])  # somebody saved meanwhile: the user is told
             else:  # most likely its own writes: confirmed without a word
-                watched.state = Unsettled(time.monotonic() + self._options.settle, is_told=False)
+                watched.settle(time.monotonic() + self._options.settle, is_told=False)
 
-    def _renew_paths(self, robots: Sequence[WatchedRobot]) -> None:
+    def _results(self, robots: list[RobotConfig]) -> Iterator[Result]:
+        """Build robots. A bug that one robot meets is its error, and the others are built."""
+        while robots:
+            try:
+                for result in build(self._config, tuple(robots), self._build_options):
+                    robots.pop(0)
+                    yield result
+            except Exception as error:  # noqa: BLE001 - going on is safe: the next build reads everything from the disk
+                robot, bug = robots.pop(0), internal_error(error, "it can't be built: ")
+                yield Result(
+                    robot.name, robot.target.package, robot.folder, self._config.root, diagnostics=(bug,), failed=True
+                )
+
+    def _renew_paths(self, robots: Sequence[WatchedRobot], results: Mapping[str, Result]) -> None:
         """Find the paths of some robots again, after a build."""
         before = [watched.paths for watched in robots]
         for watched in robots:
-            watched.paths = find_robot_paths(self._config, watched.robot, self._options.build.package_paths)
+            error = results[watched.name].source_error
+            watched.paths = find_robot_paths(self._config, watched.robot, self._options.build.package_paths, error)
         if before != [watched.paths for watched in robots]:
             self._watch_folders()
 
     def _rest(self, watched: WatchedRobot) -> None:
-        """Leave a robot alone until something changes; check its package, unless it could not be built."""
-        watched.built, watched.state = watched.hashes, Resting()
+        """Leave a robot alone until something changes, or for a while if it failed; check its package otherwise."""
+        watched.built = watched.hashes
         if watched.failure is None:
+            watched.settle(math.inf, is_told=False)
             self._show_all(self._checks.check(watched.robot))
+        else:
+            watched.settle(time.monotonic() + self._options.rescan, is_told=False)
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
-        again = watched.failure == result.diagnostics
+        """Wait for the exporter, who may be at work on an invalid source; after some time that is an error, too."""
+        again, error = watched.failure == result.diagnostics, result.source_error
+        if error is not None and not (again or watched.invalid_until):
+            reason = f"waiting for the exporter of {shown(watched.robot.source)}"
+            self._listener(events.Waiting(watched.name, reason, error.diagnostics))
+            watched.invalid_until = time.monotonic() + self._options.give_up_after
+            return
         if watched.is_told or not again:
             self._listener(events.Failed(result, again))
-        watched.failure = result.diagnostics
+        watched.failure, watched.invalid_until = result.diagnostics, 0.0
 
     def _take_result(self, watched: WatchedRobot, result: Result) -> None:
         recovered, decided = watched.failure is not None, result.actions.decided
@@ -407,19 +391,8 @@ class Daemon:
             left_alone |= {(one.file, one.message) for one in result.diagnostics}
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener(events.Built(result, files, recovered))
-        watched.failure, watched.left_alone = None, left_alone
+        watched.failure, watched.invalid_until, watched.left_alone = None, 0.0, left_alone
         watched.pending = tuple(dict.fromkeys((*watched.pending, *files)))
         if watched.pending and not result.is_broken:
             self._show_all(self._commands.run(watched.robot, watched.pending))
             watched.pending = ()
-
-
-def _waiting_for(watched: WatchedRobot) -> str:
-    return f"waiting for the exporter of {shown(watched.robot.source)}"
-
-
-def _is_new(watched: WatchedRobot, before: Hashes, now: Hashes) -> bool:
-    """Whether an input is other than before: somebody saved it, since the daemon writes none."""
-    changed = [path for path in watched.paths.inputs if path in before and before[path] != now[path]]
-    watched.changed_file = min(changed, default="")
-    return bool(changed)

@@ -36,12 +36,9 @@ _PLAIN: dict[type[events.Event], str] = {
     events.Ran: "command ended with {0.code}",
     events.Paused: "paused: {0.reason}",
     events.Resumed: "building again",
-    events.Recovered: "{0.what}",
     events.Stopping: "stopped by {0.signal}",
 }
 """Texts of events that are one line."""
-_ALWAYS = (events.Recovered, events.Stopping)
-"""Those of them that are told without `--verbose`."""
 _KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
 """Files that are no longer generated, but kept."""
 _CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
@@ -84,8 +81,8 @@ class EventLog:
                 yield from self._checked(event, clock)
             case events.Noted(diagnostics):
                 yield from self._findings(diagnostics, clock)
-            case _ if self._console.verbose or (isinstance(event, _ALWAYS) and not self._console.quiet):
-                style = "" if isinstance(event, _ALWAYS) else "dim"
+            case _ if self._console.verbose or (isinstance(event, events.Stopping) and not self._console.quiet):
+                style = "" if isinstance(event, events.Stopping) else "dim"
                 yield self._line(clock, getattr(event, "robot", ""), _PLAIN[type(event)].format(event).strip(), style)
                 yield from self._findings(getattr(event, "diagnostics", ()))
             case _:

@@ -1,8 +1,8 @@
 """What happens while `urdfsync watch` runs, as values; `--json` writes them with the tag as the event's name.
 
-Events of one robot come in this order: `Settling` when one of its files changed, `Waiting` if its source is not valid
-(yet), `Building` when it has settled, and `Built` or `Failed`; or `Unchanged` if nothing differs after all. Checks go
-on beside that: `Checking`, and `CheckDone` for the last one of several that begin while a robot changes.
+Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
+`Waiting` if its source is not valid (yet), and `Built` or `Failed`; or `Unchanged` if nothing differs after all.
+Checks go on beside that: `Checking`, and `CheckDone` for the last one of several that begin while a robot changes.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ class Unchanged(RobotEvent, frozen=True, tag="calm"):
 
 
 class Waiting(RobotEvent, frozen=True):
-    """The robot is not built for now, although its files have settled.
+    """The build of the robot waits.
 
     Another process may be building. Or the source is invalid (see `diagnostics`), which an exporter may be about to
-    change; `Failed` follows if that lasts. Or the source lost many elements, and is watched a little longer.
+    change; `Failed` follows if that lasts.
     """
 
     reason: str
@@ -99,13 +99,6 @@ class Noted(Event, frozen=True):
     """Findings about no robot; told once, until they are over and happen again."""
 
     diagnostics: tuple[Diagnostic, ...]
-
-
-class Recovered(Event, frozen=True):
-    """A fault of the daemon itself that `Noted` told is over."""
-
-    what: str
-    """In words, for example `all folders are watched again`."""
 
 
 class Paused(Event, frozen=True):

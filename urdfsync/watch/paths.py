@@ -14,12 +14,11 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.diagnostics import SourceError, UrdfsyncError
 from urdfsync.domain import Lookup
 from urdfsync.engine import parents
 from urdfsync.engine.expansion import Inputs
 from urdfsync.engine.imports import find_dependencies
-from urdfsync.engine.inputs import NO_MODEL
 from urdfsync.files import placed
 from urdfsync.state.record import Record
 from urdfsync.state.store import Store
@@ -35,35 +34,29 @@ class RobotPaths(msgspec.Struct, frozen=True):
     """Configuration, source and dependencies, wherever these may be found, as configuration and source name them."""
     outputs: frozenset[str]
     """Files of the package, of the packages around it, and of the recorded state."""
-    built_names: frozenset[tuple[str, str]] = frozenset()
-    """Kind and name of each element in the last build."""
     patterns: frozenset[str] = frozenset()
     """By which xacro looks for files."""
 
 
-def find_robot_paths(config: Config, robot: RobotConfig, package_paths: Sequence[Path]) -> RobotPaths:
-    """Return the paths of a robot as far as the last build recorded them."""
-    store, state, patterns = Store(config.root), None, frozenset[str]()
-    inputs = {str(config.file), str(robot.source)}
+def find_robot_paths(
+    config: Config, robot: RobotConfig, package_paths: Sequence[Path], error: SourceError | None = None
+) -> RobotPaths:
+    """Return the paths of a robot as far as the last build recorded them; of one that failed, what its error names."""
+    store, patterns = Store(config.root), set(error.patterns if error else ())
+    inputs = {str(config.file), str(robot.source), *(error.reads if error else ())}
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         state = store.load(robot.name)
         if (expanded := store.load_expansion(robot.name)) is not None:
-            folders = (*robot.package_paths, *package_paths)
-            known = Inputs(config.root, robot.source, folders)
+            known = Inputs(config.root, robot.source, (*robot.package_paths, *package_paths))
             inputs.update(map(str, known.paths(expanded.files)))
-            patterns = frozenset(map(str, known.paths(expanded.patterns)))
+            patterns.update(map(str, known.paths(expanded.patterns)))
             outputs.add(str(store.expansion(robot.name)))
-    if state is None:
-        return RobotPaths(frozenset(inputs), frozenset(outputs), patterns=patterns)
-    prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
-    outputs.update(placed(prefix, key) for key in state.files)
-    inputs.update(_dependencies(robot, state, package_paths))
-    names: frozenset[tuple[str, str]] = frozenset()
-    with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
-        found = registry.domain(robot.domain).names(state.snapshot or {}, robot.target)
-        names = frozenset((kind, name) for kind, identifiers in found.items() for name in identifiers)
-    return RobotPaths(frozenset(inputs), frozenset(outputs), names, patterns)
+        if state is not None:
+            prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118
+            outputs.update(placed(prefix, key) for key in state.files)
+            inputs.update(_dependencies(robot, state, package_paths))
+    return RobotPaths(frozenset(inputs), frozenset(outputs), frozenset(patterns))
 
 
 def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Path]) -> Iterator[str]:

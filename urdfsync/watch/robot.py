@@ -7,7 +7,7 @@ import math
 import os
 import stat
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -51,40 +51,21 @@ def read_state(path: str, known: SeenFile | None = None, *, follow: bool = True)
     return SeenFile(digest(content), None if is_young(facts, time.time_ns()) else facts)
 
 
-class Resting(msgspec.Struct, frozen=True):
-    """The last build left all files as they were, or failed."""
-
-    due = math.inf
-
-
-class Unsettled(msgspec.Struct, frozen=True):
-    """Files may have changed; the robot is built once two looks in a row show the same."""
-
-    due: float
-    """When to look, in seconds of a monotonic clock."""
-    sample: Hashes | None = None
-    """The last look; None if there was none since the last event."""
-    is_told: bool = True
-    """Whether the user knows. He is not told that the daemon looks again after its own build."""
-    shrunk: str = ""
-    """Hash of a source that has lost many elements, and is looked at longer."""
-
-
-class Invalid(msgspec.Struct, frozen=True):
-    """The source is no valid model; it is looked at again and again, since the exporter may be at work."""
-
-    due: float
-    since: float
-
-
 class WatchedRobot(msgspec.Struct):
-    """One robot, as long as the configuration has one of its name."""
+    """One robot, as long as the configuration has one of its name; and what the daemon is about to do with it."""
 
     robot: RobotConfig
     paths: RobotPaths
-    state: Resting | Unsettled | Invalid
     files: dict[str, SeenFile] = msgspec.field(default_factory=dict)
     """Inputs and outputs by absolute path, when they were last read."""
+    due: float = math.inf
+    """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
+    is_told: bool = False
+    """Whether the user was told that the robot is under way; not of looks after the daemon's own builds."""
+    sample: Hashes | None = None
+    """The look before, since the last event; None if there was none. Two that are the same mean: settled."""
+    invalid_until: float = 0.0
+    """Until when the exporter of an invalid source may be at work; 0 if it is valid, or known to stay invalid."""
     built: Hashes | None = None
     """All files before and after the last build, which changed none; None if the robot has to be built."""
     failure: tuple[Diagnostic, ...] | None = None
@@ -102,45 +83,51 @@ class WatchedRobot(msgspec.Struct):
         return self.robot.name
 
     @property
-    def is_resting(self) -> bool:
-        """Whether nothing is to be done for it."""
-        return isinstance(self.state, Resting)
-
-    @property
-    def is_told(self) -> bool:
-        """Whether the user was told that the robot is under way."""
-        return isinstance(self.state, Invalid) or (isinstance(self.state, Unsettled) and self.state.is_told)
-
-    @property
     def hashes(self) -> Hashes:
         """All files, when they were last read."""
         return {path: state.sha256 for path, state in self.files.items()}
 
-    def read_files(self) -> Hashes:
+    def settle(self, due: float, *, is_told: bool) -> None:
+        """Look at the files at this time, and forget earlier looks."""
+        self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
+
+    def read_files(self) -> None:
         """Read all inputs, those in the template folder and those that patterns match included, and all outputs."""
         inputs, outputs, templates = set(self.paths.inputs), self.paths.outputs, self.robot.templates
         for folder, _, names in os.walk(templates) if templates else ():
             inputs.update(os.path.join(folder, name) for name in names)  # noqa: PTH118
         for pattern in self.paths.patterns:
             inputs.update(find_matches(pattern))
-        known = self.files
-        self.files = {path: read_state(path, known.get(path)) for path in inputs}
-        self.files |= {path: read_state(path, known.get(path), follow=False) for path in outputs}
-        return self.hashes
+        self.files = self._read(inputs | outputs)
+
+    def _read(self, paths: Iterable[str]) -> dict[str, SeenFile]:
+        outputs = self.paths.outputs  # a build refuses links there
+        return {path: read_state(path, self.files.get(path), follow=path not in outputs) for path in paths}
+
+    def has_files(self, paths: Collection[str]) -> bool:
+        """Return whether all paths are files of the robot, not folders or links on the way to one."""
+        return all(path in self.files or path in self.paths.outputs for path in paths)
 
     def has_changed(self, paths: Collection[str] = ()) -> bool:
         """Return whether files have changed since they were last read; with `paths`, at these alone.
 
         If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
         """
-        if not paths or not self.files.keys() >= set(paths):
-            before = self.hashes
-            now = self.read_files()
-            changed = [path for path in before.keys() | now.keys() if now.get(path) != before.get(path)]
+        before, looked_at = self.files, set(paths)
+        if looked_at and looked_at <= before.keys():
+            self.files = before | self._read(looked_at)
         else:
-            old = {path: self.files[path] for path in paths}
-            new = {path: read_state(path, old[path], follow=path not in self.paths.outputs) for path in paths}
-            self.files |= new
-            changed = [path for path in paths if new[path].sha256 != old[path].sha256]
+            self.read_files()
+            looked_at = before.keys() | self.files.keys()
+        nothing = SeenFile("")
+        changed = [
+            path for path in looked_at if before.get(path, nothing).sha256 != self.files.get(path, nothing).sha256
+        ]
         self.changed_file = min(changed, key=lambda path: (path not in self.paths.inputs, path), default="")
+        return bool(changed)
+
+    def has_new_input(self, before: Hashes) -> bool:
+        """Return whether an input is other than before: somebody saved it, since the daemon writes none."""
+        changed = [path for path in self.paths.inputs if path in before and before[path] != self.files[path].sha256]
+        self.changed_file = min(changed, default="")
         return bool(changed)
