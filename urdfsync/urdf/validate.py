@@ -1,6 +1,6 @@
 """What can be wrong with a URDF, by code, and what must hold in a robot, whatever it was read from.
 
-A finding is an error where no right model exists, and a warning where one does. docs/urdf.md explains the codes.
+A finding is an error where no right model exists, and a warning where one does. docs/findings.md explains the codes.
 """
 
 from __future__ import annotations
