@@ -1,6 +1,6 @@
 """Edits by hand, one at a time, and then the next export of a real history: how often they meet without a conflict.
 
-`URDFSYNC_REPLAYS=2000` sets the number of exports. The counts are printed; docs/conflicts.md has them.
+`URDFSYNC_REPLAYS=2000` sets the number of exports. The counts are printed.
 """
 
 from __future__ import annotations
