@@ -43,7 +43,7 @@ def rows(file: str) -> Iterator[str]:
     tags = Counter(element.tag for element in root.iterchildren("*") if element.tag not in KNOWN)
     has = ", ".join(f"{count} {re.sub('{.*}', '', str(tag))}" for tag, count in tags.items())
     note = next((one.message for one in reading.diagnostics if one.code == "not-modelled"), "")
-    counts = re.sub(r" \([^)]*\)", "", note.removeprefix("not modelled: "))
+    counts = note.removeprefix("not modelled: ")
     allowed = ", ".join(f"{count_of(one)} {one.code}" for one in reading.diagnostics if one.code in get_args(LeftOut))
     drives = sum(joint.actuated for joint in robot.joints)
     contacts = sum(link.contact is not None for link in robot.links)

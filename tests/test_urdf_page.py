@@ -47,7 +47,7 @@ ROBOT = f"""<robot name="own" version="1.2">
   <transmission name="t"><joint name="spin"/></transmission>
   <ros2_control name="c" type="system"><joint name="grip"><command_interface name="position"/></joint></ros2_control>
   <gazebo reference="arm"><material>Gazebo/Red</material>
-    <mu1>0.5</mu1><mu2>0.6</mu2><kp>1e5</kp><kd>3</kd><minDepth>0.001</minDepth><maxVel>0.2</maxVel></gazebo>
+    <mu1>0.5</mu1><kp>1e5</kp><kd>3</kd><minDepth>0.001</minDepth></gazebo>
   <sensor name="eye" type="camera"><parent link="arm"/></sensor>
   <frame name="f"/>
 </robot>
@@ -98,14 +98,10 @@ CHANGED = {
     "transmission": ("<transmission.*</transmission>", ""),
     "ros2_control": (r'(?s)<ros2.*?</ros2_control>', ""),
     "gazebo": ("Gazebo/Red", "Gazebo/Blue"),
-    **{f"gazebo {name}": (rf"<{name}>", f"<{name}>1") for name in ("mu1", "mu2", "kp", "kd", "minDepth", "maxVel")},
+    **{f"gazebo {name}": (rf"<{name}>", f"<{name}>1") for name in ("mu1", "kp", "kd", "minDepth")},
     **{
         f"contact {name}": ('<link name="tip">', f'<link name="tip"><contact><{name} value="1"/></contact>')
         for name in ("lateral_friction", "stiffness", "damping")
-    },
-    **{
-        f"collision/contact_coefficients {name}": (f"({BALL})", rf'\1<contact_coefficients {name}="9"/>')
-        for name in ("mu", "kp", "kd")
     },
     "sensor": ('type="camera"', 'type="ray"'),
     "loop_joint": ("</robot>", '<loop_joint name="l"/></robot>'),

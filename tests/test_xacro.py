@@ -153,20 +153,16 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
     lower = '  <xacro:beam name="lower" parent="upper" mass="1" length="1"/>\n</robot>'
     files = {
         "arm.urdf.xacro": xacros.ARM.replace("</robot>", lower),
-        "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring/>\n      <child"),
+        "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring name='coil'/>\n      <spring/><child"),
     }
     xacros.write(project, files)
     (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
-    assert note["message"] == "not modelled: 2 <spring> (joint to_upper, joint to_lower)"
-    xacros.write(
-        project, {**files, "parts/beam.xacro": files["parts/beam.xacro"].replace("<parent", "<parent size='1'")}
-    )
-    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    assert note["message"] == "not modelled: 4 <spring>"
     file = str(Path("urdf/parts/beam.xacro"))
     assert note["details"] == [
-        f"line {file}:13: attribute parent size",
-        f"line {file}:14: <spring> joint to_upper",
-        f"line {file}:14: <spring> joint to_lower",
+        f"line {file}:14: <spring> coil",
+        f"line {file}:15: <spring> joint to_upper",
+        f"line {file}:15: <spring> joint to_lower",
     ]
 
 

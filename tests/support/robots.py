@@ -149,7 +149,7 @@ def _shape(random: Random) -> tuple[Geometry, Origin, str]:
 
 def _material(random: Random) -> Material | None:
     red, green = Material("red", (1.0, 0.0, 0.0, 1.0)), Material("red", (0.0, 0.5, 0.0, 1.0))
-    return random.choice((None, Material("red"), red, green, Material("red", texture="t.png")))
+    return random.choice((None, Material("red"), red, green))
 
 
 def _blocks(random: Random, joint: Joint) -> dict[str, object]:
@@ -174,7 +174,7 @@ def urdf(robot: Robot) -> str:
     return "\n".join([f'<robot name="{robot.name}">', *links, *joints, *extensions, "</robot>", ""])
 
 
-_ATTRIBUTES = {"mass": "value", "axis": "xyz", "parent": "link", "child": "link", "rgba": "rgba", "texture": "filename"}
+_ATTRIBUTES = {"mass": "value", "axis": "xyz", "parent": "link", "child": "link", "rgba": "rgba"}
 """Fields that are elements with one attribute."""
 _TAGS = {"visuals": "visual", "collisions": "collision", "rgba": "color"}
 

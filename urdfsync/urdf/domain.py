@@ -56,8 +56,8 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 8
-    fits_since = 5
+    revision = 9
+    fits_since = 9
     warnings = WARNINGS
     options = Options
 

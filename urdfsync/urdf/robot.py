@@ -96,7 +96,6 @@ class Material(msgspec.Struct, frozen=True, gc=False):
 
     name: str = ""
     rgba: tuple[float, float, float, float] | None = None
-    texture: str | None = None
 
 
 class Visual(msgspec.Struct, frozen=True, gc=False):
@@ -139,15 +138,12 @@ class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaul
     """How the collisions of a link feel at the ground; None for what the ground itself says."""
 
     mu: float | None = None
-    mu2: float | None = None
-    """Friction in the second direction: of all directions `mu` counts."""
     kp: float | None = None
     """Stiffness of a point, in N/m."""
     kd: float | None = None
     """Its damping beside that of the ground, in N·s/m."""
     min_depth: float | None = None
     """How deep in the ground a point is without a force."""
-    max_vel: float | None = None
 
 
 class Link(msgspec.Struct, frozen=True, gc=False):

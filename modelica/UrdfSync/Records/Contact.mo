@@ -6,9 +6,6 @@ record Contact "How the shapes of a link feel at the ground"
   Real mu(unit = "1") = 0
     "Coefficient of friction, in all directions";
 
-  Real mu2(unit = "1") = 0
-    "That of the second direction; it has no effect";
-
   Modelica.Units.SI.TranslationalSpringConstant kp = 0
     "Stiffness of one point";
 
@@ -18,12 +15,9 @@ record Contact "How the shapes of a link feel at the ground"
   Modelica.Units.SI.Length minDepth = 0
     "Depth that a point may have without a force";
 
-  Modelica.Units.SI.Velocity maxVel = 0
-    "Greatest speed of a correction in a simulator with fixed steps; it has no effect";
-
   annotation (Documentation(info="<html>
 <p>
-What the URDF says of a link in <code>&lt;gazebo reference&gt;</code>, <code>&lt;contact&gt;</code> or <code>&lt;contact_coefficients&gt;</code>. Only links of which it
+What the URDF says of a link in <code>&lt;gazebo reference&gt;</code> or <code>&lt;contact&gt;</code>. Only links of which it
 says something have this record. The contacts of the link use those numbers that the URDF states, and the numbers of the
 <a href=\"modelica://UrdfSync.Contacts.Ground\">ground</a> for all others. The damping of the ground stays: simulators with fixed steps damp contacts by these steps, and the <code>kd</code> of many robots
 would let them bounce for seconds.

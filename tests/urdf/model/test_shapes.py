@@ -56,7 +56,7 @@ def shapes_of(
 
 @pytest.mark.parametrize(("material", "color", "opacity"), [
     (None, GREY, 1),
-    (Material("textured", texture="t.png"), GREY, 1),
+    (Material("textured"), GREY, 1),
     (Material(rgba=(1, 0.5, 0, 0.25)), (255, 128, 0), 0.25),
     (Material(rgba=(1.5, -0.25, 1e300, 7)), (255, 0, 255), 1),
 ])  # fmt: skip

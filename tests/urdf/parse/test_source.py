@@ -416,7 +416,7 @@ def test_materials_are_looked_up_through_the_whole_robot() -> None:
     assert materials(text) == [
         Material("inline", red),
         Material("inline", red),
-        Material("global", None, "a.png"),
+        Material("global"),
         Material("", red),
         None,
         None,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
+from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Transmission
 from urdfsync.urdf.validate import Finding
 
@@ -18,10 +18,11 @@ _REDUCTIONS = (
     "actuator/mechanical_reduction",
     "actuator/mechanicalReduction",
     "joint/mechanicalReduction",
-    "mechanicalReduction",  # of the PR2
 )
 """Elements of a transmission that hold its reduction; the first that is there counts."""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
+_STATES = ("position", "velocity", "acceleration", "effort")
+"""State interfaces of a joint that a model has."""
 
 
 class Drive(NamedTuple):
@@ -34,8 +35,6 @@ class Drive(NamedTuple):
     """The `<transmission>`, or the `<joint>` of a `<ros2_control>`."""
     transmission: Transmission | None = None
     command: Command | None = None
-    read: Sequence[Element] = ()
-    """What holds the gear's numbers, or the command."""
     is_coupled: bool = False
     """Whether the transmission has other joints, too."""
 
@@ -49,51 +48,39 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
     if element.tag == "ros2_control":
         transmissions = element.findall("transmission")
         for joint in element.findall("joint"):
-            names = {interface.get("name", "") for interface in joint.findall("command_interface")}
-            if names and (target := joint.get("name", "")):
-                command = next((name for name in _COMMANDS if name in names), None)
-                read = [one for one in joint.findall("command_interface") if one.get("name") == command]
-                yield Drive(reader.place(joint, f"{path} / joint {target}"), target, joint, None, command, read)
-    for one in transmissions:
-        joints = one.findall("joint")
-        is_coupled = len(joints) > 1
-        gear, read = (None, []) if is_coupled else _read_gear(reader, one, path)
+            interfaces = {interface.get("name", ""): interface for interface in joint.findall("command_interface")}
+            reader.used.update(one for one in joint.findall("state_interface") if one.get("name") in _STATES)
+            if interfaces and (name := joint.get("name", "")):
+                command = next((command for command in _COMMANDS if command in interfaces), None)
+                if command:
+                    reader.used.add(interfaces[command])
+                yield Drive(reader.place(joint, f"{path} / joint {name}"), name, joint, None, command)
+    for transmission in transmissions:
+        joints = transmission.findall("joint")
+        gear = _read_gear(reader, transmission, path) if len(joints) == 1 else None
         for joint in joints:
-            if target := joint.get("name", ""):
-                place = reader.place(joint, f"{path} / joint {target}")
-                yield Drive(place, target, one, gear, None, read, is_coupled)
-        if is_coupled:
+            if name := joint.get("name", ""):
+                place = reader.place(joint, f"{path} / joint {name}")
+                yield Drive(place, name, transmission, gear, None, len(joints) > 1)
+        if len(joints) > 1:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
-            reader.add(one, "coupled-transmission", message)
+            reader.add(transmission, "coupled-transmission", message)
 
 
-def _read_gear(reader: Reader, element: Element, path: str) -> tuple[Transmission | None, list[Element]]:
-    """Return reduction, offset and rotor of a transmission, None if they say nothing, and what they were read from."""
-    parts: dict[str, Element] = {}  # ElementTree's own paths know no prefix without a namespace
-    for child in element:
-        parts.setdefault(child.tag, child)
-        for one in child:
-            parts.setdefault(f"{child.tag}/{one.tag}", one)
-    read: list[Element] = []
+def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
+    """Return reduction, offset and rotor of a transmission; None if it says nothing of them."""
 
-    def number(place: str, nothing: float | None = None) -> float | None:
-        if (found := parts.get(place)) is None:
-            return None
-        text = found.get("value") or found.text or ""
-        try:
-            (value,) = parse_numbers(text, 1)
-        except ValueError as error:
-            reader.add(found, "bad-transmission", f"{path}: <{found.tag}> {quoted(text.strip())} {error}")
-            return None
-        if value == nothing:
-            reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
-            return None
-        read.append(found)
-        return value
+    def number(*places: str) -> float | None:
+        numbers = reader.numbers(element, places, path, "bad-transmission")
+        return numbers[0] if numbers else None
 
-    reduction = number(next(filter(parts.__contains__, _REDUCTIONS), ""), nothing=0)
+    reduction = number(*_REDUCTIONS)
+    if reduction == 0:
+        reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
     gear = Transmission(reduction or 1.0, number("joint/offset") or 0.0, number("actuator/drake:rotor_inertia"))
-    return None if gear == Transmission() else gear, read
+    reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
+    reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
+    return None if gear == Transmission() else gear
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
@@ -107,19 +94,13 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
     for drive in drives:
         actuated.add(drive.joint)
         joint = by_name.get(drive.joint)
-        if drive.element.tag == "joint":
-            if not drive.command or not joint or joint.mimic:
-                continue
-            if commands.setdefault(drive.joint, drive.command) == drive.command:
-                for interface in drive.read:
-                    del interface.attrib["name"]
-        elif drive.read and gears.setdefault(drive.joint, drive).transmission != drive.transmission:
+        if joint and not drive.is_coupled:
+            reader.used.add(drive.element)
+        if joint and drive.command and not joint.mimic:
+            commands.setdefault(drive.joint, drive.command)
+        if drive.transmission and gears.setdefault(drive.joint, drive).transmission != drive.transmission:
             message = f"joint {drive.joint!r} has another gear, and the first counts"
             reader.extend([Finding("duplicate-element", drive.path, message)])
-        elif joint and not drive.is_coupled:
-            reader.modelled.add(drive.element)
-            for number in drive.read:
-                reader.show(number, "value")
     return [
         msgspec.structs.replace(
             joint,

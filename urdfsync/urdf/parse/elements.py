@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import get_args
 from xml.etree.ElementTree import Element
 
@@ -69,7 +69,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
         for child in others:
-            reader.extension(child, place, (), owner)
+            reader.keep(child, place, (), owner)
         if around is not None and around.attrib:
             reader.expect(around, f"{place} / geometry", ())
         geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind], owner)
@@ -84,14 +84,11 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
 def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
     """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
     reader.expect(element, path, ("name",))
-    children = reader.children(element, path, ("color", "texture"), owner)
-    for child, attribute in ((children.get("color"), "rgba"), (children.get("texture"), "filename")):
-        if child is not None:
-            reader.expect(child, f"{path} / {child.tag}", (attribute,))
-            reader.leave(child, path, owner)
-    color, texture = children.get("color"), children.get("texture")
+    color = reader.children(element, path, ("color",), owner).get("color")
     rgba = None
     if color is not None:
+        reader.expect(color, f"{path} / color", ("rgba",))
+        reader.children(color, path, (), owner)
         shown = f"{path} / color: rgba={quoted(color.get('rgba', ''))}"
         try:
             numbers = parse_numbers(color.get("rgba", ""), 4)
@@ -102,14 +99,16 @@ def read_material(reader: Reader, element: Element, path: str, owner: str = "") 
             rgba = red, green, blue, opacity
             if rgba != numbers:
                 reader.add(color, "color-range", f"{shown} is not between 0 and 1, and is cut off there")
-    return Material(element.get("name", ""), rgba, None if texture is None else texture.get("filename") or None)
+    return Material(element.get("name", ""), rgba)
 
 
-def resolve_materials(reader: Reader, links: Mapping[str, Link], materials: dict[str, Material]) -> tuple[Link, ...]:
+def resolve_materials(
+    reader: Reader, links: Mapping[str, Link], materials: dict[str, Material], defined: Collection[str]
+) -> tuple[Link, ...]:
     """Return the links with their materials looked up by name through the whole robot; keys are paths.
 
     As in urdfdom, the first definition of a name counts: those of the robot, which are `materials`, come before those
-    in visuals.
+    in visuals. `defined` are the names that have a definition, be it without a colour.
     """
     inline = {
         f"{path} / visual {number} / material": visual.material
@@ -121,13 +120,13 @@ def resolve_materials(reader: Reader, links: Mapping[str, Link], materials: dict
         return tuple(links.values())
     table: dict[str, Material] = {}
     for path, material in (materials | inline).items():
-        if not material.name or (material.rgba is None and material.texture is None):
+        if not material.name or material.rgba is None:
             continue
         if table.setdefault(material.name, material) != material:
             message = f"material {material.name!r} is defined again, with other values; the first definition counts"
             reader.extend([Finding("material-redefined", path, message)])
     for path, material in inline.items():
-        if material.name and material.name not in table:
+        if material.name and material.name not in defined:
             reader.extend([Finding("unknown-material", path, f"material {material.name!r} is not defined")])
 
     def resolved(visual: Visual) -> Visual:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar, get_args
 from xml.etree.ElementTree import Element
 
@@ -20,8 +20,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
-from urdfsync.urdf.parse.xml import canonical, is_of_xml
-from urdfsync.urdf.robot import Extension, JointType, Vector
+from urdfsync.urdf.robot import JointType, Vector
 from urdfsync.urdf.validate import Finding, diagnostic, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
@@ -53,12 +52,10 @@ class Reader:
         """By path: see `RobotReading`."""
         self.diagnostics: list[Diagnostic] = []
         """Without the name of the file."""
-        self.modelled = set[Element]()
-        """Of `kept` and the elements in them, those that something in the package shows."""
         self.kept: list[tuple[str, Element]] = []
         """The elements that no struct asks for, each with its owner."""
-        self.unknown: list[tuple[str, Element]] = []
-        """Attributes that URDF does not know, each with its element."""
+        self.used = set[Element]()
+        """Of the elements in `kept`, and of those in them, the ones that something else reads."""
         self.allowed: Collection[str] = ()
         """Codes of errors that are warnings here."""
 
@@ -101,16 +98,13 @@ class Reader:
         self.lines.setdefault(path, self._lines_of_elements[element])
         return path
 
-    def children(
-        self, element: Element, path: str, tags: Collection[str], owner: str | None = None
-    ) -> dict[str, Element]:
+    def children(self, element: Element, path: str, tags: Collection[str], owner: str) -> dict[str, Element]:
         """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`."""
         found: dict[str, Element] = {}
         for child in element:
             tag = child.tag
             if tag not in tags:
-                if owner is not None:
-                    self.extension(child, path, tags, owner)
+                self.keep(child, path, tags, owner)
             elif tag in _REPEATED:
                 continue
             elif tag not in found:
@@ -120,65 +114,72 @@ class Reader:
                 self.add(child, "duplicate-element", f"{path} has another <{tag}>, and the first counts")
         return found
 
-    def extension(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
+    def keep(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
         if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
         self.kept.append((owner, child))
 
-    def leave(self, element: Element, path: str, owner: str | None) -> None:
-        """Keep all that is in an element which has only attributes."""
-        for child in element if owner is not None else ():
-            self.extension(child, path, (), owner or "")
+    def unmodelled(self) -> Iterator[tuple[str, Element]]:
+        """Yield what nothing reads, with its owner: elements as a whole, or of one that is read, those in it."""
+        waiting = self.kept[::-1]
+        while waiting:
+            owner, element = waiting.pop()
+            if element not in self.used:
+                yield owner, element
+                continue
+            name = element.get("name") or element.get("reference", "")
+            waiting += [(owner or f"{element.tag} {name}".rstrip(), child) for child in reversed(element)]
 
-    def show(self, element: Element, *attributes: str) -> None:
-        """Note that the package shows what the text and some attributes of an element say."""
-        self.modelled.add(element)
-        for name in attributes:
-            element.attrib.pop(name, None)
+    def find(self, element: Element, way: str) -> Element | None:
+        """Return the first element at the end of a way of tags below an element, and note that it is read."""
+        # ElementTree's own paths know no prefix without a namespace, such as that of drake:gear_ratio
+        tag, _, rest = way.partition("/")
+        for child in element:
+            if child.tag == tag and (found := self.find(child, rest) if rest else child) is not None:
+                self.used.add(child)
+                return found
+        return None
 
-    def take_modelled(self) -> None:
-        """Take what is modelled out of the elements that are kept: a change there is none of their text."""
-        before = [(place, len(place[1])) for place in self.kept]
-        self.kept = [
-            (owner, element)
-            for (owner, element), parts in before
-            if self._has_rest(element) and (element.tag != "gazebo" or len(element) or not parts)
-        ]
+    def numbers(
+        self, element: Element, places: Iterable[str], path: str, code: str, count: int = 1
+    ) -> tuple[float, ...] | None:
+        """Return the numbers at the first of some places; None if there are none or, after a warning, faulty ones.
 
-    def _has_rest(self, element: Element) -> bool:
-        """Take what is modelled out of an element; return whether anything is left of it."""
-        for child in list(element):
-            if not self._has_rest(child):
-                element.remove(child)
-        has_attributes = any(name != "name" and not is_of_xml(name) for name in element.attrib)
-        return element not in self.modelled or len(element) > 0 or has_attributes
-
-    def extensions(self) -> tuple[Extension, ...]:
-        """Return what is kept as text."""
-        return tuple(Extension(owner, element.tag, canonical(element)) for owner, element in self.kept)
+        A place is a way to an element, of which the attribute behind `@` counts, else `value`, else the text.
+        """
+        for place in places:
+            way, _, attribute = place.partition("@")
+            holder = self.find(element, way) if way else element
+            if holder is None or (attribute and attribute not in holder.attrib):
+                continue
+            text = holder.get(attribute or "value") or holder.text or ""
+            try:
+                return parse_numbers(text, count)
+            except ValueError as error:
+                shown = f"{attribute}={quoted(text)}" if attribute else quoted(text.strip())
+                self.add(holder, code, f"{path}: <{holder.tag}> {shown} {error}")
+                return None
+        return None
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
-        """Warn about attributes that look like misspelt ones of `attributes`; note all others that have no meaning."""
+        """Warn about attributes that look like misspelt ones of `attributes`; others have no effect."""
         for name in element.attrib:
-            if name in attributes or is_of_xml(name):
+            if name in attributes or ":" in name or name == "xmlns":
                 continue
-            others = [known for known in attributes if known not in element.attrib]
-            if ":" not in name and (hint := perhaps(name, others)):
+            if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
                 self.add(element, "unknown-attribute", message, hint)
-            else:
-                self.unknown.append((name, element))
 
-    def read(self, element: Element, path: str, struct: type[Values], owner: str | None = None, **given: Any) -> Values:
+    def read(self, element: Element, path: str, struct: type[Values], owner: str, **given: Any) -> Values:
         """Return a struct from attributes and children, but for the fields that are `given`."""
         attributes, children, required = _schema(struct)
         self.expect(element, path, attributes)
         own = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
         if not children:
             if len(element):
-                self.leave(element, path, owner)
+                self.children(element, path, (), owner)
             return struct(*own)
         values = {**given, **dict(zip(attributes, own, strict=True))}
         found = self.children(element, path, children, owner)
@@ -190,7 +191,7 @@ class Reader:
             if name in _ONE_VALUE:
                 self.expect(child, place, (_ONE_VALUE[name],))
                 if len(child):
-                    self.leave(child, place, owner)
+                    self.children(child, place, (), owner)
                 values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
             else:
                 if name == "origin" and "quat_xyzw" in child.attrib:
@@ -214,7 +215,6 @@ class Reader:
             self.add(origin, "bad-number", f"{path}: quat_xyzw={quoted(origin.attrib['quat_xyzw'])} has no direction")
         else:
             origin.set("rpy", " ".join(map(repr, roll_pitch_yaw(quaternion))))
-            del origin.attrib["quat_xyzw"]  # else it would be told as not modelled
 
     def _value(self, element: Element, path: str, name: str, count: int, default: Any) -> Any:
         text, is_required = element.get(name), default is msgspec.NODEFAULT

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
+from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import Camera, Joint, Lidar, Origin, Sensor, SensorKind
 
 _TYPES: Mapping[str, SensorKind] = {
@@ -49,6 +49,10 @@ _FRAMES = ("child", "parent", "sensor")
 _DIRECTIONS = ("child_to_parent", "parent_to_child")
 _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1
+_PARTS = ("camera", "ray", "lidar")
+"""Elements of a sensor that hold these fields, where they are not in its own."""
+
+_Numbers = TypeVar("_Numbers", Camera, Lidar)
 
 
 class _Found(NamedTuple):
@@ -118,74 +122,69 @@ def _elements(root: Element) -> Iterator[tuple[str, Element]]:
 
 def _read(reader: Reader, found: _Found, name: str) -> Sensor:
     element, path = found.element, f"sensor {found.name}"
-    reader.modelled.add(element)
-    if element.get("type") == found.kind:
-        del element.attrib["type"]
+    reader.used.add(element)
     for child in element:
         words = child.get("name", "")
-        is_frame = child.tag == "param" and words == "frame_id"
         is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == found.kind
-        if child.tag == "parent" or is_frame or is_state:
-            reader.show(child, "link" if child.tag == "parent" else "name")
-
-    def numbers(part: Element, places: Sequence[str], count: int = 1) -> tuple[float, ...] | None:
-        for place in places:
-            where, _, attribute = place.partition("@")
-            holder = part.find(where) if where else part
-            text = None if holder is None else holder.get(attribute) if attribute else holder.text
-            if holder is None or text is None:
-                continue
-            try:
-                values = parse_numbers(text, count)
-            except ValueError as error:
-                reader.add(holder, "bad-sensor", f"{path}: <{holder.tag}> {quoted(text.strip())} {error}")
-                continue
-            while where:
-                reader.modelled.update(part.findall(where))
-                where = where.rpartition("/")[0]
-            holder.attrib.pop(attribute, None)
-            return values
-        return None
-
-    def fields(places: Mapping[str, Sequence[str]], tags: Sequence[str]) -> dict[str, float]:
-        part = next((child for child in element if child.tag in tags), element)
-        reader.modelled.add(part)
-        values = {field: value[0] for field, ways in places.items() if (value := numbers(part, ways))}
-        for field in values.keys() & _COUNTS:
-            if not (values[field].is_integer() and 0 <= values[field] <= _LARGEST_INTEGER):
-                message = f"{path}: {field.replace('_', ' ')} {values.pop(field):g} is no number of things"
-                reader.add(part, "bad-sensor", message)
-        return values
-
-    pose, place, force = element.find("pose"), element.find("origin"), element.find("force_torque")
-    origin = Origin()
-    if pose is not None and (values := numbers(element, ("pose",), 6)):
-        turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
-        origin = Origin((values[0], values[1], values[2]), (values[3] * turn, values[4] * turn, values[5] * turn))
-        if (other := pose.get("relative_to")) and other != found.at:
-            message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
-            reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
-        reader.show(pose, "degrees", "relative_to")
-    if place is not None:
-        origin = reader.read(place, f"{path} / origin", Origin)
-        reader.show(place, *place.keys())  # the others are told already
-    rate = numbers(element, ("update_rate", "@update_rate"))
-    sensor = Sensor(name, found.kind, found.at, origin, rate[0] if rate else 0.0)
+        if is_state or child.tag == "parent" or (child.tag == "param" and words == "frame_id"):
+            reader.used.add(child)
+    rate = reader.numbers(element, ("update_rate", "@update_rate"), path, "bad-sensor")
+    sensor = Sensor(name, found.kind, found.at, _read_origin(reader, found, path), rate[0] if rate else 0.0)
     match found.kind:
         case "camera":
-            return msgspec.structs.replace(sensor, camera=Camera(**fields(_CAMERA, ("camera",))))
+            return msgspec.structs.replace(sensor, camera=_read_fields(reader, element, path, Camera, _CAMERA))
         case "lidar":
-            return msgspec.structs.replace(sensor, lidar=Lidar(**fields(_LIDAR, ("ray", "lidar"))))
+            return msgspec.structs.replace(sensor, lidar=_read_fields(reader, element, path, Lidar, _LIDAR))
         case "force_torque":
-            parts = [] if force is None else [force, *force.findall("frame"), *force.findall("measure_direction")]
-            reader.modelled.update(parts)
-            said = {part.tag: (part.text or "").strip() for part in reversed(parts)}
-            frame, way = said.get("frame") or _FRAMES[0], said.get("measure_direction") or _DIRECTIONS[0]
-            for text, known in ((frame, _FRAMES), (way, _DIRECTIONS)):
-                if text not in known:
-                    message = f"{path}: {quoted(text)} is none of {', '.join(known)}: the {known[0]} counts"
-                    reader.add(element, "bad-sensor", message)
-            if frame != "sensor":
-                sensor = msgspec.structs.replace(sensor, origin=Origin())
-            return msgspec.structs.replace(sensor, in_parent=frame == "parent", on_child=way == "parent_to_child")
+            return _read_wrench(reader, element, path, sensor)
     return sensor
+
+
+def _read_origin(reader: Reader, found: _Found, path: str) -> Origin:
+    """Return the place of a sensor on its link: the `<pose>` of gazebo, or the `<origin>` of URDF."""
+    pose, origin = reader.find(found.element, "pose"), reader.find(found.element, "origin")
+    if origin is not None:
+        return reader.read(origin, f"{path} / origin", Origin, path)
+    numbers = reader.numbers(found.element, ("pose",), path, "bad-sensor", 6)
+    if pose is None or numbers is None:
+        return Origin()
+    if (other := pose.get("relative_to")) and other != found.at:
+        message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
+        reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
+    turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
+    x, y, z, roll, pitch, yaw = numbers
+    return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))
+
+
+def _read_fields(
+    reader: Reader, element: Element, path: str, struct: type[_Numbers], places: Mapping[str, Sequence[str]]
+) -> _Numbers:
+    """Return the numbers of a camera or laser scanner; those that the source does not say are 0."""
+    part = next((child for child in element if child.tag in _PARTS), element)
+    reader.used.add(part)
+    values = {}
+    for field, ways in places.items():
+        (value,) = reader.numbers(part, ways, path, "bad-sensor") or (0.0,)
+        if field in _COUNTS and not (value.is_integer() and 0 <= value <= _LARGEST_INTEGER):
+            message = f"{path}: {field.replace('_', ' ')} {value:g} is no number of things"
+            reader.add(part, "bad-sensor", message)
+            continue
+        values[field] = value
+    return struct(**values)
+
+
+def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:
+    """Return a sensor of force and torque with the axes and the direction of what it shows."""
+    words = []
+    for way, known in (("force_torque/frame", _FRAMES), ("force_torque/measure_direction", _DIRECTIONS)):
+        part = reader.find(element, way)
+        word = ((part.text if part is not None else "") or "").strip() or known[0]
+        if word not in known:
+            message = f"{path}: {quoted(word)} is none of {', '.join(known)}: the {known[0]} counts"
+            reader.add(element, "bad-sensor", message)
+        words.append(word)
+    frame, way = words
+    origin = sensor.origin if frame == "sensor" else Origin()
+    return msgspec.structs.replace(
+        sensor, origin=origin, in_parent=frame == "parent", on_child=way == "parent_to_child"
+    )

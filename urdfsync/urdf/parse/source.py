@@ -7,24 +7,28 @@ Where a robot can be read in one sensible way although something is amiss, that 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf import validate
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.contacts import take_contacts
+from urdfsync.urdf.parse.contacts import read_contacts
 from urdfsync.urdf.parse.drives import read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.sensors import read_sensors
-from urdfsync.urdf.parse.unmodelled import is_loop, note_unmodelled
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import Extension, Robot
 
 _MODELLED = ("link", "joint", "material")
+_LOOPS = ("loop_joint", "drake:ball_constraint")
+"""Elements that join two links of the tree; gazebo has a <joint> for it."""
+_LONGEST, _KINDS = 60, 12
+"""Characters of a tag, and so many tags, in the note on what is not modelled; its details have the whole."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
@@ -61,8 +65,19 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
-    unmodelled = summary(note_unmodelled(reader, document.root, robot), file)
-    return RobotReading(robot, diagnostics, reader.lines, unmodelled)
+    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
+
+
+def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
+    """Yield one note on all elements that are in no model, each with its line as detail; none if there are none."""
+    lines = sorted((reader.line(part), part.tag, part.get("name") or owner) for owner, part in reader.unmodelled())
+    counts = Counter(tag for _, tag, _ in lines)
+    said = [f"{count} <{cut(tag, _LONGEST)}>" for tag, count in counts.items()]
+    if len(said) > _KINDS:
+        said[_KINDS:] = [f"{len(said) - _KINDS} other kinds of elements"]
+    if said:
+        details = tuple(f"line {line}: <{tag}> {name}".rstrip() for line, tag, name in lines)
+        yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(said)}", lines[0][0], details=details)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -117,11 +132,10 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
-    contacts = take_contacts(reader, root)
     for child in root:
-        if is_loop(child):
-            joint = child.find("joint") if child.tag == "gazebo" else child
-            message = f"<{child.tag}> {'' if joint is None else joint.get('name', '')}".rstrip()
+        joint = child.find("joint") if child.tag == "gazebo" else child if child.tag in _LOOPS else None
+        if joint is not None:
+            message = f"<{child.tag}> {joint.get('name', '')}".rstrip()
             reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
         elif child.tag == "drake:joint":
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
@@ -129,7 +143,10 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
-            reader.extension(child, "robot", _MODELLED, "")
+            reader.keep(child, "robot", _MODELLED, "")
+        if child.tag in ("gazebo", "ros2_control"):
+            reader.used.add(child)  # each part of it speaks for itself
+    contacts = read_contacts(reader, root)
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         found = root.findall(tag)
@@ -147,10 +164,11 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     joints = with_drives(reader, (joint for joint in found_joints if joint and joint.name), drives)
     complete = len(links) == len(found_links) and len(joints) == len(found_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
-    links_with_materials = resolve_materials(reader, by_path, materials)
+    defined = {material.get("name", "") for material in root.iter("material") if len(material)}
+    links_with_materials = resolve_materials(reader, by_path, materials, defined)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
-    reader.take_modelled()
-    robot = Robot(name, links_with_materials, tuple(joints), reader.extensions(), sensors)
+    extensions = tuple(Extension(owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled())
+    robot = Robot(name, links_with_materials, tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         known = {joint.name for joint in joints}

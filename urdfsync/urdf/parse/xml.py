@@ -114,11 +114,6 @@ def parse(content: bytes) -> Document:
     return document
 
 
-def is_of_xml(attribute: str) -> bool:
-    """Return whether an attribute is one of XML itself, such as the declaration of a prefix."""
-    return attribute == "xmlns" or attribute.startswith(("xmlns:", "xml:"))
-
-
 def canonical(element: Element) -> str:
     """Return the text of an element without comments and indentation, with its attributes in order of their names.
 

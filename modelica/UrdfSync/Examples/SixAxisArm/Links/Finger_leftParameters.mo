@@ -73,8 +73,7 @@ record Finger_leftParameters "Numbers of link \"finger_left\""
     "Collision 2: \"blade\"";
 
   UrdfSync.Records.Contact contact(
-    mu = 1.1,
-    mu2 = 1.1)
+    mu = 1.1)
     "How the link feels at the ground";
 
   annotation (Documentation(info="<html>
