@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 
 from urdfsync import cli
 from urdfsync.check.cache import LIMIT
@@ -16,6 +18,7 @@ from urdfsync.check.contents import MOST_BYTES
 from urdfsync.check.libraries import NEXT, OLDEST
 from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
+from urdfsync.engine.result import Exit
 from urdfsync.simulate.motion import MOST_ROWS
 from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
 from urdfsync.simulate.results import TOLERANCE as SIMULATED_TO
@@ -24,7 +27,7 @@ from urdfsync.urdf.options import Options
 
 REPOSITORY = Path(__file__).parents[1]
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
-PAGES = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
+PAGES = [*sorted(REPOSITORY.glob("*.md")), *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
 def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
@@ -39,8 +42,28 @@ def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_between_pages_lead_somewhere(page: Path) -> None:
-    targets = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
-    assert [target for target in targets if "://" not in target and not (page.parent / target).exists()] == []
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)#?([^)]*)\)", page.read_text(encoding="utf-8")):
+        if "://" not in target:
+            file = page.parent / target if target else page
+            assert file.exists(), target
+            assert not anchor or anchor in anchors(file), f"{target}#{anchor}"
+
+
+def anchors(page: Path) -> set[str]:
+    """The names that GitHub gives to the headings of a page."""
+    text = re.sub(r"^( *)```.*?^\1```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return {
+        re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in re.findall("^#+ (.*)$", text, re.MULTILINE)
+    }
+
+
+def test_the_first_command_of_the_readme_prints_what_stands_below_it(folder: Path, execute: Execute) -> None:
+    page = (REPOSITORY / "README.md").read_text(encoding="utf-8")
+    command, printed = re.findall(r"^```(?:sh|text)\n(.*?)^```", page, re.MULTILINE | re.DOTALL)[:2]
+    init, build = (shlex.split(part)[1:] for part in command.split(" && ")[-2:])
+    execute("init", str(ARM), code=Exit.IN_STEP)
+    assert init == ["init", f"../{ARM.relative_to(REPOSITORY).as_posix()}"]
+    assert execute(*build, code=Exit.IN_STEP).out.endswith(printed)
 
 
 def test_commands_install_what_there_is() -> None:
