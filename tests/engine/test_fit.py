@@ -28,9 +28,8 @@ def edit(path: Path, old: str, new: str) -> None:
 
 @pytest.fixture
 def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
-    """An arm that was built; what is known of fits is forgotten."""
+    """An arm that was built."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path.parent / "cache"))
     Path("urdfsync.toml").write_text(CONFIG)
     write_source()
     execute("build")
@@ -132,13 +131,9 @@ def test_a_library_that_uses_names_may_have_anything(arm: Path, execute: Execute
     assert execute("build").err == ""
 
 
-def test_what_is_remembered_of_fits_changes_no_finding(arm: Path, execute: Execute) -> None:
-    """Neither where the file itself changes, nor where something that it uses does."""
+def test_what_an_edited_file_uses_of_another_is_looked_at_whichever_changes(arm: Path, execute: Execute) -> None:
     edit(MODEL, "equation", "  Real mine = elbow.extra;\n\nequation")
     edit(ELBOW, "\nequation", "\n  Real extra = 1;\n\nequation")
-    for _ in range(2):
-        assert execute("build").err == ""
-    edit(ELBOW, "Real extra = 1", "Real extra = 2")
     assert execute("build").err == ""
     edit(ELBOW, "Real extra", "Real other")
     assert "Elbow has no `extra`" in execute("build", code=3).err
@@ -146,3 +141,24 @@ def test_what_is_remembered_of_fits_changes_no_finding(arm: Path, execute: Execu
     assert execute("build").err == ""
     (arm / ELBOW).rename("Elbow.mo")
     assert "Elbow has no `extra`" in execute("build", code=3).err
+
+
+def test_statements_as_generated_are_looked_at_where_a_declaration_is_gone(arm: Path, execute: Execute) -> None:
+    """Nobody touched the connections that need it."""
+    text = MODEL.read_text()
+    block = text[text.index("  replaceable Joints.Elbow elbow") :].partition(";\n")[0]
+    MODEL.write_text(text.replace(f"{block};\n", ""))
+    assert "Arm has no `elbow`" in execute("build", code=3).err
+    MODEL.write_text(text)
+    edit(ELBOW, "PartialRevoluteJoint", "PartialLink")
+    assert "Elbow has no `frame_b`" in execute("build", code=3).err
+
+
+def test_an_edit_with_a_fault_moves_with_its_element_and_stays_broken(arm: Path, execute: Execute) -> None:
+    edit(ELBOW, "\nequation", "\n  Real mine = revolute.nothing + nowhere;\n\nequation")
+    assert "Elbow has no `nowhere`" in execute("build", code=3).err
+    write_source("wrist")
+    printed = execute("build", code=3)
+    assert "Wrist has no `nowhere`" in printed.err
+    assert "conflict" not in printed.out
+    assert "nowhere" in (ARM / "Joints/Wrist.mo").read_text()

@@ -47,8 +47,6 @@ class UserCache:
         self.folder = folder
         self.libraries, self.workspaces = folder / "libraries", folder / "work"
         self.compiler, self.results = folder / "rumoca", folder / "results"
-        self.fits = folder / "fits"
-        """What builds know of edited files (`engine.fit_cache`)."""
 
     @classmethod
     def default(cls) -> UserCache:
@@ -120,7 +118,7 @@ class UserCache:
 
         That is what is in folders of ours, and each file of the compiler but for its locks.
         """
-        for folder in (self.libraries, self.workspaces, self.results, self.fits, self.compiler):
+        for folder in (self.libraries, self.workspaces, self.results, self.compiler):
             if folder.is_symlink():
                 continue
             for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too

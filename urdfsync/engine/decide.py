@@ -12,7 +12,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
-from urdfsync.engine.fit import LostNames, Misfit, Package, find_misfits
+from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.parents import SharedFile, merge_order
@@ -188,14 +188,14 @@ def _without_misfits(
     if not merged:
         return conflicts
     package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
-    new = package.misfits(merged.keys(), lost=LostNames(package))
+    new = package.misfits(merged.keys())
     if not new:
         return conflicts
     now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
-    old = {(one.key, one.name) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
+    old = {(one.key, one.fault) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
     sound = dict(conflicts)
     for key, conflict in conflicts.items():
-        misfits = [one for one in new if one.key == key and (conflict.origin or key, one.name) not in old]
+        misfits = [one for one in new if one.key == key and (conflict.origin or key, one.fault) not in old]
         if misfits and conflict.merged(choices.get(key)) == merged.get(key) != conflict.mine:
             finding = misfits[0].finding
             merge = conflict.merge.rejected if conflict.merge else None

@@ -11,11 +11,12 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.fit import diagnose
+from urdfsync.engine.fit import Misfit
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
 from urdfsync.files import shown
+from urdfsync.modelica.files import files_that_use
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.record import Choice
 from urdfsync.state.store import Store
@@ -32,7 +33,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
     """Return all findings of a build in the order of their places."""
     inputs, actions = generation.inputs, decision.actions
     found = [*generation.diagnostics, *inputs.parents.diagnostics]
-    found += diagnose(generation, decision.misfits)
+    found += _diagnose(generation, decision.misfits)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -46,6 +47,37 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         found += _changed_connectors(generation)
     found = list(map(inputs.source.locate, found))
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
+
+
+def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Diagnostic]:
+    """Yield one finding for all places in a file that have the same fault: an error if the package is broken.
+
+    And a note if names are known that can take the places of old ones.
+    """
+    inputs, places = generation.inputs, dict[tuple[object, ...], list[Misfit]]()
+    outside = {one.file for one in misfits if not one.key}
+    folders = {inputs.folder.rpartition("/")[2], inputs.old_folder.rpartition("/")[2]}
+    users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
+    for one in misfits:
+        if one.key or one.file in users:
+            what = one.use.part if one.use else (one.finding.code, one.finding.message, one.finding.line)
+            places.setdefault((one.file, what), []).append(one)
+    for first, *more in places.values():
+        finding = first.finding
+        lines = sorted({one.finding.line for one in more} - {finding.line})
+        also = f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}" if lines else ""
+        yield msgspec.structs.replace(
+            finding,
+            severity=Severity.ERROR if first.is_broken else Severity.WARNING,
+            file=shown(first.file),
+            hint="; ".join(filter(None, (finding.hint, also))),
+        )
+    renamed = {one.renamed: one for group in places.values() for one in reversed(group) if one.renamed}
+    if renamed:
+        command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(renamed))))
+        message, place = "your files can get the new names", [*renamed.values()][-1]
+        hint = f"`{command}` shows the lines, and writes them if you agree"
+        yield Diagnostic(Severity.NOTE, "rename-uses", message, shown(place.file), place.finding.line, hint=hint)
 
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:

@@ -13,7 +13,7 @@ from urdfsync.engine.fit import Misfit, Package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_names import new_name, new_names
+from urdfsync.engine.package_names import known_names, new_name, new_names
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import replace_words
 from urdfsync.modelica.scopes import Scopes
@@ -49,7 +49,7 @@ def rename_uses(
     for robot in robots:
         generation = generate_robot(inspect(config, robot, options))
         decision = decide_package(generation)
-        unknown -= _known(unknown, Package(generation, decision.actions, decision.texts))
+        unknown -= _known(unknown, generation)
         if not decision.is_complete:
             conflicting.append(robot.name)
             continue
@@ -64,9 +64,9 @@ def rename_uses(
     )
 
 
-def _known(names: Collection[str], package: Package) -> set[str]:
+def _known(names: Collection[str], generation: Generation) -> set[str]:
     """Return those of the names with which a name in the package begins."""
-    known = {name.lower() for name in package.names()} if names else set()
+    known = {name.lower() for name in known_names(generation)} if names else set()
     return {name for name in names if any(one.startswith(name.lower()) for one in known)}
 
 
@@ -126,7 +126,7 @@ def _is_users(name: str, owner: Node | None, scopes: Scopes, package: Package) -
         if node is not None and node not in seen:
             seen.add(node)
             component = node.components.get(name)
-            if component and package.is_users(node.file) and "redeclare" not in component.prefixes:
+            if component and package.is_users(Path(node.file)) and "redeclare" not in component.prefixes:
                 return True
             waiting += [node.parent, *(base.node for base in scopes.bases(node))]
     return False

@@ -23,10 +23,12 @@ def with_within(text: str, name: str) -> str:
     return text[: tokens[0].start] + within(name) + text[tokens[end].start + 1 :]
 
 
-def check_class_file(text: str, path: PurePosixPath, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
+def check_class_file(
+    text: str, path: PurePosixPath, name: str, stored: StoredText | None = None
+) -> tuple[StoredText | None, list[Diagnostic]]:
     """Check one file; returns what it declares, None if it can't be read, and findings without their file.
 
-    `name` is the full name of the class that the file is for.
+    `name` is the full name of the class that the file is for; `stored` is the text, if it was parsed before.
     """
     said: list[Diagnostic] = []
 
@@ -36,7 +38,7 @@ def check_class_file(text: str, path: PurePosixPath, name: str) -> tuple[StoredT
     if text.startswith("\ufeff"):
         hint = "save it without: some compilers refuse it"
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
-    found = parse(text)
+    found = stored or parse(text)
     if found.is_broken:  # only the first place is told, since others may follow from it
         breaking = [fault for fault in found.faults if not fault.is_repetition]
         first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))

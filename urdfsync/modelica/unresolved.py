@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Collection, Container, Iterable, Iterator
+from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from typing import NamedTuple
 
 from urdfsync.modelica.classes import OPAQUE, Node, Types
@@ -68,15 +68,20 @@ class Unresolved(NamedTuple):
 
 
 def unresolved(
-    node: Node, scopes: Scopes, *, all_libraries: bool = False, lost: Container[str] = ()
+    node: Node,
+    scopes: Scopes,
+    *,
+    all_libraries: bool = False,
+    lost: Callable[[str], bool] | None = None,
+    passed: Container[int] = (),
 ) -> Iterator[Unresolved]:
     """Yield all that is wrong with names in a class and in the classes inside of it.
 
     Nothing is said of what seems to be in a library that is not at hand, nor of an element that a class may inherit
-    from there, unless it is a `lost` name. `all_libraries` tells that all libraries are known by name: another one is
-    missing.
+    from there, unless its name is `lost`. `all_libraries` tells that all libraries are known by name: another one is
+    missing. Components in the lines `passed` are right.
     """
-    yield from _Walk(scopes, all_libraries, lost)._class(node)
+    yield from _Walk(scopes, all_libraries, lost, passed)._class(node)
 
 
 def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
@@ -89,8 +94,10 @@ def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
 
 
 class _Walk:
-    def __init__(self, scopes: Scopes, all_libraries: bool, lost: Container[str]) -> None:
-        self._scopes, self._all_libraries, self._lost = scopes, all_libraries, lost
+    def __init__(
+        self, scopes: Scopes, all_libraries: bool, lost: Callable[[str], bool] | None, passed: Container[int]
+    ) -> None:
+        self._scopes, self._all_libraries, self._lost, self._passed = scopes, all_libraries, lost, passed
 
     def _class(self, node: Node) -> Iterator[Unresolved]:
         scopes, definition = self._scopes, node.definition
@@ -108,7 +115,8 @@ class _Walk:
         for name in (name for one in definition.imports for name in one.names.values() or (one.name,)):
             yield from self._missing(name, scopes.lookup(name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
-            yield from self._component(component, node)
+            if component.name.line not in self._passed:
+                yield from self._component(component, node)
         yield from self._uses(definition.uses, node)
         for inner in definition.classes:
             child = scopes.node((*node.name, inner.name.parts[0]))
@@ -173,9 +181,8 @@ class _Walk:
             return
         # a model inherits components from a library that is not read, but hardly ever classes
         is_class = kind is UnresolvedKind.CLASS and found.number == 0 and scope is not None
-        if not (
-            found.is_certain or found.part in self._lost or (is_class and not _is_in_open_package(scope, self._scopes))
-        ):
+        is_missing = found.is_certain or (is_class and not _is_in_open_package(scope, self._scopes))
+        if not (is_missing or (self._lost and self._lost(found.part))):
             return
         owner = str(found.types[0] if found.types else scope or "")
         known = self._scopes.names_in(found.types) if found.types else self._scopes.names_around(scope)
