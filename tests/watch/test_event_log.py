@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
-from rich.console import Console as Screen
 
 from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -18,7 +16,7 @@ from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events
-from urdfsync.watch.event_log import EventLog
+from urdfsync.watch.report import Report
 
 pytestmark = pytest.mark.usefixtures("folder")
 
@@ -54,8 +52,8 @@ def failed(*diagnostics: Diagnostic, again: bool = False) -> events.Failed:
 
 def told(*found: events.Event, **options: Any) -> list[str]:
     """The lines of these events; those for the error stream begin with `!`."""
-    log = EventLog(Console(**options), Screen(file=io.StringIO(), width=100))
-    lines = [line for event in found for line in log.lines(event, TIME.strip())]
+    report = Report(Console(**options))
+    lines = [line for event in found for line in report.take(event, TIME.strip())]
     return [f"{'! ' if line.error else ''}{str(line.text).rstrip()}" for line in lines]
 
 
@@ -188,7 +186,7 @@ def test_what_is_said(name: str) -> None:
 
 def test_verbose_says_what_goes_on_and_lists_changes_and_files() -> None:
     assert told(*BUSY, verbose=True) == [
-        f"{TIME}arm  changed, settling",
+        f"{TIME}arm  settling",
         f"{TIME}arm  waiting for the exporter",
         NO_XML,
         f"{TIME}arm  as before",

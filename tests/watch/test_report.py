@@ -23,8 +23,7 @@ from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console
 from urdfsync.watch import events, report
-from urdfsync.watch.report import TextReport
-from urdfsync.watch.status import Activity, StatusTable
+from urdfsync.watch.report import Activity, Report
 
 PAGE = (Path(__file__).parents[2] / "docs" / "watch.md").read_text(encoding="utf-8")
 BROKEN = Diagnostic(Severity.ERROR, "xml-syntax", "this is no\nXML", "arm.urdf", 12)
@@ -62,11 +61,11 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
 def look(terminal: Terminal, *found: events.Event, robots: Sequence[str] = ("arm", "gripper")) -> list[str]:
     """Show events on a terminal; what is on it then, but for the first line."""
     screen = terminal()
-    tell(TextReport(Console()), started(*robots), *found)
+    tell(Report(Console()), started(*robots), *found)
     return screen.shown()[1:]
 
 
-def tell(people: TextReport, *found: events.Event) -> None:
+def tell(people: Report, *found: events.Event) -> None:
     for event in found:
         people.show(event)
 
@@ -105,7 +104,7 @@ def test_the_page_shows_what_a_terminal_shows(terminal: Terminal, monkeypatch: p
     inertia = [change("link a", f"inertial / inertia / {name}", 2.0) for name in ("ixx", "iyy")]
     renamed = Change(("link tool",), Event.RENAMED, ChangeClass.STRUCTURAL, "tool", "probe")
     broken = Diagnostic(Severity.ERROR, "xml-syntax", "this is not well-formed XML", "cad/cart.urdf", 47, 30)
-    screen, people = terminal(110), TextReport(Console())
+    screen, people = terminal(110), Report(Console())
     tell(people, started("arm", "crane", "gripper", "cart"))
     found = (
         built("arm", *2 * [Reason.UPDATE], changes=Changes((mass[0],))),
@@ -147,7 +146,7 @@ def test_of_many_robots_those_are_shown_that_need_attention(terminal: Terminal) 
 
 def test_the_terminal_is_left_in_order_whatever_happens(terminal: Terminal) -> None:
     screen = terminal()
-    with contextlib.suppress(ValueError), TextReport(Console()) as people:
+    with contextlib.suppress(ValueError), Report(Console()) as people:
         tell(people, started("arm"), BUILT)
         raise ValueError("a bug")
     assert screen.shown()[1:] == ["14:03:12  arm  1 file written"]
@@ -162,17 +161,17 @@ def test_a_command_has_the_terminal_for_itself_and_stopping_takes_the_status_awa
 
 def test_colours_obey_no_color(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
     coloured = terminal()
-    tell(TextReport(Console()), started("arm"), BUILT)
+    tell(Report(Console()), started("arm"), BUILT)
     assert "\x1b[32m" in coloured.getvalue()
     monkeypatch.setenv("NO_COLOR", "1")
     plain = terminal()
-    tell(TextReport(Console()), started("arm"), BUILT)
+    tell(Report(Console()), started("arm"), BUILT)
     assert not re.search(r"\x1b\[[\d;]*m", plain.getvalue())
     assert plain.shown() == coloured.shown()
 
 
 def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFixture[str]) -> None:
-    with TextReport(Console()) as people:
+    with Report(Console()) as people:
         tell(people, started("arm"), BUILT, FAILED)
     out, err = capsys.readouterr()
     assert out.splitlines() == ["14:03:12  watching 1 robot of urdfsync.toml", "14:03:12  arm  1 file written"]
@@ -182,11 +181,11 @@ def test_a_pipe_has_lines_only_and_errors_go_their_way(capsys: pytest.CaptureFix
 # The status of each robot
 
 
-def status(*found: events.Event, robots: Sequence[str] = ("arm",)) -> StatusTable:
-    table = StatusTable()
+def status(*found: events.Event, robots: Sequence[str] = ("arm",)) -> Report:
+    result = Report(Console())
     for number, event in enumerate((started(*robots), *found)):
-        table.take(event, f"12:00:0{number}")
-    return table
+        list(result.take(event, f"12:00:0{number}"))
+    return result
 
 
 IS_BUILT, IS_BROKEN = "in step, built at 12:00:01", "error: arm.urdf:12: this is no XML"
@@ -249,7 +248,7 @@ ACTIVITIES: dict[Activity, Callable[[str], events.Event]] = {
 def test_nobody_is_hidden_behind_a_calmer_one(activities: list[Activity], room: int) -> None:
     robots = [f"r{number:02}" for number in range(len(activities))]
     found = status(*(ACTIVITIES[one](robot) for one, robot in zip(activities, robots, strict=True)), robots=robots)
-    lines = list(map(str, found.lines(room, marks=False)))
+    lines = list(map(str, found.status_lines(room, marks=False)))
     assert len(lines) <= room
     shown = {robot for robot in robots if any(line.startswith(robot) for line in lines)}
     hidden = set(robots) - shown

@@ -77,9 +77,9 @@ import os, sys
 from pathlib import Path
 from urdfsync.watch import events
 from urdfsync.output.console import Console
-from urdfsync.watch.report import TextReport
+from urdfsync.watch.report import Report
 
-with TextReport(Console()) as listener:
+with Report(Console()) as listener:
     listener.show(events.Started(Path("urdfsync.toml"), ("arm", "cart")))
     sys.stderr.write("a library warns\n")
     listener.show(events.Running("arm"))

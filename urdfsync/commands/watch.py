@@ -61,10 +61,10 @@ def _duration(text: str) -> float:
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Run the daemon until a signal ends it."""
     from urdfsync.watch.daemon import Daemon, WatchOptions  # not at the top: watchdog takes 45 ms
-    from urdfsync.watch.report import TextReport, show_json
+    from urdfsync.watch.report import Report, show_json
 
     with contextlib.ExitStack() as stack:
-        listener = show_json if console.json else stack.enter_context(TextReport(console)).show
+        listener = show_json if console.json else stack.enter_context(Report(console)).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=(*args.robots, *(args.robot or ())),

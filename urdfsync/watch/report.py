@@ -1,22 +1,104 @@
-"""What `urdfsync watch` shows: to people lines above the status of each robot, to programs a line of JSON per event."""
+"""What `urdfsync watch` shows: to people lines above the status of each robot, to programs a line of JSON per event.
+
+Lines scroll: one per build with what changed, errors and conflicts as `build` has them. What the last build of a robot
+said is not said again by the next: conflicts, warnings, and files that are kept although they are no longer generated.
+"""
 
 from __future__ import annotations
 
 import datetime
+import enum
 import json
 import sys
-from typing import Any, Self
+from collections import Counter
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, Self
 
 import msgspec
 
-from urdfsync.engine.actions import Reason
-from urdfsync.engine.result import Result
-from urdfsync.output.console import JSON_VERSION, Console, has_marks, rich_console, write_lines
-from urdfsync.output.results import result_values
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Actions, Reason
+from urdfsync.engine.result import Checked, Result
+from urdfsync.files import shown
+from urdfsync.output.conflicts import conflict_lines
+from urdfsync.output.console import (
+    JSON_VERSION,
+    Console,
+    StyledLine,
+    findings,
+    has_marks,
+    line,
+    rich_console,
+    write_lines,
+)
+from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
+from urdfsync.output.results import result_lines, result_values
 from urdfsync.watch import events
-from urdfsync.watch.event_log import EventLog
-from urdfsync.watch.status import StatusTable
 from urdfsync.watch.terminal import StatusArea
+
+_NAME_WIDTH = 24
+"""Columns of the robots' names at most."""
+_KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
+"""Files that are no longer generated, but kept."""
+_CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
+_FEW = 2
+"""So many changes of a model are spelled out, in at most so many characters; more are counted."""
+_MAX_LENGTH = 100
+_SPACED = 4
+"""Rows of the status from which an empty one stands above it."""
+
+
+class Activity(enum.StrEnum):
+    """What a robot is at, in words; those that need the user's attention come first."""
+
+    ERROR = "error"
+    CONFLICT = "conflict"
+    WAITING = "waiting"
+    BUILDING = "building"
+    CHECKING = "checking"
+    SETTLING = "settling"
+    STARTING = "not looked at yet"
+    IN_STEP = "in step"
+
+
+_RANKS = {activity: rank for rank, activity in enumerate(Activity)}
+_SIGNS = {
+    Activity.ERROR: ("✗", "bold red"),
+    Activity.CONFLICT: ("!", "yellow"),
+    Activity.WAITING: ("…", "yellow"),
+    Activity.STARTING: ("…", "dim"),
+    Activity.IN_STEP: ("✓", "green"),
+}
+"""Mark and style; of others those of `_BUSY`."""
+_BUSY = "…", "cyan"
+_STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
+    events.Settling: ("settling: {0.file}", Activity.SETTLING),
+    events.Building: ("building", Activity.BUILDING),
+    events.Waiting: ("{0.reason}", Activity.WAITING),
+    events.Unchanged: ("as before", None),
+    events.Checking: ("checking", Activity.CHECKING),
+    events.Running: ("command started", None),
+    events.Ran: ("command ended with {0.code}", None),
+    events.Paused: ("paused: {0.reason}", None),
+    events.Resumed: ("building again", None),
+    events.Stopping: ("stopped by {0.signal}", None),
+}
+"""Events that are one line, and only with `--verbose`, but for the last one; and what the robot is at then."""
+
+
+class RobotStatus(NamedTuple):
+    """One robot at one moment."""
+
+    activity: Activity
+    text: str
+    """The rest of a line that names the robot."""
+
+
+class LogLine(NamedTuple):
+    """One line, and whether it belongs on the error stream."""
+
+    text: StyledLine
+    error: bool = False
 
 
 def now() -> datetime.datetime:
@@ -47,17 +129,25 @@ def show_json(event: events.Event) -> None:
     sys.stdout.flush()
 
 
-class TextReport:
+class Report:
     """Lines that scroll and, on a terminal, the status of each robot below them."""
 
     def __init__(self, console: Console) -> None:
-        self._table = StatusTable()
-        screen = rich_console(sys.stdout)
-        self._log = EventLog(console, screen)
-        has_status = not console.quiet and sys.stdout.isatty() and not screen.is_dumb_terminal
+        self._console, self._screen = console, rich_console(sys.stdout)
+        has_status = not console.quiet and sys.stdout.isatty() and not self._screen.is_dumb_terminal
         self._area = StatusArea(sys.stdout) if has_status else None
+        self._column = 0
+        self._told: dict[tuple[str, str], set[Hashable]] = {}
+        """What was told of a robot's last build, by robot and topic."""
+        self._results: dict[str, RobotStatus] = {}
+        """By robots, in the order of the configuration: after the last build."""
+        self._builds: dict[str, RobotStatus] = {}
+        """Between the first event and the end of a build."""
+        self._checks: dict[str, RobotStatus] = {}
         self._commands: set[str] = set()
         """Robots for which a command of `--exec` runs."""
+        self._pause = ""
+        """Why nothing is built for now; empty if robots are built."""
 
     def __enter__(self) -> Self:
         return self
@@ -69,14 +159,7 @@ class TextReport:
 
     def show(self, event: events.Event) -> None:
         """Show an event."""
-        clock = now().strftime("%H:%M:%S")
-        self._table.take(event, clock)
-        match event:
-            case events.Running(robot):
-                self._commands.add(robot)
-            case events.Ran(robot):
-                self._commands.discard(robot)
-        lines = list(self._log.lines(event, clock))
+        lines = list(self.take(event, now().strftime("%H:%M:%S")))
         # one terminal has both streams in their order, above the status; elsewhere each stream gets its own
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
@@ -86,5 +169,200 @@ class TextReport:
         else:
             # a command knows nothing of the status, and would write into it
             is_shown = not (self._commands or isinstance(event, events.Stopping))
-            rows = self._table.lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
+            rows = self.status_lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
             self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])
+
+    def take(self, event: events.Event, clock: str) -> Iterator[LogLine]:
+        """Take note of an event that happened at this time of day; yield its lines."""
+        match event:
+            case events.Started(file, robots, again):
+                starting = RobotStatus(Activity.STARTING, Activity.STARTING)
+                self._results = {name: self._results.get(name, starting) for name in robots}
+                self._builds = {name: status for name, status in self._builds.items() if name in robots}
+                self._checks = {}
+                self._column = min(max(map(len, robots), default=0), _NAME_WIDTH)
+                if not self._console.quiet:
+                    words = f"watching {counted(len(robots), 'robot')} of {shown(file)}"
+                    yield self._line(clock, "", f"configuration read again, {words}" if again else words)
+            case events.Built(result):
+                self._finish(result, clock)
+                yield from self._built(event, clock)
+            case events.Failed(result, again):
+                self._finish(result, clock)
+                if self._console.verbose or not again:
+                    yield self._line(clock, result.robot, summary(result), "bold red", error=True)
+                    yield from self._findings(result.diagnostics)
+            case events.CheckDone():
+                yield from self._checked(event, clock)
+            case events.Noted(diagnostics):
+                yield from self._findings(diagnostics, clock)
+            case _:
+                yield from self._step(event, clock)
+
+    def _step(self, event: events.Event, clock: str) -> Iterator[LogLine]:
+        """Take note of an event between two results."""
+        words, activity = _STEPS[type(event)]
+        words = words.format(event).removesuffix(": ")
+        robot: str = getattr(event, "robot", "")
+        diagnostics: tuple[Diagnostic, ...] = getattr(event, "diagnostics", ())
+        match event:
+            case events.Checking():
+                self._checks[robot] = RobotStatus(Activity.CHECKING, words)
+            case events.Unchanged():
+                self._builds.pop(robot, None)
+            case events.Running():
+                self._commands.add(robot)
+            case events.Ran():
+                self._commands.discard(robot)
+            case events.Paused() | events.Resumed():
+                self._pause = words if isinstance(event, events.Paused) else ""
+            case _ if activity is not None:
+                self._builds[robot] = RobotStatus(activity, _with_error(words, diagnostics))
+        is_last = isinstance(event, events.Stopping)
+        if self._console.verbose or (is_last and not self._console.quiet):
+            yield self._line(clock, robot, words, "" if is_last else "dim")
+            yield from self._findings(diagnostics)
+
+    def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
+        """Yield the line of a build that did or found anything, below its new findings and above its new conflicts."""
+        result, robot, verbose = event.result, event.result.robot, self._console.verbose
+        was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
+        errors = [found for found in result.diagnostics if found.severity is Severity.ERROR]
+        new = self._new(robot, "findings", map(_key, result.diagnostics))
+        new_errors = self._new(robot, "broken", map(_key, errors))
+        conflicts = self._new(robot, "conflicts", ((one.path, one.mine, one.generated) for one in result.conflicts))
+        kept = self._new(robot, "kept", (one.path for one in result.actions.decided if one.reason in _KEPT))
+        yield from self._findings(
+            [found for found in result.diagnostics if verbose or (_key(found) in new and found not in errors)]
+        )
+        if new_errors:
+            more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
+            yield self._line(clock, robot, f"{_with_error('broken', errors)}{more}", "bold red", error=True)
+        if self._console.quiet and not conflicts:
+            return
+        untold = frozenset() if kept else _KEPT
+        words = []
+        if event.files or event.recovered or result.effective_changes or conflicts or kept:
+            words = [*_changes(result), *action_counts(result, {Reason.KEEP} | untold)]
+        if not (result.conflicts or result.is_broken) and (event.recovered or not was_in_step):
+            words.append("in step again")
+        if not words and (verbose or result.effective_changes):
+            words = [summary(result)]
+        if not words:
+            return
+        yield self._line(clock, robot, ", ".join(words), "yellow" if result.conflicts else "")
+        if not self._console.quiet:
+            hidden = frozenset() if verbose else _CONFLICTS | untold
+            actions = Actions(one for one in result.actions if one.reason not in hidden)
+            seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
+            yield from map(LogLine, result_lines(seen, verbose=verbose))
+        if conflicts or (verbose and result.conflicts):
+            yield from map(LogLine, conflict_lines(result, self._console, self._screen))
+
+    def _checked(self, event: events.CheckDone, clock: str) -> Iterator[LogLine]:
+        """Yield the line of a check, and its findings unless they are those of the last one."""
+        is_wrong = event.checked is Checked.WRONG
+        self._checks.pop(event.robot, None)
+        if is_wrong:
+            text = _with_error("checked with errors", event.diagnostics)
+            self._checks[event.robot] = RobotStatus(Activity.ERROR, text)
+        new = self._new(event.robot, "check", map(_key, event.diagnostics))
+        if is_wrong or not self._console.quiet:
+            duration = f" ({event.seconds:.1f} s)" if event.seconds else ""
+            words = f"{check_result(event.checked, event.diagnostics)}{duration}"
+            yield self._line(clock, event.robot, words, "bold red" if is_wrong else "", error=is_wrong)
+        yield from self._findings(event.diagnostics if new or self._console.verbose else ())
+
+    def _new(self, robot: str, topic: str, keys: Iterable[Hashable]) -> set[Hashable]:
+        """Return what was not told of the robot's last build, and remember all that is told now."""
+        before = self._told.get((robot, topic), set())
+        self._told[robot, topic] = set(keys)
+        return self._told[robot, topic] - before
+
+    def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[LogLine]:
+        """Yield findings as all commands show them; with a time of day if there is no line of a build above them."""
+        for finding in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
+            yield LogLine(StyledLine(((f"{clock}  " if clock else "", "dim"), *finding.parts)), error=True)
+
+    def _line(self, clock: str, robot: str, words: str, style: str = "", *, error: bool = False) -> LogLine:
+        name = f"{robot:<{self._column}}  " if robot else ""
+        return LogLine(line((f"{clock}  ", "dim"), (name, "bold"), (words, style)), error)
+
+    # The status of each robot
+
+    def _finish(self, result: Result, clock: str) -> None:
+        """Note what a build came to."""
+        self._builds.pop(result.robot, None)
+        before = self._results.get(result.robot)
+        if result.failed or result.is_broken:
+            words = Activity.ERROR if result.failed else "broken"
+            status = RobotStatus(Activity.ERROR, _with_error(words, result.diagnostics))
+        elif result.conflicts:
+            files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
+            where = files[0] if len(files) == 1 else f"{len(files)} files"
+            text = f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`"
+            status = RobotStatus(Activity.CONFLICT, text)
+        elif not result.writes and before is not None and before.activity is Activity.IN_STEP:
+            status = before  # with the time of the build that wrote something
+        else:
+            status = RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")
+        self._results[result.robot] = status
+
+    @property
+    def rows(self) -> Mapping[str, RobotStatus]:
+        """The status of each robot in the order of the configuration; of build and check that which matters more."""
+        rows = {}
+        for robot, result in self._results.items():
+            at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS[status.activity])
+            rows[robot] = self._builds.get(robot, at_rest)
+        return rows
+
+    def status_lines(self, room: int, *, marks: bool) -> Iterator[StyledLine]:
+        """Yield a line for each robot for which there is room, and one for all others.
+
+        If there are too many robots, those that need attention are shown.
+        """
+        rows = self.rows
+        if rows and room >= _SPACED:
+            yield line(("", ""))
+            room -= 1
+        if self._pause:
+            yield line((self._pause, "yellow"))
+            room -= 1
+        by_rank = sorted(rows, key=lambda robot: _RANKS[rows[robot].activity])
+        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
+        width = min(max(map(len, by_rank[:number]), default=0), _NAME_WIDTH)
+        for robot in (robot for robot in rows if robot in by_rank[:number]):
+            activity, text = rows[robot]
+            mark, style = _SIGNS.get(activity, _BUSY)
+            name = f"{robot:<{width}}" if len(robot) <= width else f"{robot[: width - 1]}…"
+            words = f"  {text}", "" if activity is Activity.IN_STEP else style
+            yield line((f"{mark} " if marks else "", style), (name, "bold"), words)
+        if counts := Counter(rows[robot].activity for robot in by_rank[number:]):
+            rest = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
+            yield line((f"… and {counts.total()} more: {rest}", "dim"))
+
+
+def _key(found: Diagnostic) -> Hashable:
+    """Return all that tells findings apart but the line, which changes when something above it does."""
+    return found.code, found.message, found.file
+
+
+def _changes(result: Result) -> list[str]:
+    """Return what changed in the model: a few changes in words, else how many."""
+    if result.effective_changes is None:
+        return []
+    changes, lines = result.effective_changes, change_lines(result.effective_changes)
+    words = "; ".join(lines[-_FEW:])
+    if changes.generator:
+        return lines[:1]
+    return [words if len(lines) <= _FEW + 1 and len(words) <= _MAX_LENGTH else change_counts(changes)]
+
+
+def _with_error(words: str, diagnostics: Sequence[Diagnostic]) -> str:
+    """Return words with place and message of the first error, or else of the first finding, if there is any."""
+    error = next((one for one in diagnostics if one.severity is Severity.ERROR), next(iter(diagnostics), None))
+    if error is None:
+        return words
+    place = f"{error.file}:{error.line}: " if error.line else f"{error.file}: " if error.file else ""
+    return " ".join(f"{words}: {place}{error.message}".split())
