@@ -15,8 +15,9 @@ DEEPEST = 50
 """Tables and lists within each other; nothing that urdfsync reads needs more than a few."""
 
 _PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
-_PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.)?""")
-_HEADER = re.compile(r"\s*\[\[?")
+_KEY = r"""(?:"(?:[^"\\]|\\.)*"|'[^']*'|[A-Za-z0-9_-]+)"""
+_LINE = re.compile(rf"\s*(\[\[?)?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*[=\]]")
+"""A line that opens a table, or sets a key."""
 _QUOTED = r"'([^']*)'"
 _MARKER = r"^(<{7,}|={7}|>{7,})(\s|$)"
 
@@ -27,13 +28,13 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
     Raises `error` with file, line and column if it is not TOML.
     """
     line, column, hint = 0, 0, ""
+    message = f"tables and lists are nested more than {DEEPEST} deep"
     try:
         document = tomli.loads(text)
-        if not _is_too_deep(document):
+        if all(len(path) <= DEEPEST for path, _ in strings(document)):
             return document
-        message = _TOO_DEEP
     except RecursionError:
-        message = _TOO_DEEP
+        pass  # that is the message
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
         if marker := re.search(_MARKER, text, re.MULTILINE):
@@ -54,29 +55,18 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))
 
 
-_TOO_DEEP = f"tables and lists are nested more than {DEEPEST} deep"
-
-
-def _is_too_deep(document: dict[str, Any]) -> bool:
-    """Whether anything lies deeper than `DEEPEST`; by levels, since a robot's record has thousands of tables."""
-    level: list[Any] = [document]
-    for _ in range(DEEPEST):
-        items = (table.values() if isinstance(table, dict) else table for table in level)
-        level = [item for values in items for item in values if isinstance(item, dict | list)]
-        if not level:
-            return False
-    return any(level)
-
-
-def strings(table: dict[str, Any] | list[Any], path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Every key and every string of a document, with its path; a list's items count by their number."""
-    for key, value in table.items() if isinstance(table, dict) else enumerate(table):
-        here = (*path, str(key))
-        yield here, str(key)
-        if isinstance(value, str):
-            yield here, value
-        elif isinstance(value, dict | list):
-            yield from strings(value, here)
+def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yield every key and every string of a document, with its path; a list's items count by their number."""
+    waiting: list[tuple[tuple[str, ...], dict[str, Any] | list[Any]]] = [((), document)]
+    while waiting:
+        path, table = waiting.pop()
+        for key, value in table.items() if isinstance(table, dict) else enumerate(table):
+            place = (*path, str(key))
+            yield place, str(key)
+            if isinstance(value, str):
+                yield place, value
+            elif isinstance(value, dict | list):
+                waiting.append((place, value))
 
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:
@@ -92,20 +82,14 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
     """Whether each line opens a table, and the full path of the table or key in it; else that of the table around."""
     header: tuple[str, ...] = ()
     for line in text.split("\n"):
-        opening = _HEADER.match(line)
-        end, more = opening.end() if opening else 0, "."
         keys: tuple[str, ...] = ()
-        while more and (part := _PART.match(line, end)):
-            quoted, literal, bare, more = part.groups()
-            if quoted and "\\" in quoted:
-                with contextlib.suppress(tomli.TOMLDecodeError):
-                    (quoted,) = tomli.loads(f'"{quoted}" = 0')
-            keys, end = (*keys, quoted or literal or bare or ""), part.end()
-        if more or line[end : end + 1] not in ("=", "]"):
-            keys = ()  # the line neither sets a key nor opens a table
-        yield bool(opening and keys), keys if opening else header + keys
-        if opening:
-            header = keys
+        if match := _LINE.match(line):
+            with contextlib.suppress(tomli.TOMLDecodeError):  # a line of a longer string that looks like a key
+                parts = re.findall(_KEY, match[2])
+                keys = tuple(tomli.loads(f"key = {part}")["key"] if part[0] in "\"'" else part for part in parts)
+        opens = bool(match and match[1] and keys)
+        yield opens, keys if opens else header + keys
+        header = keys if opens else header
 
 
 def without_table(text: str, *table: str) -> str:

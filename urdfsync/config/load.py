@@ -1,7 +1,7 @@
 """`urdfsync.toml` to a frozen `Config`; every fault is told with its line, all of them at once.
 
 All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and the options of its
-domain; `[defaults]` the same without source, package and class; `[check]` the keys of `CheckKeys`.
+domain; `[defaults]` the same without source, package and class; `[check]` the keys of `CheckConfig`.
 """
 
 from __future__ import annotations
@@ -23,19 +23,24 @@ from urdfsync.config.settings import (
     OWN_KEYS,
     STATE_FOLDER,
     CheckConfig,
-    CheckKeys,
     Config,
     Keys,
     RobotConfig,
+    SharedKeys,
 )
 from urdfsync.diagnostics import IGNORABLE, ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
-_PATHS = ("source", "output", "library")
-"""Keys that must not be empty: nobody means the folder of the configuration by that."""
-_WORDS = {str: "a string", int: "an integer", float: "a number", bool: "true or false", dict: "a table"}
+_WORDS = {
+    str: "a string",
+    Path: "a string",
+    int: "an integer",
+    float: "a number",
+    bool: "true or false",
+    dict: "a table",
+}
 
 _fields = functools.cache(msgspec.structs.fields)
 """The fields of a kind of struct, which take the daemon a tenth of a small build to find out."""
@@ -76,12 +81,12 @@ def parse(text: str, file: Path, name: str) -> Config:
     reader = _Reader(text, name, file.parent)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
-    check = reader.check()
+    check, check_lines = reader.check()
     reader.find_clashes(robots)
     reader.check_ignored(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
-    return Config(file, robots, check)
+    return Config(file, robots, check, check_lines)
 
 
 def in_words(kind: Any) -> str:
@@ -93,8 +98,8 @@ def in_words(kind: Any) -> str:
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
     if origin is Mapping:
         return "a table of strings" if arguments[1] is str else "a table of strings, numbers, true and false"
-    if origin in (tuple, list):
-        return f"a list of {'strings' if arguments[0] is str else in_words(arguments[0])}"
+    if origin in (tuple, list, frozenset):
+        return f"a list of {'strings' if arguments[0] in (str, Path) else in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
 
 
@@ -157,17 +162,14 @@ class _Reader:
                 self._report("unknown-key", table.lines[key], message)
         self._refuse_unknown(table, known)
 
-    def check(self) -> CheckConfig:
-        """The table `[check]`."""
+    def check(self) -> tuple[CheckConfig, Mapping[str, int]]:
+        """The table `[check]`, and the lines of its keys."""
         table = self._table("`[check]`", self._subtable("check"), "check")
-        self._refuse_unknown(table, _names_of(CheckKeys))
-        keys = self._read(table, CheckKeys)
-        if keys is None:
-            return CheckConfig()
-        library = None if keys.library is None else _absolute(self._root / keys.library)
-        is_path = Path(keys.omc).name != keys.omc  # else a name, which is looked for on the PATH
-        omc = str(_absolute(self._root / keys.omc)) if is_path else keys.omc
-        return CheckConfig(library, keys.tool, omc, table.lines)
+        self._refuse_unknown(table, _names_of(CheckConfig))
+        keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
+        if Path(keys.omc).name != keys.omc:  # else a name, which is looked for on the PATH
+            keys = msgspec.structs.replace(keys, omc=str(self._absolute(Path(keys.omc))))
+        return keys, table.lines
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
         """Two robots must not share a record or a package's folder, nor may one stand in the other's."""
@@ -188,7 +190,7 @@ class _Reader:
         """What is ignored has to be the code of a warning, in one of the formats here."""
         domains = {robot.domain for robot in robots}
         known = IGNORABLE.union(*(registry.domain(one).warnings for one in domains))
-        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignored - known}
+        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - known}
         for line, code in sorted(wrong):
             near = nearest(code, sorted(known))
             hint = f"did you mean `{near}`?" if near else "errors can't be ignored, and warnings end with their code"
@@ -220,31 +222,21 @@ class _Reader:
         elif keys.command_inputs and not keys.command:
             message = f"robot `{name}`: `command_inputs` without `command`"
             self._report("wrong-value", lines["command_inputs"], message, "add the command, or take them out")
-        source, output = Path(keys.source), _absolute(self._root / keys.output)
+        output = self._absolute(keys.output)
         for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
             if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
                 message = f"`output` can't be in {folder}: that is where {owner} keeps its own files"
                 self._report("wrong-value", lines["output"], message, "name another folder")
         if len(self.problems) > before:
             return None
+        source = Path(table.values["source"])
+        shared: dict[str, Any] = {field.name: getattr(keys, field.name) for field in _fields(SharedKeys)}
         return RobotConfig(
+            **shared | {"output": output},
             name=name,
-            source=_absolute(self._root / source),
             source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
-            output=output,
             target=Target(keys.package, model_class(keys.package, keys.class_)),
-            domain=keys.domain,
-            templates=_absolute(self._root / keys.templates) if keys.templates else None,
-            package_paths=tuple(_absolute(self._root / path) for path in keys.package_paths),
-            users=tuple(_absolute(self._root / path) for path in keys.users),
-            create_parents=keys.create_parents,
-            merging=keys.on_conflict == "merge",
-            checking=keys.on_build == "check",
-            ignored=frozenset(keys.ignore),
             arguments=None if keys.arguments is None else argument_texts(keys.arguments),
-            command=keys.command,
-            command_inputs=tuple(_absolute(self._root / path) for path in keys.command_inputs),
-            renamed=keys.renamed,
             options=options,
             lines=lines,
         )
@@ -256,11 +248,12 @@ class _Reader:
         for field in _fields(struct):
             key = field.encode_name
             try:
-                if key in _PATHS and table.values.get(key) == "" and struct in (Keys, CheckKeys):
+                if table.values.get(key) == "" and field.type in (Path, Path | None):
+                    # nobody means the folder of the configuration by that
                     hint = 'give a path; "." is the folder of the configuration'
                     self._report("wrong-value", table.lines[key], f"`{key}` is empty", hint)
                 elif key in table.values:
-                    values[field.name] = msgspec.convert(table.values[key], field.type)
+                    values[field.name] = msgspec.convert(table.values[key], field.type, dec_hook=self._path)
                 elif field.required:
                     message, hint = f"{table.name} has no `{key}`", f"add a line `{key} = …`"
                     self._report("missing-key", table.lines[""], message, hint)
@@ -273,6 +266,16 @@ class _Reader:
         except (TypeError, ValueError) as error:  # options that do not go together
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
+
+    def _path(self, kind: type, value: Any) -> Path:
+        """Return a path in the file as an absolute one; msgspec asks for each, and reports the TypeError."""
+        if kind is not Path or not isinstance(value, str):
+            raise TypeError
+        return self._absolute(Path(value))
+
+    def _absolute(self, path: Path) -> Path:
+        """Return a path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
+        return Path(os.path.normpath(self._root / path))
 
     def _refuse_unknown(self, table: _Table, known: Collection[str]) -> None:
         for key in table.values:
@@ -303,11 +306,6 @@ def _names_of(struct: type[msgspec.Struct]) -> set[str]:
 
 
 _KEY_NAMES = _names_of(Keys)
-
-
-def _absolute(path: Path) -> Path:
-    """The path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
-    return Path(os.path.normpath(path))
 
 
 def _folded(path: Path) -> str:

@@ -22,80 +22,70 @@ OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "clas
 """Keys that `[defaults]` can't have."""
 
 
-class Keys(msgspec.Struct, frozen=True):
-    """The keys of a robot's table that every domain shares; the domain's options stand beside them."""
+class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
+    """The keys of a robot's table that mean what they say; paths in them are absolute."""
 
-    source: str
-    package: str
-    arguments: Mapping[str, str | int | float | bool] | None = None
-    command: tuple[str, ...] = ()
-    command_inputs: tuple[str, ...] = ()
-    class_: str = msgspec.field(name="class", default="")
-    output: str = "modelica"
-    domain: str = "urdf"
-    templates: str = ""
-    package_paths: tuple[str, ...] = ()
-    users: tuple[str, ...] = ()
-    create_parents: bool = False
-    on_conflict: Literal["keep", "merge"] = "keep"
-    on_build: Literal["nothing", "check"] = "nothing"
-    ignore: tuple[str, ...] = ()
-    renamed: Mapping[str, str] = {}
-
-
-class CheckKeys(msgspec.Struct, frozen=True):
-    """The keys of the table `[check]`."""
-
-    library: str | None = None
-    tool: Literal["rumoca", "omc", "both"] = "rumoca"
-    omc: str = ""
-
-
-class CheckConfig(msgspec.Struct, frozen=True):
-    """How packages are compiled and simulated."""
-
-    library: Path | None = None
-    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
-    tool: str = "rumoca"
-    """The compiler: `rumoca`, `omc`, or `both`."""
-    omc: str = ""
-    """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
-    lines: Mapping[str, int] = {}
-    """Line of every key in the configuration."""
-
-
-class RobotConfig(msgspec.Struct, frozen=True):
-    """One robot of the configuration; paths are absolute, `options` is an instance of `Domain.options`."""
-
-    name: str
     source: Path
-    source_text: str
-    """The source's path as the state records it: relative to the configuration, POSIX; of absolute ones the name."""
-    output: Path
-    target: Target
-    domain: str
-    options: Any
+    output: Path = Path("modelica")
+    domain: str = "urdf"
+    command: tuple[str, ...] = ()
+    """The command that writes the source; empty for none."""
+    command_inputs: tuple[Path, ...] = ()
+    """The files that this depends on."""
     templates: Path | None = None
     package_paths: tuple[Path, ...] = ()
     users: tuple[Path, ...] = ()
     """Files and folders that hold models of the user's, beside the configuration's folder and `output`."""
     create_parents: bool = False
-    merging: bool = False
-    """Whether a file that both sides changed gets their merge, if that is without doubt."""
-    checking: bool = False
-    """Whether the package is checked after each build."""
-    ignored: frozenset[str] = frozenset()
+    on_conflict: Literal["keep", "merge"] = "keep"
+    on_build: Literal["nothing", "check"] = "nothing"
+    ignore: frozenset[str] = frozenset()
     """Codes of warnings and notes that nobody wants to see."""
-    arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None for a source whose name or content may give it to xacro."""
-    command: tuple[str, ...] = ()
-    """The command that writes the source; empty for none."""
-    command_inputs: tuple[Path, ...] = ()
-    """The files that this depends on."""
     renamed: Mapping[str, str] = {}
     """Old → new name of elements, as far as the user declares it."""
+
+
+class Keys(SharedKeys, frozen=True, kw_only=True):
+    """The keys of a robot's table that every domain shares; the domain's options stand beside them."""
+
+    package: str
+    class_: str = msgspec.field(name="class", default="")
+    arguments: Mapping[str, str | int | float | bool] | None = None
+
+
+class CheckConfig(msgspec.Struct, frozen=True):
+    """The keys of the table `[check]`: how packages are compiled and simulated."""
+
+    library: Path | None = None
+    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    tool: Literal["rumoca", "omc", "both"] = "rumoca"
+    omc: str = ""
+    """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
+
+
+class RobotConfig(SharedKeys, frozen=True, kw_only=True):
+    """One robot of the configuration."""
+
+    name: str
+    source_text: str
+    """The source's path as the state records it: relative to the configuration, POSIX; of absolute ones the name."""
+    target: Target
+    options: Any
+    """An instance of `Domain.options`."""
+    arguments: Mapping[str, str] | None = None
+    """Arguments of xacro; None for a source whose name or content may give it to xacro."""
     lines: Mapping[str, int] = {}
     """Line of every key in the configuration; of the robot's table for `""`, of an old name for `renamed.NAME`."""
+
+    @property
+    def merging(self) -> bool:
+        """Whether a file that both sides changed gets their merge, if that is without doubt."""
+        return self.on_conflict == "merge"
+
+    @property
+    def checking(self) -> bool:
+        """Whether the package is checked after each build."""
+        return self.on_build == "check"
 
     @property
     def folder(self) -> Path:
@@ -108,7 +98,7 @@ class RobotConfig(msgspec.Struct, frozen=True):
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Leave out the warnings and notes that are ignored; errors never are."""
-        return tuple(one for one in diagnostics if one.severity is Severity.ERROR or one.code not in self.ignored)
+        return tuple(one for one in diagnostics if one.severity is Severity.ERROR or one.code not in self.ignore)
 
 
 class Config(msgspec.Struct, frozen=True):
@@ -117,6 +107,8 @@ class Config(msgspec.Struct, frozen=True):
     file: Path
     robots: tuple[RobotConfig, ...]
     check: CheckConfig = CheckConfig()
+    check_lines: Mapping[str, int] = {}
+    """Line of every key of the table `[check]`."""
 
     @property
     def root(self) -> Path:
@@ -136,16 +128,14 @@ class Config(msgspec.Struct, frozen=True):
         if not self.robots:
             message, hint = "the configuration has no robot", "`urdfsync add SOURCE` adds one"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-robots", message, shown(self.file), hint=hint))
-        found = {robot.name for robot in self.robots if not names}
+        known, chosen = [robot.name for robot in self.robots], set[str]()
         for name in names:
-            meant = [robot.name for robot in self.robots if robot.name == name]
             place = Path(os.path.normpath(working_folder() / name))
-            meant = meant or [robot.name for robot in self.robots if robot.is_at(place)]
+            meant = [name] if name in known else [robot.name for robot in self.robots if robot.is_at(place)]
             if not meant:
-                known = [robot.name for robot in self.robots]
                 near = nearest(name, known)
                 hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
-            found.update(meant)
-        return tuple(robot for robot in self.robots if robot.name in found)
+            chosen.update(meant)
+        return tuple(robot for robot in self.robots if not names or robot.name in chosen)

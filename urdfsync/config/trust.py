@@ -48,7 +48,7 @@ def find_untrusted_compiler(config: Config) -> Diagnostic | None:
     if config.check.omc:
         key, reason = "omc", config.check.omc
     message = f"`{key}` in the table `[check]`: OpenModelica was not run: {reason}"
-    return _find_untrusted(config, message, config.check.lines.get(key, 0), "untrusted-command")
+    return _find_untrusted(config, message, config.check_lines.get(key, 0), "untrusted-command")
 
 
 def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:

@@ -128,7 +128,15 @@ def _robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).permissive_options()
-    return RobotConfig(path.name, path, path.name, Path(), Target(name, name), _DOMAIN, options)
+    return RobotConfig(
+        name=path.name,
+        source=path,
+        source_text=path.name,
+        output=Path(),
+        target=Target(name, name),
+        domain=_DOMAIN,
+        options=options,
+    )
 
 
 def _config_error(code: str, message: str, file: Path | None = None, hint: str = "") -> ConfigError:

@@ -27,6 +27,8 @@ class CommandEnded(msgspec.Struct, frozen=True):
 
     robot: str
     code: int
+    problem: str
+    """What went wrong, in words that follow `the command`; empty if nothing did."""
 
 
 class CommandRunner:
@@ -48,42 +50,37 @@ class CommandRunner:
             _, before = self._waiting.get(robot.name, (robot, ()))
             self._waiting[robot.name] = robot, tuple(dict.fromkeys((*before, *files)))
             return
+        self._running.add(robot.name)
+        yield events.Running(robot.name)
+        threading.Thread(target=self._run, args=(robot, files), daemon=True).start()
+
+    def finish(self, ended: CommandEnded) -> Iterator[events.Event]:
+        """Take note of the end of a command, and run it again if more files have changed."""
+        self._running.discard(ended.robot)
+        yield events.Ran(ended.robot, ended.code)
+        if ended.problem:
+            message = f"robot `{ended.robot}`: the command of --exec {ended.problem}"
+            hint = "it runs again after the next build that changes something"
+            yield events.Noted((Diagnostic(Severity.WARNING, "exec", message, hint=hint),))
+        if waiting := self._waiting.pop(ended.robot, None):
+            yield from self.run(*waiting)
+
+    def _run(self, robot: RobotConfig, files: Sequence[Path]) -> None:
         text = "\n".join(map(str, files))
         if len(os.fsencode(text)) > _MAX_VARIABLE:
             text = str(robot.folder)
         names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
-        yield events.Running(robot.name)
         try:
-            process = subprocess.Popen(  # noqa: S602 - a shell command is what the user gives
+            code = subprocess.run(  # noqa: S602 - a shell command is what the user gives
                 self._command,
                 shell=True,
                 cwd=self._folder,
                 env={**os.environ, **names},
                 stdin=subprocess.DEVNULL,
                 stdout=_STDERR,  # its output would break the lines of --json
-            )
+                check=False,
+            ).returncode
+            problem = f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}" if code else ""
         except OSError as error:
-            yield events.Ran(robot.name, _NOT_FOUND)
-            yield _warning(robot.name, f"can't be started: {error.strerror or error}")
-            return
-        self._running.add(robot.name)
-        threading.Thread(target=self._wait, args=(robot.name, process), daemon=True).start()
-
-    def finish(self, ended: CommandEnded) -> Iterator[events.Event]:
-        """Take note of the end of a command, and run it again if more files have changed."""
-        robot, code = ended.robot, ended.code
-        self._running.discard(robot)
-        yield events.Ran(robot, code)
-        if code:
-            yield _warning(robot, f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}")
-        if waiting := self._waiting.pop(robot, None):
-            yield from self.run(*waiting)
-
-    def _wait(self, robot: str, process: subprocess.Popen[bytes]) -> None:
-        self._queue.put(CommandEnded(robot, process.wait()))
-
-
-def _warning(robot: str, what: str) -> events.Noted:
-    message = f"robot `{robot}`: the command of --exec {what}"
-    hint = "it runs again after the next build that changes something"
-    return events.Noted((Diagnostic(Severity.WARNING, "exec", message, hint=hint),))
+            code, problem = _NOT_FOUND, f"can't be started: {error.strerror or error}"
+        self._queue.put(CommandEnded(robot.name, code, problem))

@@ -64,34 +64,34 @@ class Observer(events.FileSystemEventHandler):
         Returns one finding for each reason for which folders can't be watched.
         """
         self._paths = paths
+        problems: dict[int | None, Diagnostic] = {}
         try:
             if self._backend is None:
                 backend = observers.Observer()
                 backend.start()
                 self._backend = backend
         except (OSError, RuntimeError) as error:  # threading raises RuntimeError if there are no more threads
-            return (_not_watched(error, "the files", ""),)
-        backend, wanted = self._backend, set()
+            return (_not_watched(error, ""),)
+        wanted = set()
         for folder, deep in {**dict.fromkeys(paths.folders, False), **dict.fromkeys(paths.trees, True)}.items():
             with contextlib.suppress(OSError):  # gone again
                 status = os.stat(folder)  # noqa: PTH116
                 wanted.add((folder, deep, status.st_dev, status.st_ino))
-        alive = {emitter.watch for emitter in backend.emitters if emitter.is_alive()}
-        for key in [key for key, watch in self._watches.items() if key not in wanted or watch not in alive]:
-            backend.unschedule(self._watches.pop(key))
-        found: dict[int | None, Diagnostic] = {}
+        alive = {emitter.watch for emitter in self._backend.emitters if emitter.is_alive()}
+        for key, watch in list(self._watches.items()):
+            if key not in wanted or watch not in alive:
+                self._backend.unschedule(self._watches.pop(key))
         for key in wanted - self._watches.keys():
             folder, deep, *_ = key
             try:
                 if not os.access(folder, os.R_OK):  # watchdog says nothing then
                     raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-                self._watches[key] = backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
+                self._watches[key] = self._backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
             except (OSError, RuntimeError) as error:
                 number = getattr(error, "errno", None)
                 if number not in (errno.ENOENT, errno.ENOTDIR):  # gone again: its parent is watched
-                    name = shown(Path(folder))
-                    found.setdefault(number, _not_watched(error, f"the folder {name}", name))
-        return tuple(found.values())
+                    problems.setdefault(number, _not_watched(error, shown(Path(folder))))
+        return tuple(problems.values())
 
     def close(self) -> None:
         """Watch nothing any more."""
@@ -100,8 +100,9 @@ class Observer(events.FileSystemEventHandler):
             self._backend.join()
 
 
-def _not_watched(error: Exception, what: str, place: str) -> Diagnostic:
+def _not_watched(error: Exception, folder: str) -> Diagnostic:
     hint = _HINTS.get(getattr(error, "errno", None) or 0, "use --poll")
     reason = getattr(error, "strerror", None) or error
-    message = f"{what} can't be watched, so its files are read at intervals: {reason}"
-    return Diagnostic(Severity.WARNING, "not-watched", message, place, hint=hint)
+    name = f"the folder {folder}" if folder else "the files"
+    message = f"{name} can't be watched, so its files are read at intervals: {reason}"
+    return Diagnostic(Severity.WARNING, "not-watched", message, folder, hint=hint)
