@@ -59,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     if args.merge:
-        robots = [msgspec.structs.replace(robot, merging=True) for robot in robots]
+        robots = [msgspec.structs.replace(robot, on_conflict="merge") for robot in robots]
     dry = args.dry_run or args.check
     request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg)
     results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
