@@ -39,7 +39,7 @@ class Change(msgspec.Struct, frozen=True):
 
     path: tuple[str, ...]
     kind: ChangeKind
-    change_class: ChangeClass
+    change_class: ChangeClass = msgspec.field(name="class")
     old: Any
     new: Any
     unit: str = ""

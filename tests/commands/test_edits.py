@@ -77,6 +77,5 @@ def test_programs_get_the_texts(execute: Execute, edited: Path) -> None:
     assert robot["files"][0] == {
         "path": RECORD,
         "owner": "element R1",
-        "base": True,
         "edits": [{"element": "component `R`", "part": "R", "base": "100", "mine": "101"}],
     }

@@ -14,9 +14,8 @@ from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import Result
 from urdfsync.merge import Merge, merge
-from urdfsync.output.conflicts import FULL, conflict_lines
+from urdfsync.output.conflicts import FULL, LINES, conflict_lines
 from urdfsync.output.console import Console as CommandConsole
-from urdfsync.output.differences import LINES
 
 pytestmark = pytest.mark.usefixtures("folder")
 
@@ -79,23 +78,23 @@ def test_what_each_side_changed_and_what_to_do() -> None:
         f"    {SAVED}.merge.mo",
         "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
         "      --merge  both sides' changes",
-        "      --edit   both in your editor, between markers",
+        "      --edit   both sides in your editor, between markers",
         "      --keep   your file as it is",
         "      --take   the generated file",
     ]
 
 
-def test_verbose_shows_the_lines() -> None:
+def test_verbose_shows_what_a_merge_changes() -> None:
     assert seen(texts_of(EDITED, EXPORTED), width=100, verbose=True)[4:13] == [
-        "    -- lines 1 to 6: your edit, and generated text changed",
-        "               1  within Arm;",
-        "               2  model Elbow",
-        "    base       3    Real a = 1;",
-        "    mine       3    Real a = 1; // measured",
-        "               4",
-        "    base       5    Real b = 2;",
-        "    generated  5    Real b = 3;",
-        "               6  end Elbow;",
+        "    --- mine",
+        "    +++ merge",
+        "    @@ -3,4 +3,4 @@",
+        "       Real a = 1; // measured",
+        "",
+        "    -  Real b = 2;",
+        "    +  Real b = 3;",
+        "     end Elbow;",
+        "",
     ]
 
 
@@ -122,15 +121,29 @@ def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> No
     base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
     generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
     found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
-    assert seen(found)[4:11] == [
-        "    -- lines 1 to 4: the sides contradict each other",
-        "               1  within Arm;",
-        "               2  model Elbow",
-        "    base       3    Real a = 1;",
-        "    mine       3    Real a = 7;",
-        "    generated  3    Real a = 9;",
-        "               4",
+    assert seen(found)[4:15] == [
+        "    within Arm;",
+        "    model Elbow",
+        "    <<<<<<< mine",
+        "      Real a = 7;",
+        "    ||||||| base",
+        "      Real a = 1;",
+        "    =======",
+        "      Real a = 9;",
+        "    >>>>>>> generated",
+        "",
+        "      Real b = 3;",
     ]
+
+
+def test_between_two_contradictions_a_gap_is_marked() -> None:
+    between = "".join(f"  Real x{number};\n" for number in range(9))
+    base, mine, generated = (text.replace("  Real b = 2", f"{between}  Real b = 2") for text in (BASE, *OPPOSED))
+    mine, generated = mine.replace("b = 2", "b = 7"), generated.replace("b = 2", "b = 9")
+    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    lines = seen(found, verbose=True)
+    gap = lines.index("    …")
+    assert lines[gap - 1 : gap + 2] == ["      Real x0;", "    …", "      Real x7;"]
 
 
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")
@@ -143,7 +156,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Reason.CONFLICT),
             f"{CHANGED} --merge would not be right: the merge declares `x` twice.",
-            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both in your editor, between markers",
+            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both sides in your editor, between markers",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Reason.UNOWNED),
@@ -153,12 +166,12 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         (
             *(texts_of(EDITED, EXPORTED, base=None), Reason.CONFLICT),
             f"{CHANGED} Its merge base, the text that urdfsync wrote last, is not recorded, so it can't be merged.",
-            "mine 3 Real a = 1; // measured generated 3 Real a = 1;",
+            "- Real a = 1; // measured + Real a = 1; - Real b = 2; + Real b = 3;",
         ),
         (
             *(NEW_NAME, Reason.CONFLICT),
             f"It will be moved to {ELBOW}.",
-            f"{SHOULDER} --merge --prefer mine both sides' changes, yours (or generated) in doubt --edit",
+            f"{SHOULDER} --merge --prefer mine both sides' changes; yours (or `generated`) where they contradict",
         ),
         (
             *(rejected(None, FOLDER), Reason.CONFLICT),
@@ -203,23 +216,12 @@ def test_commands_can_be_copied(path: str, typed: str) -> None:
 
 def test_long_differences_are_cut() -> None:
     base = "".join(f"{number}\n" for number in range(200))
-    found = texts_of(base.replace("\n", "!\n"), base, base=base)
+    found = texts_of(base, base.replace("\n", "!\n"), base=base)
     lines = seen(found)
     (cut,) = [line for line in lines if "more line" in line]
-    assert cut == f"    … {401 - LINES} more lines; see .urdfsync/conflicts/arm/Elbow.merge.mo"
+    assert cut == f"    … {403 - LINES} more lines; see .urdfsync/conflicts/arm/Elbow.merge.mo"
     assert len(lines) < LINES + 15
     assert len(seen(found, verbose=True)) > 400
-
-
-def test_contradictions_come_before_all_else_if_there_is_no_room() -> None:
-    base = "".join(f"{number}\n\n\n\n\n\n" for number in range(20))
-    mine, generated = base.replace("17\n", "mine\n"), base.replace("17\n", "theirs\n")
-    for number in range(10):
-        mine = mine.replace(f"\n{number}\n", f"\n{number} edited\n")
-    lines = seen(texts_of(mine, generated, base=base))
-    assert any(line.endswith("the sides contradict each other") for line in lines)
-    assert any("1 edited" in line for line in lines)
-    assert not any("9 edited" in line for line in lines)
 
 
 def test_of_many_conflicts_the_first_are_shown_in_full() -> None:
@@ -254,14 +256,9 @@ def test_text_of_files_can_not_command_a_terminal(width: int | None) -> None:
     assert "\\x1b[31m\\x07\\u202e\\x9b2J\\r\\udcff" in "".join("".join(lines).split())
 
 
-def test_a_very_long_line_is_shown_where_it_changes() -> None:
+def test_a_very_long_line_is_cut() -> None:
     numbers = ", ".join(str(number) for number in range(1000, 1400))
-    base = f"  Real x[:] = cat(1, {{{numbers}}}, first);\n"
-    found = texts_of(base.replace("first", "mine"), base.replace("first", "theirs"), base=base)
-    for width in (None, 80, 120):
-        lines = seen(found, width=width)
-        assert max(len(line) for line in lines if ".urdfsync" not in line) <= (width or 280)
-        words = "\n".join(lines)
-        assert all(f"{name});" in words for name in ("first", "mine", "theirs"))
-        assert "1000" not in words
-        assert len(lines) < 30
+    base = f"  Real x[:] = cat(1, first, {{{numbers}}});\n"
+    lines = seen(texts_of(base.replace("first", "mine"), base.replace("first", "theirs"), base=base))
+    assert max(map(len, lines)) < 250
+    assert all(f"cat(1, {name}" in "\n".join(lines) for name in ("first", "mine", "theirs"))

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+
+import msgspec
 
 from urdfsync import config
 from urdfsync.commands import arguments
-from urdfsync.config import Config
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.domain import ChangeKind
-from urdfsync.engine.actions import Kind, Reason
+from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
@@ -33,6 +34,8 @@ _WIDEST = 44
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
+_EDITED = USERS | {Reason.UNOWNED, Reason.MOVED_AWAY}
+"""Actions on files that the user edited: these are always named."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -66,66 +69,65 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
         return edits.run(args, console)
     folder = config.working_folder()
-    nearest = _configuration(args, folder)
-    found = []
+    configuration = _configuration(args, folder)
     request = arguments.request(args, console)
-    for one in _comparisons(args, nearest, request, folder):
-        found.append(one)
-        if console.json:
-            console.add_robot(_to_json(one))
-            continue
-        show_findings(console, one.result, [found for found in one.result.diagnostics if found.code != CONNECTORS])
-        if not console.quiet or one.result.conflicts:
-            head = headline(one.result, _summary(one), is_fine=one.in_step)
-            console.print([head, *_lines(one, console.verbose)], error=one.result.failed)
-    code = comparison.exit_code(found)
+    comparisons = []
+    for loaded, robots in _select_sources(args, configuration, folder):
+        for found in comparison.compare_sources(robots, args.against, loaded, request, folder):
+            comparisons.append(found)
+            _show(console, found)
+    code = comparison.exit_code(comparisons)
     console.end("diff", code)
     return code
 
 
-def _comparisons(
-    args: argparse.Namespace, nearest: Config | None, request: BuildOptions, folder: Path
-) -> Iterator[Comparison]:
-    """Compare each source that is named, once; or all. Raises ConfigError for what is none."""
-    sources = [
-        comparison.find_sources(source, nearest, args.robot or [], args.against, folder)
-        for source in dict.fromkeys(args.sources or [""])
-    ]
-    seen = set[tuple[str, Path]]()
-    for configuration, robots in sources:
-        new = [robot for robot in robots if (robot.name, robot.source) not in seen]
-        seen.update((robot.name, robot.source) for robot in new)
-        yield from comparison.compare_sources(new, args.against, configuration, request, folder)
-
-
-def _configuration(options: argparse.Namespace, folder: Path) -> Config | None:
+def _configuration(args: argparse.Namespace, folder: Path) -> Config | None:
     """Return the configuration; None if there is none and none is needed. Raises ConfigError."""
-    named = options.config or options.robot or not options.sources
-    if named or any((place / config.FILE_NAME).is_file() for place in (folder, *folder.parents)):
-        return arguments.configuration(options)
-    if options.against is not None:
+    is_near = any((place / config.FILE_NAME).is_file() for place in (folder, *folder.parents))
+    if is_near or args.config or args.robot or not args.sources:
+        return arguments.configuration(args)
+    if args.against is not None:
         return None
     message = f"no {config.FILE_NAME} in {folder} or a folder above it, so there is no last build to compare with"
     hint = "name the version to compare with: --against FILE or REVISION, or begin with `urdfsync init`"
     raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
 
 
-def _to_json(found: Comparison) -> dict[str, Any]:
-    """Return a comparison as docs/json.md describes it."""
-    values = result_values(found.result)
-    return {
-        **{key: values[key] for key in ("name", "failed", "locked", "class", "changes", "diagnostics")},
-        "source": found.source,
-        "against": found.against,
-        "built": not found.missing,
-        "in_step": found.in_step,
-        "summary": _summary(found),
-        "effects": [
-            {"effect": " / ".join(one.path), "old": one.old, "new": one.new, "unit": one.unit, "hint": one.hint}
-            for one in found.effects
-        ],
-        "actions": [{**one, "edited": one["path"] in found.edited} for one in values["actions"]],
-    }
+def _select_sources(
+    args: argparse.Namespace, configuration: Config | None, folder: Path
+) -> Iterator[tuple[Config | None, Sequence[RobotConfig]]]:
+    """Yield the robots that the arguments mean, and robots for sources that none of them has. Raises ConfigError."""
+    known = {os.path.realpath(robot.source) for robot in configuration.robots} if configuration else set()
+    places = {text: Path(os.path.normpath(folder / text)) for text in args.sources}
+    alone = {text: place for text, place in places.items() if place.is_file() and os.path.realpath(place) not in known}
+    if configuration is None and (missing := places.keys() - alone.keys()):
+        message, hint = f"there is no file {min(missing)!r}", "name a source that exists"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
+    if args.against is None and alone:
+        message = f"{min(alone)} was never built: it is not the source of a robot"
+        hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-robot", message, hint=hint))
+    named = [*(text for text in args.sources if text not in alone), *(args.robot or [])]
+    robots = configuration.select(named) if configuration and (named or not alone) else ()
+    if args.against and (folder / args.against).is_file() and len({robot.source for robot in robots}) + len(alone) > 1:
+        message = "--against names one file, but several sources are compared"
+        hint = "name the source to compare it with"
+        raise ConfigError(Diagnostic(Severity.ERROR, "one-file", message, hint=hint))
+    yield configuration, robots
+    yield None, [comparison.robot_of_file(place) for place in alone.values()]
+
+
+def _show(console: Console, found: Comparison) -> None:
+    if console.json:
+        values = result_values(found.result)
+        values |= {"source": found.source, "against": found.against, "summary": _summary(found)}
+        values |= {"in_step": found.in_step, "effects": msgspec.to_builtins(found.effects)}
+        console.add_robot(values)
+        return
+    show_findings(console, found.result, [one for one in found.result.diagnostics if one.code != CONNECTORS])
+    if not console.quiet or found.result.conflicts:
+        head = headline(found.result, _summary(found), is_fine=found.in_step)
+        console.print([head, *_lines(found, console.verbose)], error=found.result.failed)
 
 
 def _summary(found: Comparison) -> str:
@@ -175,28 +177,28 @@ def _row_line(row: OutlineRow, label: int, value: int) -> StyledLine:
 
 
 def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the files that are concerned, and why if it is one that the user edited; these are always named."""
+    """Yield the files that are concerned, and why if it is one that the user edited; these come first."""
     result = found.result
     actions = [action for action in result.actions if action.reason not in _SILENT]
     if found.in_step or not actions:
         return
     heading = f"Next build: {build_summary(result)}"
     if found.against is not None:
-        reasons = Counter(action.reason for action in result.actions)
-        parts = [
-            f"{reasons[one]} to {one.word}" for one in (Reason.UPDATE, Reason.CREATE, Reason.DELETE) if reasons[one]
-        ]
-        heading = f"{counted(len(result.actions), 'file')} of the package differ{'s' * (len(result.actions) == 1)}"
-        heading += f": {', '.join(parts)}" if len(parts) > 1 else ""
+        reasons = Counter(action.reason for action in actions)
+        parts = [f"{reasons[one]} to {one.word}" for one in reasons] if len(reasons) > 1 else []
+        heading = f"{counted(len(actions), 'file')} of the package differ{'s' if len(actions) == 1 else ''}"
+        heading += f": {', '.join(parts)}" if parts else ""
     yield from (line(("", "")), line((heading, "bold")))
-    actions.sort(key=lambda action: (action.path not in found.edited, action.path.rpartition("/")))
-    lines = []
-    for action in actions:
-        why = ""
-        if action.path in found.edited:
-            # the word says already that it waits
-            why = "you edited it" if found.against else action.reason.text
-        lines.append(file_line(shown_path(result, action.path), *action_word(action), why))
-    yield from first_lines(lines, max(_FILES, len(found.edited) + 1), "file", verbose=verbose)
+    actions.sort(key=lambda action: (action.reason not in _EDITED, action.path.rpartition("/")))
+    lines = [
+        file_line(
+            shown_path(result, action.path),
+            *action_word(action),
+            action.reason.text if action.reason in _EDITED else "",  # the word says already that it waits
+        )
+        for action in actions
+    ]
+    edited = sum(action.reason in _EDITED for action in actions)
+    yield from first_lines(lines, max(_FILES, edited + 1), "file", verbose=verbose)
     if any(action.kind is Kind.CONFLICT for action in actions):
         yield line((settle_hint(result), "dim"))

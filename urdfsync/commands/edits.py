@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -18,7 +18,8 @@ from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
-from urdfsync.merge.edits import Edit, find_edits, in_words
+from urdfsync.merge.edits import find_edits, in_words
+from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import counted
 
@@ -28,62 +29,49 @@ _EDITS = 20
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Show the edits in the files that the paths mean, or in all. Raises ConfigError if a path means none."""
-    loaded = arguments.configuration(args)
-    request, robots = arguments.request(args, console, dry=True), loaded.select(args.robot or [])
-    named = {text: Path(os.path.normpath(config.working_folder() / text)) for text in args.sources}
-    meant = set[str]()
-    code = Exit.IN_STEP
-    for robot in robots:
-        wanted = {text for text, place in named.items() if text == robot.name or robot.folder.is_relative_to(place)}
+    configuration, code = arguments.configuration(args), Exit.IN_STEP
+    request = arguments.request(args, console, dry=True)
+    places = {text: Path(os.path.normpath(config.working_folder() / text)) for text in args.sources}
+    unknown = set(places)
+    for robot in configuration.select(args.robot or []):
+        named = {
+            text: robot.folder if text == robot.name else place
+            for text, place in places.items()
+            if text == robot.name or place.is_relative_to(robot.folder) or robot.folder.is_relative_to(place)
+        }
+        unknown -= named.keys()
+        if places and not named:
+            continue
         try:
-            found = list(find_edited(generate_robot(inspect(loaded, robot, request))))
+            files = list(find_edited(generate_robot(inspect(configuration, robot, request))))
         except UrdfsyncError as error:
             console.add_robot({"name": robot.name, "failed": True, "files": []})
             console.findings(error.diagnostics)
             code = Exit.ERROR
             continue
-        inside = {text for text, place in named.items() if place.is_relative_to(robot.folder)}
-        meant |= wanted | inside
-        if named and not wanted:
-            places = [named[text] for text in inside]
-            found = [one for one in found if any((loaded.root / one.path).is_relative_to(place) for place in places)]
-            if not inside:
-                continue
-        _show(console, loaded.root, robot.name, found)
-    if unknown := [text for text in named if text not in meant]:
-        message, hint = (
-            f"{unknown[0]!r} is no robot, and no file of a package",
-            "name a robot, or a file of its package",
-        )
+        if named:
+            root = configuration.root
+            files = [one for one in files if any((root / one.path).is_relative_to(place) for place in named.values())]
+        if console.json:
+            console.add_robot({"name": robot.name, "failed": False, "files": list(map(edit_values, files))})
+        elif not console.quiet:
+            words = f"{counted(len(files), 'file')} edited" if files else "nothing is edited"
+            console.print([line((robot.name, "bold"), (f": {words}", ""))])
+            for file in files:
+                console.print(edit_lines(file, configuration.root, console.verbose))
+    if unknown:
+        message = f"{min(unknown)!r} is no robot, and no file of a package"
+        hint = "name a robot, or a file of its package"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
     console.end("diff", code)
     return code
 
 
-def _show(console: Console, root: Path, robot: str, found: Sequence[EditedFile]) -> None:
-    if console.json:
-        files = [
-            {"path": one.path, "owner": one.owner, "base": one.base is not None, "edits": edit_values(one)}
-            for one in found
-        ]
-        console.add_robot({"name": robot, "failed": False, "files": files})
-        return
-    if console.quiet:
-        return
-    words = f"{counted(len(found), 'file')} edited" if found else "nothing is edited"
-    console.print([line((robot, "bold"), (f": {words}", ""))])
-    for one in found:
-        console.print(edit_lines(one, root, console.verbose))
-
-
-def _edits(file: EditedFile) -> list[Edit] | None:
-    return find_edits(file.base, file.mine) if file.base is not None else None
-
-
-def edit_values(file: EditedFile) -> list[dict[str, str | None]] | None:
-    """Return the edits of a file as plain data; None if they can't be told by element."""
-    edits = _edits(file)
-    return None if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
+def edit_values(file: EditedFile) -> dict[str, Any]:
+    """Return an edited file as plain data; `edits` is None if they can't be told by element."""
+    edits = None if file.base is None else find_edits(file.base, file.mine)
+    told = None if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
+    return {"path": file.path, "owner": file.owner, "edits": told}
 
 
 def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) -> Iterator[StyledLine]:
@@ -91,11 +79,11 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) 
 
     Without it, so many edits are listed at `most`.
     """
-    edits = _edits(file)
     yield line(("  ", ""), (shown(Path(os.path.normpath(root / file.path))), "bold"), (f"  {file.owner}", "dim"))
     if file.base is None:
-        yield line(("    what urdfsync wrote last is lost: there is nothing to compare with", "dim"))
+        yield line(("    its base, the text that urdfsync wrote last, is lost: nothing to compare with", "dim"))
         return
+    edits = find_edits(file.base, file.mine)
     if edits is None:
         told = [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
     else:
@@ -103,9 +91,7 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) 
     lines = [line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what))) for element, what in told]
     yield from first_lines(lines, most, "edit", verbose=verbose)
     if verbose:
-        old, new = (text.replace("\r\n", "\n").splitlines() for text in (file.base, file.mine))
-        for text in difflib.unified_diff(old, new, "base", "mine", lineterm="", n=2):
-            yield line((f"    {text}", {"+": "green", "-": "red", "@": "cyan"}.get(text[:1], "dim")))
+        yield from difference_lines(file.base, file.mine, "base", "mine")
 
 
 def _style(what: str) -> str:

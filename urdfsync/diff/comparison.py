@@ -18,7 +18,7 @@ import msgspec
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -34,16 +34,11 @@ from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
-from urdfsync.spelling import nearest
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
-_MINE = frozenset(
-    {Reason.CONFLICT, Reason.UNOWNED, Reason.MERGE, Reason.MOVE, Reason.MOVED_AWAY, Reason.INCLUDED, Reason.ORPHAN}
-)
-"""Actions on files that the user edited, and that the changes concern."""
 
 
 class Comparison(msgspec.Struct, frozen=True):
@@ -59,8 +54,6 @@ class Comparison(msgspec.Struct, frozen=True):
     """Why there is no older version to compare with; empty if there is one."""
     effects: tuple[Effect, ...] = ()
     """Properties of the model as a whole that the changes concern."""
-    edited: frozenset[str] = frozenset()
-    """The files among the actions that the user has edited."""
 
     @property
     def change_class(self) -> ChangeClass:
@@ -81,50 +74,7 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     return Exit.IN_STEP if all(one.in_step for one in comparisons) else Exit.OUT_OF_STEP
 
 
-# --- sources ------------------------------------------------------------------------------------------------------
-
-
-def find_sources(
-    source: str, config: Config | None, names: Sequence[str], against: str | None, folder: Path
-) -> tuple[Config | None, Sequence[RobotConfig]]:
-    """Return what `source` means: a path from `folder`, else a robot's name; empty for all robots.
-
-    `names` leaves only robots of these names. A file that no robot has is compared by itself, without a configuration.
-    Raises ConfigError if there is nothing of that name, or if it can't be compared with `against`.
-    """
-    path = Path(os.path.normpath(folder / source))
-    is_file = bool(source) and path.is_file()
-    if config is None:
-        if not is_file:
-            raise _config_error("no-source", f"there is no file {source!r}", hint="name a source that exists")
-        return None, [_robot_of_file(path)]
-    chosen = config.select(names)
-    if source:
-        using = [robot for robot in config.robots if os.path.realpath(robot.source) == os.path.realpath(path)]
-        using = using or [robot for robot in config.robots if robot.name == source and not is_file]
-        if not (using or is_file):
-            message = f"there is no file {source!r}, and no robot of this name in {shown(config.file)}"
-            known = [robot.name for robot in config.robots]
-            near = nearest(source, known)
-            hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
-            raise _config_error("no-source", message, hint=hint)
-        if not (using or names):
-            if against is not None:
-                return None, [_robot_of_file(path)]
-            message = f"{path.name} was never built: it is not the source of a robot"
-            hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
-            raise _config_error("no-robot", message, config.file, hint)
-        chosen = tuple(robot for robot in using if robot in chosen)
-        if not chosen:
-            message = f"{source!r} is not the source of {' or '.join(f'`{name}`' for name in names)}"
-            raise _config_error("other-source", message, config.file, "leave out --robot, or name the robot alone")
-    if against is not None and (folder / against).is_file() and len({robot.source for robot in chosen}) > 1:
-        message = f"--against names one file, but {len(chosen)} sources are compared"
-        raise _config_error("one-file", message, hint="name the source to compare it with")
-    return config, chosen
-
-
-def _robot_of_file(path: Path) -> RobotConfig:
+def robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).permissive_options()
@@ -137,13 +87,6 @@ def _robot_of_file(path: Path) -> RobotConfig:
         domain=_DOMAIN,
         options=options,
     )
-
-
-def _config_error(code: str, message: str, file: Path | None = None, hint: str = "") -> ConfigError:
-    return ConfigError(Diagnostic(Severity.ERROR, code, message, shown(file) if file else "", hint=hint))
-
-
-# --- comparisons --------------------------------------------------------------------------------------------------
 
 
 def compare_sources(
@@ -184,8 +127,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
             effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
-    edited = frozenset(action.path for action in result.actions.decided if action.reason in _MINE)
-    return Comparison(result, shown(robot.source), None, missing, effects, edited)
+    return Comparison(result, shown(robot.source), None, missing, effects)
 
 
 class _VersionedSource(NamedTuple):
@@ -242,12 +184,7 @@ def _with_version(
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
-    edited: frozenset[str] = frozenset()
-    if config:  # a dry build knows which files are others than the last one wrote
-        (dry,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
-        edited = frozenset(action.path for action in dry.actions.decided if action.reason in {*_MINE, Reason.KEEP})
-    effects = _effects(domain, old, new, found, robot)
-    return Comparison(result, shown(robot.source), against, "", effects, edited)
+    return Comparison(result, shown(robot.source), against, effects=_effects(domain, old, new, found, robot))
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:

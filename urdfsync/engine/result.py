@@ -94,10 +94,14 @@ class Result(msgspec.Struct, frozen=True):
         return self.changes if self.writes or self.conflicts else None
 
     @property
+    def is_built(self) -> bool:
+        """Whether a build has written any file of the package, its record lost or not."""
+        return any(action.base is not None or action.reason is Reason.ADOPT for action in self.actions)
+
+    @property
     def is_first(self) -> bool:
         """Whether no build has written any file of the package before."""
-        new = any(action.reason is Reason.CREATE for action in self.actions)
-        return new and all(action.base is None for action in self.actions)
+        return not self.is_built and any(action.reason is Reason.CREATE for action in self.actions)
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import shlex
 import textwrap
@@ -24,18 +25,24 @@ if TYPE_CHECKING:
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
+LINES = 16
+"""So many lines of a conflict are shown without --verbose."""
+_CONTEXT = 2
+"""So many lines are shown around those at issue."""
+_WIDTH = 240
+"""Characters of a line that are shown."""
 _ELEMENTS = 5
 """So many changes of each side are listed."""
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
+_MARKS = {"<": "cyan", "|": "red", "=": "green", ">": ""}
+"""Styles of the lines below a marker, by its sign: the user's, those of the base, the generated ones, all others."""
+_SIGNS = {"+": "green", "-": "red", "@": "cyan"}
+"""Styles of the lines of a difference, by how they begin."""
 
 
 class DisputedFile(msgspec.Struct, frozen=True):
-    """A file that the user may decide about.
-
-    It conflicts, or its merge is about to be written, or it waits for other conflicts after a choice that may
-    be made again, or it is an edited one that is no longer generated.
-    """
+    """A file in conflict."""
 
     result: Result
     action: Action
@@ -48,29 +55,17 @@ class DisputedFile(msgspec.Struct, frozen=True):
         return shown_path(self.result, self.action.origin or self.action.path)
 
     @property
-    def is_decided(self) -> bool:
-        """Whether it does not conflict, but can be decided about all the same."""
-        action = self.action
-        waits = action.held and action.choice is not None
-        return action.reason in (Reason.MERGE, Reason.MOVE) or waits
-
-    @property
     def merges(self) -> bool:
-        """Whether `--merge` settles it, as far as that is known."""
+        """Whether `--merge` settles it."""
         return self.offers(Choice.MERGE)
 
     def offers(self, choice: Choice) -> bool:
-        """Whether a choice to merge settles it, as far as that is known."""
-        return self.is_decided or (self.texts is not None and self.texts.merged(choice) is not None)
-
-    @property
-    def is_on_disk(self) -> bool:
-        """Whether `--take` settles it: a file stands there, and the generated one is at hand."""
-        return self.is_decided or self.action.is_on_disk
+        """Whether a choice to merge settles it."""
+        return self.texts is not None and self.texts.merged(choice) is not None
 
 
 def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
-    """The files that conflict, in the order of robots and paths."""
+    """Return the files that conflict, in the order of robots and paths."""
     found = []
     for result in results:
         by_path = {texts.path: texts for texts in result.conflict_texts}
@@ -79,29 +74,28 @@ def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
 
 
 def describe(target: DisputedFile) -> str:
-    """How the sides stand to each other, as a clause."""
+    """Return how the sides stand to each other, as a clause."""
     texts = target.texts
     if texts is None:
         return "it is not a text, so it can't be merged"
     if texts.merge is None:
         is_unowned = target.action.reason is Reason.UNOWNED
-        base = (
-            "there is no base" if is_unowned else "its merge base, the text that urdfsync wrote last, is not recorded"
-        )
-        return texts.rejected or f"{base}, so it can't be merged"
+        lost = "its merge base, the text that urdfsync wrote last, is not recorded"
+        return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
     if target.merges:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
         return f"--merge would not be right: {texts.rejected}"
-    found = [conflict.what for conflict in texts.merge.conflicts]
-    if not all(found):
-        return f"the changes contradict each other{f' in {len(found)} places' if len(found) > 1 else ''}"
-    more = f"; and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
-    return f"{'; '.join(found[:_NAMED])}{more}"
+    contradictions = [conflict.what for conflict in texts.merge.conflicts]
+    if not all(contradictions):
+        places = f" in {len(contradictions)} places" if len(contradictions) > 1 else ""
+        return f"the changes contradict each other{places}"
+    more = f"; and {len(contradictions) - _NAMED} more" if len(contradictions) > _NAMED else ""
+    return f"{'; '.join(contradictions[:_NAMED])}{more}"
 
 
 def saved_texts(target: DisputedFile) -> dict[str, str]:
-    """Where a build saves the versions of a text, from the configuration's folder: `base`, `generated`, `merge`."""
+    """Return where a build saves the versions, from the configuration's folder: `base`, `generated`, `merge`."""
     if target.texts is None:
         return {}
     folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
@@ -110,41 +104,37 @@ def saved_texts(target: DisputedFile) -> dict[str, str]:
 
 
 def shown_path(result: Result, path: str) -> str:
-    """A path of the record as the user would type it."""
+    """Return a path of the record as the user would type it."""
     return shown(Path(os.path.normpath(result.root / path)))
 
 
 def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
-    """All conflicts of one robot: the first ones in full, the others on a line each, and the command for all.
-
-    What differs is laid out for the width of `screen`.
-    """
-    found = find_conflicts([result])
-    full = len(found) if console.verbose else 0 if console.quiet else FULL
-    for target in found[:full]:
+    """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
+    conflicts = find_conflicts([result])
+    full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
+    for target in conflicts[:full]:
         yield line(("", ""))
         yield from _full_lines(target, console, screen)
-    if full and found[full:]:
+    if full and conflicts[full:]:
         yield line(("", ""))
-    for target in found[full:]:
+    for target in conflicts[full:]:
         yield line(("  conflict   ", "bold red"), (target.shown, ""), (f"  {describe(target)}", "dim"))
-    if len(found) == 1 and full:
+    if len(conflicts) == 1 and full:
         return
-    mergeable = sum(target.merges for target in found)
-    what = "merges it" if len(found) == 1 else f"merges what can be merged: {mergeable} of {len(found)}"
+    mergeable = sum(target.merges for target in conflicts)
+    what = f"merges what can be merged: {mergeable} of {len(conflicts)}"
     if not mergeable:
-        what = "keeps all your files as they are, --take replaces them by the generated ones"
-    choice = Choice.MERGE if mergeable else Choice.KEEP
-    command = _command(["resolve", "--all", "--robot", result.robot, f"--{choice}"], console)
-    yield from (line(("", "")), line((f"  {command}", "bold"), (f"  {what}", "dim")))
+        what = "keeps all your files as they are; --take replaces them by the generated ones"
+    command = ["resolve", "--all", "--robot", result.robot, "--merge" if mergeable else "--keep"]
+    yield from (line(("", "")), line((f"  {_command(command, console)}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
-    if never_built and all(target.action.reason is Reason.UNOWNED for target in found):
+    if never_built and all(target.action.reason is Reason.UNOWNED for target in conflicts):
         what = "takes them for your edits, and lists these"
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 
 def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
-    """One conflict: what happened, the versions, where they are saved, and what to do."""
+    """Yield one conflict: what happened, the lines at issue, where the versions are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     story = f"{_sentence(reason(action, result.changes, brief=True))} {_sentence(describe(target))}"
@@ -152,16 +142,14 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
         story += f" It will be moved to {shown_path(result, action.path)}."
     yield from _paragraph(story, "", screen)
     if target.texts:
-        from urdfsync.output.differences import difference_lines  # only a conflict needs it
-
         saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
-        lines, left_out = [] if console.verbose else _element_lines(target.texts), 0
-        if not lines:
-            lines, left_out = difference_lines(target.texts, screen, console.verbose)
-        yield from (line(("", "")), *lines)
-        if left_out:
+        lines = [] if console.verbose else _element_lines(target.texts)
+        lines = lines or list(_text_lines(target.texts))
+        most = len(lines) if console.verbose else LINES
+        yield from (line(("", "")), *lines[:most])
+        if rest := len(lines[most:]):
             see = "--verbose shows them" if result.dry else f"see {saved.get('merge', saved['generated'])}"
-            yield line((f"    … {counted(left_out, 'more line')}; {see}", "dim"))
+            yield line((f"    … {counted(rest, 'more line')}; {see}", "dim"))
         yield line(("", ""))
         if not result.dry:
             yield from _paragraph(f"saved: {', '.join(saved.values())}", "dim", screen)
@@ -175,34 +163,33 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
 
 def settle_hint(result: Result) -> str:
     """Return what settles the conflicts of a robot: the options that do so for each of them."""
-    found = find_conflicts([result])
-    best, *others = [choice for choice in _choices(found[0]) if all(choice in _choices(one) for one in found[1:])]
-    what, file = ("the conflict", found[0].shown) if len(found) == 1 else ("each conflict", "FILE")
-    more = f" (or {', '.join(others)})" if others else ""
-    return f"  settle {what} with `urdfsync resolve {file} {best}`{more}"
+    conflicts = find_conflicts([result])
+    first, *others = map(_choices, conflicts)
+    best, *more = [choice for choice in first if all(choice in choices for choices in others)]
+    what, file = ("each conflict", "FILE") if others else ("the conflict", conflicts[0].shown)
+    or_more = f" (or {', '.join(more)})" if more else ""
+    return f"  settle {what} with `urdfsync resolve {file} {best}`{or_more}"
 
 
 def _choices(target: DisputedFile) -> dict[str, str]:
-    """The options that settle a conflict, the best one first, and what they do."""
-    found = {}
+    """Return the options that settle a conflict, the best one first, and what they do."""
+    texts, is_on_disk = target.texts, target.action.is_on_disk
+    choices = {}
     if target.merges:
-        found["--merge"] = "both sides' changes"
+        choices["--merge"] = "both sides' changes"
     elif target.offers(Choice.MERGE_MINE):
-        found["--merge --prefer mine"] = "both sides' changes, yours (or generated) in doubt"
-    if target.texts and target.texts.merge and target.is_on_disk:
-        found["--edit"] = "both in your editor, between markers"
-    found["--keep"] = "your file as it is"
-    if target.action.origin:
-        found["--keep"] += ", under its new name"
-    if target.texts and target.is_on_disk:
-        found.setdefault("--edit", "both texts in your editor, between markers")
-    if target.is_on_disk:
-        found["--take"] = "the generated file"
-    return found
+        choices["--merge --prefer mine"] = "both sides' changes; yours (or `generated`) where they contradict"
+    edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
+    keep = {"--keep": f"your file as it is{', under its new name' if target.action.origin else ''}"}
+    choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
+    return choices | ({"--take": "the generated file"} if is_on_disk else {})
+
+
+# --- the lines at issue -------------------------------------------------------------------------------------------
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """What each side changed, by element, if a merge takes both and both are classes."""
+    """Return what each side changed, by element, if a merge takes both and both are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only a conflict needs it
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
@@ -219,8 +206,53 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
     return lines
 
 
+def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
+    """Yield the contradictions between their markers, as `--edit` has them; without any, what a merge would change."""
+    if not (texts.merge and texts.merge.conflicts):
+        name, new = ("merge", texts.merge.proposal) if texts.merge else ("generated", texts.generated)
+        yield from difference_lines(texts.mine, new, "mine", name)
+        return
+    lines, style, styles = _split_lines(texts.merge.proposal), "", []
+    for text in lines:
+        is_marker = len(text) >= len("=======") and text[:7] == text[:1] * 7 and text[0] in _MARKS
+        style = _MARKS[text[0]] if is_marker else style
+        styles.append("bold" if is_marker else style or None)
+    near = {
+        number
+        for at, one in enumerate(styles)
+        if one
+        for number in range(max(at - _CONTEXT, 0), min(at + _CONTEXT + 1, len(lines)))
+    }
+    last = -1
+    for number in sorted(near):
+        if number > last + 1 > 0:
+            yield line(("    …", "dim"))
+        yield _text_line(lines[number], styles[number] or "dim")
+        last = number
+
+
+def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
+    """Yield how two texts of these names differ, as git shows it."""
+    texts = _split_lines(old), _split_lines(new)
+    for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
+        yield _text_line(text, _SIGNS.get(text[:1], "dim"))
+
+
+def _split_lines(text: str) -> list[str]:
+    """Return the lines of a text; nothing but a line feed ends one, as in git."""
+    return text.replace("\r\n", "\n").removesuffix("\n").split("\n")
+
+
+def _text_line(text: str, style: str) -> StyledLine:
+    plain = text.replace("\t", "    ")
+    return line((f"    {plain if len(plain) <= _WIDTH else f'{plain[: _WIDTH - 1]}…'}", style))
+
+
+# --- words --------------------------------------------------------------------------------------------------------
+
+
 def _command(arguments: Sequence[str], console: Console) -> str:
-    """A command line to copy."""
+    """Return a command line to copy."""
     command = ["urdfsync", *arguments, *(["--config", console.config] if console.config else [])]
     if os.name == "nt":
         return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
@@ -228,12 +260,12 @@ def _command(arguments: Sequence[str], console: Console) -> str:
 
 
 def _paragraph(words: str, style: str, screen: rich.console.Console) -> Iterator[StyledLine]:
-    """Indented text; a terminal's lines are broken so that they keep the indent."""
+    """Yield indented text; a terminal's lines are broken so that they keep the indent."""
     width = max(screen.width - 4, 20) if screen.is_terminal else len(words)
     for part in textwrap.wrap(words, width, break_on_hyphens=False):
         yield line((f"    {part}", style))
 
 
 def _sentence(clause: str) -> str:
-    """The clause as a sentence; the program's name keeps its small letter."""
+    """Return the clause as a sentence; the program's name keeps its small letter."""
     return f"{clause if clause.startswith('urdfsync') else clause[:1].upper() + clause[1:]}."

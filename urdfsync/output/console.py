@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
     from rich.text import Text
 
-JSON_VERSION = 2
+JSON_VERSION = 3
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 FEW = 5
 """So many warnings of one code are shown; of more, only the first ones and their number."""

@@ -107,21 +107,8 @@ def result_lines(
         yield line((f"  diagram: {shown(result.drawing)}", ""))
 
 
-def action_values(action: Action, changes: Changes | None = None) -> dict[str, Any]:
-    """What happens to a file as plain data; `changes` tell why, if it is because of them."""
-    return {
-        "path": action.path,
-        "action": action.kind,
-        "reason": action.reason.word,
-        "held": action.held,
-        "owner": action.owner,
-        "role": action.role,
-        "text": reason(action, changes),
-    }
-
-
 def result_values(result: Result) -> dict[str, Any]:
-    """What was done with a robot as plain data; paths are relative to the configuration's folder."""
+    """Return a result as plain data, the same in all documents; paths are relative to the configuration's folder."""
     changes = result.changes
     return {
         "name": result.robot,
@@ -129,31 +116,23 @@ def result_values(result: Result) -> dict[str, Any]:
         "folder": str(result.folder),
         "failed": result.failed,
         "locked": result.locked,
+        "built": result.is_built,
         "in_step": result.in_step,
         "broken": result.is_broken,
         "writes": result.writes,
         "summary": summary(result),
         "drawing": str(result.drawing) if result.drawing else None,
         "checked": result.checked,
+        "not_expanded": result.stale,
         "class": changes.change_class if changes else ChangeClass.NONE,
         "changes": [
-            {
-                "change": str(change),
-                "kind": change.kind,
-                "class": change.change_class,
-                "old": change.old,
-                "new": change.new,
-                "unit": change.unit,
-                "noise": change.noise,
-            }
-            for change in (changes.changes if changes else ())
+            {**msgspec.to_builtins(change), "noise": change.noise} for change in (changes.changes if changes else ())
         ],
-        "actions": [action_values(action, changes) for action in result.actions],
+        "actions": [_action_values(action, changes) for action in result.actions],
         "conflicts": [
             {
                 "path": target.action.path,
                 "origin": target.action.origin,
-                "owner": target.action.owner,
                 "merges": target.merges,
                 "reason": describe(target),
                 **dict.fromkeys(("base", "generated", "merge")),
@@ -162,4 +141,19 @@ def result_values(result: Result) -> dict[str, Any]:
             for target in find_conflicts([result])
         ],
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }
+
+
+def _action_values(action: Action, changes: Changes | None) -> dict[str, Any]:
+    """Return what happens to a file as plain data; `changes` tell why, if it is because of them."""
+    return {
+        "path": action.path,
+        "origin": action.origin,
+        "status": action.reason.status,
+        "action": action.kind,
+        "reason": action.reason.word,
+        "held": action.held,
+        "owner": action.owner,
+        "role": action.role,
+        "text": reason(action, changes),
     }

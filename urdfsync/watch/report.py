@@ -109,15 +109,15 @@ def now() -> datetime.datetime:
 def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]:
     """Return an event as JSON values: its fields under their names, a result as `result_values` has it.
 
-    Of a result's files those are left out that are just unchanged, and its check is an event of its own.
+    Of a result's files those are left out that are just unchanged.
     """
     tag = event.__struct_config__.tag
     values: dict[str, Any] = {"version": JSON_VERSION, "event": tag, "time": time.isoformat()}
     for name, value in msgspec.structs.asdict(event).items():
         if isinstance(value, Result):
-            inside = {key: part for key, part in result_values(value).items() if key != "checked"}
-            actions = [action for action in inside["actions"] if action["action"] != Reason.UNCHANGED]
-            values |= {"robot": inside.pop("name"), **inside, "actions": actions}
+            inside = result_values(value)
+            inside["actions"] = [one for one in inside["actions"] if one["reason"] != Reason.UNCHANGED.word]
+            values |= {"robot": inside["name"], **inside}
         else:
             values[name] = msgspec.to_builtins(value, enc_hook=str)
     return values
