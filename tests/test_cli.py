@@ -243,7 +243,7 @@ def test_conflict(edited: Path, execute: Execute) -> None:
         lines = execute(*arguments, code=3).lines
         assert lines[0] == "ladder: 1 conflict, 5 files wait until the conflict is resolved"
         assert f"  conflict   {model}  network" in lines
-        shown = '    generated  16    Elements.R3 elementR3 "Element R3";'
+        shown = '    +  Elements.R3 elementR3 "Element R3";'
         assert (shown if "--verbose" in arguments else "    the export  component `elementR3`: added") in lines
         assert f"    urdfsync resolve {model} --merge" in lines
     assert execute("build", "--quiet", code=3).lines == [

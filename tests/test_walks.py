@@ -224,9 +224,9 @@ class Walk:
         (status,), (check,) = (printed.json["robots"] for printed in documents)
         assert status["in_step"] == check["in_step"]
         assert [printed.code == 0 for printed in documents] == [status["in_step"]] * 2
-        files = [one for one in status["actions"] if one["status"]]
+        standing = [one for one in status["actions"] if one["status"]]
         self.status = {
-            one["origin"] if one["action"] == "conflict" and one["origin"] else one["path"]: one for one in files
+            one["origin"] if one["action"] == "conflict" and one["origin"] else one["path"]: one for one in standing
         }
         if self.random.random() < 0.3 and not self.repository.git("status", "--porcelain"):
             assert (self.run("hook check").code == 0) == status["in_step"]

@@ -197,7 +197,7 @@ def test_a_name_that_may_mean_either_of_two_is_left_to_the_user(user: Path, exec
     [
         (("elbow=wirst",), "no package has a name that begins with `wirst`"),
         (("elbow",), "`elbow` is not OLD=NEW; for example --rename-uses elbow=wrist"),
-        (("--all",), "--rename-uses goes without paths, --all and choices"),
+        (("--all",), "--rename-uses goes without paths and --all"),
     ],
 )
 def test_arguments_that_make_no_sense(user: Path, execute: Execute, given: tuple[str, ...], message: str) -> None:

@@ -122,7 +122,7 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
     if len(conflicts) == 1 and full:
         return
     mergeable = sum(target.merges for target in conflicts)
-    what = f"merges what can be merged: {mergeable} of {len(conflicts)}"
+    what = "merges it" if len(conflicts) == 1 else f"merges what can be merged: {mergeable} of {len(conflicts)}"
     if not mergeable:
         what = "keeps all your files as they are; --take replaces them by the generated ones"
     command = ["resolve", "--all", "--robot", result.robot, "--merge" if mergeable else "--keep"]
