@@ -17,7 +17,7 @@ from lxml import etree
 from trimesh.exchange.dae import load_collada
 
 from urdfsync.urdf.meshes.geometry import Triangles, placed
-from urdfsync.urdf.meshes.materials import Color, collada_colors, unbound_materials
+from urdfsync.urdf.meshes.materials import Color, effect_color
 from urdfsync.urdf.meshes.process import MeshError
 
 _NO_SHAPE = (
@@ -25,28 +25,27 @@ _NO_SHAPE = (
     "library_animation_clips",
     "library_cameras",
     "library_controllers",
-    "library_effects",
     "library_images",
     "library_lights",
-    "library_materials",
     "asset",
-    "bind_material",
     "extra",
     "instance_camera",
     "instance_light",
     "linestrips",
 )
 """Elements without influence on the shape. They are taken out: a fault in one of them is none of the mesh."""
+_MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
+_NONE = (0, 0, 0, 0)
 _MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 
 
 def collada_parts(
-    content: bytes, others: Mapping[str, bytes] | None = None, missing: list[str] | None = None
+    content: bytes, others: Mapping[str, bytes] | None = None
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError.
 
-    With their colours, if `others` has the textures; else without. `missing` gets in words which colours there are not.
+    With their colours, if `others` has the textures; else without.
     """
     root = _parse(content)
     unit = _unit(root)
@@ -56,13 +55,10 @@ def collada_parts(
     if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # which numpy counts from the end
         raise MeshError("one of its faces has an index that no vertex has")
     _place_skins(root)
-    colors: Mapping[etree._Element, Mapping[str, Color]] = {}
-    if others is not None and missing is not None:
-        by_name, without = collada_colors(root, others)
-        colors = _bound_colors(root, by_name)
-        missing += [*without, *unbound_materials(root, by_name)]
-    etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _NO_SHAPE), with_tail=False)
-    _bind(root, colors)
+    if others is not None:
+        _leave_plain_colors(root, others)
+    without = _NO_SHAPE if others is not None else _NO_SHAPE + _MATERIALS
+    etree.strip_elements(root, *(f"{{*}}{tag}" for tag in without), with_tail=False)
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
     del root  # pycollada parses them into a tree of its own
@@ -71,46 +67,36 @@ def collada_parts(
     for node in loaded["graph"]:
         mesh = loaded["geometry"][node["geometry"]]
         points, faces = placed(Triangles(mesh["vertices"].astype(np.float64), mesh["faces"]), node["matrix"])
-        material = mesh["visual"].material if mesh["visual"] else None
-        color = tuple(material.baseColorFactor[:3].tolist()) if material else None
-        yield color, Triangles(unit * points, faces)
+        red, green, blue, opacity = mesh["visual"].material.baseColorFactor.tolist() if mesh["visual"] else _NONE
+        yield (red, green, blue) if opacity else None, Triangles(unit * points, faces)
 
 
-def _bound_colors(root: etree._Element, colors: Mapping[str, Color | None]) -> dict[etree._Element, dict[str, Color]]:
-    """Return the colours that each use of a geometry gives to the materials that its primitives name."""
-    found = dict[etree._Element, dict[str, Color]]()
-    for instance in root.iter("{*}instance_geometry"):
-        bound = {one.get("symbol", ""): one.get("target", "") for one in instance.iter("{*}instance_material")}
-        known = {symbol: colors.get(target.removeprefix("#")) for symbol, target in bound.items()}
-        found[instance] = {symbol: color for symbol, color in known.items() if color}
-    return found
+def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> None:
+    """Leave of each effect its colour alone, and take out whatever refers to an effect or a material that is not there.
 
-
-def _bind(root: etree._Element, bound: Mapping[etree._Element, Mapping[str, Color]]) -> None:
-    """Give the uses of geometries these colours, by materials that have nothing else."""
+    A fault in the rest of them is none of the mesh. An effect without a colour becomes transparent.
+    """
     space = str(root.tag).removesuffix("COLLADA")
-
-    def add(parent: etree._Element, path: str, **attributes: str) -> etree._Element:
-        *outer, last = path.split("/")
-        for tag in outer:
-            parent = etree.SubElement(parent, f"{space}{tag}")
-        return etree.SubElement(parent, f"{space}{last}", attributes)
-
-    used = dict.fromkeys(color for one in bound.values() for color in one.values())
-    numbers = {color: number for number, color in enumerate(used)}
-    if not numbers:
-        return
-    effects, materials = add(root, "library_effects"), add(root, "library_materials")
-    for color, number in numbers.items():
-        effect = add(effects, "effect", id=f"urdfsync-effect{number}")
-        diffuse = add(add(effect, "profile_COMMON"), "technique", sid="common")
-        add(diffuse, "lambert/diffuse/color").text = " ".join(repr(part / 255) for part in (*color, 255))
-        material = add(materials, "material", id=f"urdfsync-material{number}")
-        add(material, "instance_effect", url=f"#urdfsync-effect{number}")
-    for instance, colors in bound.items():
-        common = add(instance, "bind_material/technique_common")
-        for symbol, color in colors.items():
-            add(common, "instance_material", symbol=symbol, target=f"#urdfsync-material{numbers[color]}")
+    images = {one.get("id", ""): one for one in root.iterfind("{*}library_images/{*}image")}
+    known = set()
+    for effect in root.iterfind("{*}library_effects/{*}effect"):
+        color = effect_color(effect, images, textures)
+        numbers = (*(part / 255 for part in color), 1.0) if color else _NONE
+        part, identifier = effect, effect.get("id", "")
+        effect.clear()
+        effect.set("id", identifier)
+        for tag in ("profile_COMMON", "technique", "lambert", "diffuse", "color"):
+            part = etree.SubElement(part, f"{space}{tag}", {"sid": "common"} if tag == "technique" else {})
+        part.text = " ".join(map(repr, numbers))
+        known.add(f"#{identifier}")
+    for user, path, attribute in (("material", "{*}instance_effect", "url"), ("instance_material", ".", "target")):
+        for element in list(root.iter(f"{{*}}{user}")):
+            reference = element.find(path)
+            if reference is not None and reference.get(attribute) in known:
+                del reference[:]
+                known.add(f"#{element.get('id')}")
+            elif (parent := element.getparent()) is not None:
+                parent.remove(element)
 
 
 def _parse(content: bytes) -> etree._Element:

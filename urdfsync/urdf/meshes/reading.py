@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import trimesh
 
+from urdfsync.diagnostics import cut
 from urdfsync.urdf.meshes.collada import collada_parts
 from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
 from urdfsync.urdf.meshes.materials import Color, library_colors, number_materials
@@ -28,6 +29,8 @@ _STL_COUNT = slice(80, 84)
 _STL_FACET = 50
 _MOST_COLORS = 20
 """Of one mesh: each becomes a shape. What has one of the others is drawn in grey."""
+_LONGEST, _NAMES = 60, 3
+"""Characters of a name that are told of a file that is missing, and so many names."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
@@ -51,31 +54,27 @@ def read_mesh(suffix: str, content: bytes) -> Triangles:
 
 def read_parts(
     suffix: str, content: bytes, others: Mapping[str, bytes]
-) -> tuple[dict[Color | None, Triangles], bool, list[str]]:
+) -> tuple[dict[Color | None, Triangles], list[str]]:
     """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for those without one.
 
-    `others` has the other files that it names. Also whether some of these are textures, and in words which colours are
-    missing. Raises MeshError.
+    `others` has the other files that it names. Also in words which colours are missing. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
-    missing: list[str] = []
     with _damage_is_an_error():
         if suffix == ".dae":
-            found = collada_parts(content, others, missing)
+            found = collada_parts(content, others)
         else:
-            colors, missing = library_colors(content, others)
-            found = _parts(suffix, content, colors)
+            found = _parts(suffix, content, library_colors(content, others))
         for color, triangles in found:
             by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
         joined([one for some in by_color.values() for one in some])  # which refuses none, and too many
         by_size = sorted(by_color, key=lambda color: sum(len(one.faces) for one in by_color[color]), reverse=True)
-        if len(by_size) - (None in by_size) > _MOST_COLORS:
-            missing.append(f"it has more than {_MOST_COLORS} colours")
         for color in by_size[_MOST_COLORS:]:
             by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
         parts = {color: joined(some) for color, some in by_color.items() if some}
     gc.collect()
-    return parts, any(content and not name.lower().endswith(".mtl") for name, content in others.items()), missing
+    missing = [f"`{cut(name, _LONGEST)}` not found" for name, other in others.items() if not other][:_NAMES]
+    return parts, missing or ["a part of it has none"] * (None in parts and len(parts) > 1)
 
 
 @contextlib.contextmanager

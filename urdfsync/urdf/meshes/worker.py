@@ -48,13 +48,14 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
                 mesh, facts = geometry.import_form(read_mesh(request.suffix, content), request.scale, request.with_hull)
                 files, all_facts = [geometry.binary_stl(mesh)], [facts]
             else:
-                parts, is_textured, missing = read_parts(request.suffix, content, others)
+                parts, missing = read_parts(request.suffix, content, others)
                 meshes = [*parts.values()]
                 if len(parts) == 1 or request.colors == COLORS:
                     meshes = [geometry.joined(meshes), *(meshes if len(parts) > 1 else ())]
                 forms = [geometry.import_form(one, request.scale, request.with_hull) for one in meshes]
                 write = geometry.obj if request.as_obj else geometry.binary_stl
                 files, all_facts = [write(mesh) for mesh, _ in forms], [facts for _, facts in forms]
+                is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
                 all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
         return Answer(problem=str(error)), []
