@@ -11,11 +11,24 @@ These values refer to each other in one direction only, so Python need not searc
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, TypeAlias, get_args
+from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
 
 import msgspec
 
 Vector: TypeAlias = tuple[float, float, float]
+
+
+class Unit(NamedTuple):
+    """Annotates a number with its unit, in the words of a report."""
+
+    name: str
+    sliding: str | None = None
+    """That of a sliding joint, if `name` is that of a turning one; a joint of another kind has none."""
+
+
+_LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
+_POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
+_ACCELERATION = Unit("rad/s²", "m/s²")
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
 SensorKind = Literal["imu", "force_torque", "camera", "lidar"]
@@ -51,34 +64,34 @@ MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in 
 class Origin(msgspec.Struct, frozen=True, gc=False):
     """Pose of a child frame in its parent frame."""
 
-    xyz: Vector = (0.0, 0.0, 0.0)
-    rpy: Vector = (0.0, 0.0, 0.0)
+    xyz: Annotated[Vector, _LENGTH] = (0.0, 0.0, 0.0)
+    rpy: Annotated[Vector, _ANGLE] = (0.0, 0.0, 0.0)
 
 
 class Box(msgspec.Struct, frozen=True, gc=False, tag="box", tag_field="kind"):
     """A box, centred; `size` along x, y and z."""
 
-    size: Vector
+    size: Annotated[Vector, _LENGTH]
 
 
 class Cylinder(msgspec.Struct, frozen=True, gc=False, tag="cylinder", tag_field="kind"):
     """A cylinder along z, centred."""
 
-    radius: float
-    length: float
+    radius: Annotated[float, _LENGTH]
+    length: Annotated[float, _LENGTH]
 
 
 class Capsule(msgspec.Struct, frozen=True, gc=False, tag="capsule", tag_field="kind"):
     """A cylinder along z with half spheres at both ends, centred; `length` without the half spheres."""
 
-    radius: float
-    length: float
+    radius: Annotated[float, _LENGTH]
+    length: Annotated[float, _LENGTH]
 
 
 class Sphere(msgspec.Struct, frozen=True, gc=False, tag="sphere", tag_field="kind"):
     """A sphere, centred."""
 
-    radius: float
+    radius: Annotated[float, _LENGTH]
 
 
 class Mesh(msgspec.Struct, frozen=True, gc=False, tag="mesh", tag_field="kind"):
@@ -118,18 +131,18 @@ class Collision(msgspec.Struct, frozen=True, gc=False):
 class Inertia(msgspec.Struct, frozen=True, gc=False):
     """Inertia tensor about the centre of mass, in the axes of the inertial frame."""
 
-    ixx: float = 0.0
-    ixy: float = 0.0
-    ixz: float = 0.0
-    iyy: float = 0.0
-    iyz: float = 0.0
-    izz: float = 0.0
+    ixx: Annotated[float, _INERTIA] = 0.0
+    ixy: Annotated[float, _INERTIA] = 0.0
+    ixz: Annotated[float, _INERTIA] = 0.0
+    iyy: Annotated[float, _INERTIA] = 0.0
+    iyz: Annotated[float, _INERTIA] = 0.0
+    izz: Annotated[float, _INERTIA] = 0.0
 
 
 class Inertial(msgspec.Struct, frozen=True, gc=False):
     """Mass properties; `origin` places the inertial frame, whose origin is the centre of mass."""
 
-    mass: float = 0.0
+    mass: Annotated[float, Unit("kg")] = 0.0
     origin: Origin = Origin()
     inertia: Inertia = Inertia()
 
@@ -138,11 +151,11 @@ class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaul
     """How the collisions of a link feel at the ground; None for what the ground itself says."""
 
     mu: float | None = None
-    kp: float | None = None
-    """Stiffness of a point, in N/m."""
-    kd: float | None = None
-    """Its damping beside that of the ground, in N·s/m."""
-    min_depth: float | None = None
+    kp: Annotated[float | None, Unit("N/m")] = None
+    """Stiffness of a point."""
+    kd: Annotated[float | None, Unit("N·s/m")] = None
+    """Its damping beside that of the ground."""
+    min_depth: Annotated[float | None, _LENGTH] = None
     """How deep in the ground a point is without a force."""
 
 
@@ -159,32 +172,32 @@ class Link(msgspec.Struct, frozen=True, gc=False):
 class Limit(msgspec.Struct, frozen=True, gc=False):
     """Limits of a joint. A position limit that is left out is 0, as in urdfdom; None is no limit."""
 
-    lower: float = 0.0
-    upper: float = 0.0
-    effort: float | None = None
-    velocity: float | None = None
-    acceleration: float | None = None
-    deceleration: float | None = None
+    lower: Annotated[float, _POSITION] = 0.0
+    upper: Annotated[float, _POSITION] = 0.0
+    effort: Annotated[float | None, _LOAD] = None
+    velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
+    acceleration: Annotated[float | None, _ACCELERATION] = None
+    deceleration: Annotated[float | None, _ACCELERATION] = None
     """That of `acceleration` if it is None."""
-    jerk: float | None = None
+    jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
 
 
 class Dynamics(msgspec.Struct, frozen=True, gc=False):
-    """Losses of a joint: viscous `damping` (N·m·s/rad or N·s/m), dry `friction` (N·m or N)."""
+    """Losses of a joint: viscous `damping`, dry `friction`."""
 
-    damping: float = 0.0
-    friction: float = 0.0
-    armature: float | None = None
-    """Inertia that the drive adds at the joint (kg·m² or kg), as in MuJoCo."""
+    damping: Annotated[float, _LOSS] = 0.0
+    friction: Annotated[float, _LOAD] = 0.0
+    armature: Annotated[float | None, Unit("kg·m²", "kg")] = None
+    """Inertia that the drive adds at the joint, as in MuJoCo."""
 
 
 class Transmission(msgspec.Struct, frozen=True, gc=False):
     """The gear of a drive: position of the motor = `reduction` · (position of the joint - `offset`)."""
 
-    reduction: float = 1.0
-    offset: float = 0.0
-    rotor_inertia: float | None = None
-    """Of the motor, on its own side of the gear; in kg·m²."""
+    reduction: Annotated[float, Unit("", "rad/m")] = 1.0
+    offset: Annotated[float, _POSITION] = 0.0
+    rotor_inertia: Annotated[float | None, _INERTIA] = None
+    """Of the motor, on its own side of the gear."""
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
@@ -192,23 +205,23 @@ class Mimic(msgspec.Struct, frozen=True, gc=False):
 
     joint: str
     multiplier: float = 1.0
-    offset: float = 0.0
+    offset: Annotated[float, _POSITION] = 0.0
 
 
 class Calibration(msgspec.Struct, frozen=True, gc=False):
     """Positions of the reference edges."""
 
-    rising: float | None = None
-    falling: float | None = None
+    rising: Annotated[float | None, _POSITION] = None
+    falling: Annotated[float | None, _POSITION] = None
 
 
 class SafetyController(msgspec.Struct, frozen=True, gc=False):
     """Soft limits and gains of a safety controller."""
 
-    k_velocity: float = 0.0
-    k_position: float = 0.0
-    soft_lower_limit: float = 0.0
-    soft_upper_limit: float = 0.0
+    k_velocity: Annotated[float, _LOSS] = 0.0
+    k_position: Annotated[float, Unit("1/s")] = 0.0
+    soft_lower_limit: Annotated[float, _POSITION] = 0.0
+    soft_upper_limit: Annotated[float, _POSITION] = 0.0
 
 
 class Joint(msgspec.Struct, frozen=True, gc=False):
@@ -282,22 +295,22 @@ class Camera(msgspec.Struct, frozen=True, gc=False):
 
     width: float = 0.0
     height: float = 0.0
-    horizontal_angle: float = 0.0
-    near: float = 0.0
-    far: float = 0.0
+    horizontal_angle: Annotated[float, _ANGLE] = 0.0
+    near: Annotated[float, _LENGTH] = 0.0
+    far: Annotated[float, _LENGTH] = 0.0
 
 
 class Lidar(msgspec.Struct, frozen=True, gc=False):
     """Numbers of a laser scanner; 0 for what the source does not say."""
 
     samples: float = 0.0
-    min_angle: float = 0.0
-    max_angle: float = 0.0
+    min_angle: Annotated[float, _ANGLE] = 0.0
+    max_angle: Annotated[float, _ANGLE] = 0.0
     vertical_samples: float = 0.0
-    vertical_min_angle: float = 0.0
-    vertical_max_angle: float = 0.0
-    min_range: float = 0.0
-    max_range: float = 0.0
+    vertical_min_angle: Annotated[float, _ANGLE] = 0.0
+    vertical_max_angle: Annotated[float, _ANGLE] = 0.0
+    min_range: Annotated[float, _LENGTH] = 0.0
+    max_range: Annotated[float, _LENGTH] = 0.0
 
 
 class Sensor(msgspec.Struct, frozen=True, gc=False):
@@ -311,7 +324,7 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     at: str
     origin: Origin = Origin()
     """Of a force-torque sensor, the axes alone."""
-    update_rate: float = 0.0
+    update_rate: Annotated[float, Unit("Hz")] = 0.0
     camera: Camera | None = None
     lidar: Lidar | None = None
     in_parent: bool = False

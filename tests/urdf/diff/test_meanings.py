@@ -367,7 +367,8 @@ def test_where_the_source_does_not_decide_drives_are_no_change(options: Options)
 
 def test_a_contact_is_in_the_record_and_which_numbers_it_has_in_the_model_of_a_mobile_robot() -> None:
     def foot(inner: str) -> list[str]:
-        return [urdfs.link("foot", 1.0), f'<gazebo reference="foot">{inner}</gazebo>' if inner else ""]
+        shape = '<collision><geometry><sphere radius="1"/></geometry></collision>'
+        return [f'<link name="foot">{shape}</link>', f'<gazebo reference="foot">{inner}</gazebo>' if inner else ""]
 
     mobile = Options(base="floating")
     assert said(foot("<kp>1e5</kp>"), foot("<kp>2e5</kp>"), mobile) == {"link foot / contact / kp: changed, parameter"}

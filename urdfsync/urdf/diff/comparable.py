@@ -18,65 +18,47 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     Each joint that can be driven has an entry `drive` in the place of `actuated`: `driven` or `passive`, as the source
     has it. One transmission more or less can change it for joints that it does not name.
     """
-    links, joints, extensions = snapshot["links"], snapshot["joints"], snapshot["extensions"]
-    if renames:
-        gone = displaced(renames)
-        links = {renames.get(("link", name), name): link for name, link in links.items() if ("link", name) not in gone}
-        joints = {
-            renames.get(("joint", name), name): _joint(joint, renames)
-            for name, joint in joints.items()
-            if ("joint", name) not in gone
-        }
-        extensions = {}
-        for owner, tags in snapshot["extensions"].items():
-            kind, _, name = owner.partition(" ")
-            if (kind, name) not in gone:
-                extensions[f"{kind} {renames[kind, name]}" if (kind, name) in renames else owner] = tags
-    sensors = snapshot.get("sensors", {})
-    if renames:
-        sensors = {
-            name: {
-                **sensor,
-                "at": renames.get(
-                    ("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"]), sensor["at"]
-                ),
-            }
-            for name, sensor in sensors.items()
-        }
-    robot = joints_of(joints)
+    gone = displaced(renames)
+
+    def renamed(kind: str, name: str) -> str:
+        return renames.get((kind, name), name)
+
+    links = {renamed("link", name): link for name, link in snapshot["links"].items() if ("link", name) not in gone}
+    joints = {}
+    for name, joint in snapshot["joints"].items():
+        if ("joint", name) in gone:
+            continue
+        joint = {key: value for key, value in joint.items() if key != "actuated"}
+        if renames:
+            joint |= {end: renamed("link", joint[end]) for end in ("parent", "child")}
+            if mimic := joint.get("mimic"):
+                joint["mimic"] = {**mimic, "joint": renamed("joint", mimic["joint"])}
+        joints[renamed("joint", name)] = joint
+    robot = joints_of(snapshot["joints"])
     passive = passive_joints(robot)
-    drives = {
-        joint.name: {"drive": "passive" if joint.name in passive else "driven"}
-        for joint in robot
-        if can_be_driven(joint)
+    for one in filter(can_be_driven, robot):
+        if ("joint", one.name) not in gone:
+            joints[renamed("joint", one.name)]["drive"] = "passive" if one.name in passive else "driven"
+    extensions = {}
+    for owner, tags in snapshot["extensions"].items():
+        kind, _, name = owner.partition(" ")
+        if (kind, name) not in gone:
+            extensions[f"{kind} {renamed(kind, name)}" if name else owner] = _keyed(tags)
+    sensors = {
+        name: {**sensor, "at": renamed("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"])}
+        for name, sensor in snapshot.get("sensors", {}).items()
     }
-    return {
-        "name": snapshot["name"],
-        "links": links,
-        "joints": {
-            name: {key: value for key, value in joint.items() if key != "actuated"} | drives.get(name, {})
-            for name, joint in joints.items()
-        },
-        "sensors": sensors,
-        "extensions": {owner: _keyed(tags) for owner, tags in extensions.items()},
-    }
+    return {"name": snapshot["name"], "links": links, "joints": joints, "sensors": sensors, "extensions": extensions}
 
 
-def _joint(joint: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mapping[str, Any]:
-    ends = {end: renames.get(("link", joint[end]), joint[end]) for end in ("parent", "child")}
-    if mimic := joint.get("mimic"):
-        ends["mimic"] = {**mimic, "joint": renames.get(("joint", mimic["joint"]), mimic["joint"])}
-    return {**joint, **ends}
-
-
-def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, str]:
-    """Texts of extensions by `tag name`, with a number from 2 on where that is not enough."""
+def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:
+    """Return texts of extensions by `tag name`, with a number from 2 on where that is not enough."""
     result: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():
         for text in texts:
             # the name in the first tag; in canonical XML the value of an attribute has no quotes
-            subject = re.match(r'<[^>]*?\s(?:name|reference)="([^"]*)"', text)
+            subject = re.match(r'<[^>]*?\sname="([^"]*)"', text)
             label = f"{tag} {subject[1]}" if subject else tag
             counts[label] += 1
             result[label if counts[label] == 1 else f"{label} ({counts[label]})"] = text

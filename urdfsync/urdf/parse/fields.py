@@ -13,7 +13,7 @@ import functools
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Any, TypeVar, get_args
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -250,19 +250,20 @@ def _schema(
     children: dict[str, tuple[Any, Any]] = {}
     required: list[str] = []
     for field in msgspec.structs.fields(struct):
-        kinds = (field.type, *get_args(field.type))
-        structs = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
+        kind = get_args(field.type)[0] if get_origin(field.type) is Annotated else field.type
+        kinds = (kind, *get_args(kind))
+        structs = [one for one in kinds if isinstance(one, type) and issubclass(one, msgspec.Struct)]
         if field.name in _ELSEWHERE:
             continue
         if structs:
             name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
             children[name] = structs[0], field.default
         elif field.name in _ONE_VALUE:
-            children[field.name] = _COUNTS[field.type], field.default
+            children[field.name] = _COUNTS[kind], field.default
             if field.required:
                 required.append(field.name)
-        elif field.type in _COUNTS:
-            attributes[field.name] = _COUNTS[field.type], field.default
+        elif kind in _COUNTS:
+            attributes[field.name] = _COUNTS[kind], field.default
     return attributes, children, required
 
 
