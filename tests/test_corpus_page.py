@@ -1,6 +1,6 @@
-"""The page on the corpus: what real robots say beside links and joints, and what becomes of it; nothing is silent.
+"""The table of the corpus: what real robots say beside links and joints, and what becomes of it; nothing is silent.
 
-`python tests/test_corpus_page.py` writes its table.
+`python tests/test_corpus_page.py` writes it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.options import LeftOut
 from urdfsync.urdf.snapshot import from_snapshot
 
-PAGE = REPOSITORY / "docs" / "corpus.md"
+PAGE = REPOSITORY / "tests" / "golden" / "corpus.md"
 HEADER = """| robot | has beside links and joints | drives | sensors | contacts | not modelled | left out by `allow` |
 | --- | --- | --- | --- | --- | --- | --- |
 """
