@@ -79,12 +79,6 @@ def test_the_sandbox_holds_in_all_parts_of_a_template(marker: Path, capsys: Capt
     [
         ("<< range(1000000) >>", "Range too big"),
         ("<% for n in range(1000) %><< 'a' * 1000000 >><% endfor %>", "characters"),
-        ("<< 10 ** (10 ** 10) >>", "too large"),
-        ("<% set n = namespace(x=3) %><% for i in range(60) %><% set n.x = n.x * n.x %><% endfor %>", "too large"),
-        ("<< ('f' * 4000000) | int(0, 16) // ('f' * 2000000) | int(0, 16) >>", "too large"),
-        ("<< (1).from_bytes(('f' * 4000000).encode()) % 7 >>", "too large"),
-        ("<< 1 | round(10000000000, 'ceil') >>", "larger than"),
-        ("<< [1] | slice(1000000000000) | max >>", "larger than"),
         ("<< lipsum(1000000000) >>", "lipsum"),
         ("<% macro m() %><< m() >><% endmacro %><< m() >>", "without end"),
         ("<% include 'joint/revolute.mo.jinja' %>", "without end"),

@@ -23,19 +23,19 @@ MAX_FILE = 100_000_000
 """Bytes of a file that is read. More is no source, mesh or output, but may be a stranger's, to fill the memory."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors that say that nothing is at a path; the same as for pathlib."""
-
-
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 
 LSTAT, STAT, LSTAT_TYPE, STAT_TYPE = "lstat", "stat", "lstat type", "stat type"
-"""How a path is checked: by all of its `Stat`, or by its file type alone (0 for nothing there); links themselves with
-`os.lstat`, what they lead to with `os.stat`."""
+"""How a path is checked: by all of its `Stat`, or by its file type alone; links themselves with `os.lstat`, what they
+lead to with `os.stat`."""
 MODELICA = "modelica"
 """How a folder is checked by the names in it that matter to Modelica, in the form of `modelica_names`."""
 VARIABLE = "variable"
 """How an environment variable is checked, whose name stands in the place of a path: by its value."""
+_NOTHING = (0,)
+"""What is found where there is nothing."""
 Entries = dict[tuple[str, str], tuple[int, ...]]
-"""Checks and paths with what was found: a `Stat`, or a tuple of the file type."""
+"""Checks and paths with what was found: a `Stat`, a tuple of the file type, `_NOTHING`."""
 
 
 class Dependencies:
@@ -101,27 +101,24 @@ def stat_of(status: os.stat_result) -> Stat:
 
 
 def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """What is at a path now, in the form of `Entries`. Raises OSError."""
+    """Return what is at a path now, in the form of `Entries`. Raises OSError if the system does not tell."""
     if check == VARIABLE:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     if check == MODELICA:
         with os.scandir(path) as entries:
             return modelica_names(entries)
-    follow = check in (STAT, STAT_TYPE)
-    if check in (LSTAT, STAT):
-        return stat_of(os.stat(path, follow_symlinks=follow))
     try:
-        return (stat.S_IFMT(os.stat(path, follow_symlinks=follow).st_mode),)
+        status = os.stat(path, follow_symlinks=check in (STAT, STAT_TYPE))
     except OSError as error:
         if error.errno in _ABSENT:
-            return (0,)
+            return _NOTHING
         raise
+    return stat_of(status) if check in (LSTAT, STAT) else (stat.S_IFMT(status.st_mode),)
 
 
-def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
-    """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
-    check = STAT_TYPE if follow else LSTAT_TYPE
+def _look(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
+    """Return what is at a path now, and record it. Raises OSError if the system does not tell."""
     try:
         found = check_path(check, path)
     except OSError:
@@ -129,7 +126,12 @@ def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
         raise
     if (dependencies := _current.get()) is not None:
         dependencies.add(check, path, found)
-    return found[0]
+    return found
+
+
+def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
+    """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
+    return _look(STAT_TYPE if follow else LSTAT_TYPE, path)[0]
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
@@ -144,15 +146,13 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 def read_variable(name: str) -> str | None:
     """The value of an environment variable; None if it is not set."""
-    if (dependencies := _current.get()) is not None:
-        dependencies.add(VARIABLE, name, check_path(VARIABLE, name))
+    _look(VARIABLE, name)
     return os.environ.get(name)
 
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
     """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, for anything else as well."""
-    if (dependencies := _current.get()) is not None:
-        _add(dependencies, path)
+    depend_on(path)
     return read_unrecorded(path)
 
 
@@ -171,41 +171,23 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
         return file.read(MAX_FILE) or b""
 
 
-def read_stat(path: str | os.PathLike[str]) -> os.stat_result | None:
-    """Ask for a path itself, links not followed, before its content is read; None for nothing. Raises OSError."""
-    dependencies = _current.get()
-    try:
-        found = os.lstat(path)
-    except (FileNotFoundError, NotADirectoryError):
-        if dependencies is not None:
-            dependencies.add(LSTAT_TYPE, path, (0,))
-        return None
-    except OSError:
-        mark_incomplete()
-        raise
-    if dependencies is not None:
-        dependencies.add(LSTAT, path, stat_of(found))
-    return found
+def read_mode(path: str | os.PathLike[str]) -> int:
+    """The mode of a path, links not followed, before its content is read; 0 for nothing there. Raises OSError."""
+    return _look(LSTAT, path)[0]
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """The names in a folder, in no order. Raises OSError."""
-    if (dependencies := _current.get()) is not None:
-        _add(dependencies, folder)
+    depend_on(folder)
     return os.listdir(folder)
 
 
 def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     """The entries of a folder, in no order, of which files of Modelica and folders matter alone. Raises OSError."""
-    try:
-        with os.scandir(folder) as entries:
-            found = list(entries)
-    except OSError:
-        mark_incomplete()
-        raise
-    if (dependencies := _current.get()) is not None:
-        dependencies.add(MODELICA, folder, modelica_names(found))
-    return found
+    if _current.get() is not None:
+        _look(MODELICA, folder)
+    with os.scandir(folder) as entries:
+        return list(entries)
 
 
 def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
@@ -222,9 +204,9 @@ def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
 
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file that is about to be read by other means, or a folder that is about to be listed."""
-    if (dependencies := _current.get()) is not None:
+    if _current.get() is not None:
         try:
-            _add(dependencies, path)
+            _look(STAT, path)
         except OSError:
             return  # the reader meets the same error, and reports it
 
@@ -246,14 +228,3 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
                 depend_on(path)
             elif found == stat.S_IFDIR:
                 waiting.append(path)
-
-
-def _add(dependencies: Dependencies, path: str | os.PathLike[str]) -> None:
-    try:
-        dependencies.add(STAT, path, stat_of(os.stat(path)))
-    except (FileNotFoundError, NotADirectoryError):
-        dependencies.add(STAT_TYPE, path, (0,))
-        raise
-    except OSError:
-        dependencies.complete = False
-        raise

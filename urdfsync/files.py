@@ -10,7 +10,7 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
+from urdfsync.dependencies import file_type, read_file, read_mode, read_unrecorded, walk_files
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -128,15 +128,15 @@ class Tree:
         if not self.check_folder(path.rpartition(os.sep)[0]):
             return None
         try:
-            status = read_stat(path)
-            if status is None or stat.S_ISREG(status.st_mode):
-                return None if status is None else read_unrecorded(path)
+            mode = read_mode(path)
+            if not mode or stat.S_ISREG(mode):
+                return read_unrecorded(path) if mode else None
         except (FileNotFoundError, NotADirectoryError):
             return None  # it is gone since
         except OSError as error:
             hint = _HINTS.get(error.errno or 0, "")
             raise _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
-        message = f"{kind_of(status.st_mode)} is where urdfsync would write a file"
+        message = f"{kind_of(mode)} is where urdfsync would write a file"
         raise _refusal("output-in-the-way", path, message, "move it away")
 
     def check_folder(self, folder: str | os.PathLike[str]) -> bool:

@@ -8,12 +8,8 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 from __future__ import annotations
 
 import contextlib
-import functools
-import hashlib
 import importlib.util
-import marshal
 import math
-import os
 import re
 import signal
 import sys
@@ -24,14 +20,14 @@ from typing import Any
 
 import jinja2
 import msgspec
-from jinja2 import nodes
+from jinja2 import compiler, nodes
 from jinja2.bccache import Bucket
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
 from jinja2.ext import Extension
 from jinja2.lexer import Token, TokenStream
 from jinja2.runtime import Context, Macro
-from jinja2.sandbox import MAX_RANGE, ImmutableSandboxedEnvironment
+from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from urdfsync.files import put
 from urdfsync.modelica import literals
@@ -62,15 +58,13 @@ MAX_SECONDS = 60.0
 """Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
 """Characters of one text."""
-MAX_BITS = 10_000
-"""Bits of an integer that a template makes: a step with larger ones can take hours, and can't be interrupted."""
 _MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
 """A template's file and line, in front of the text that comes from there; no text of a model has NUL in it."""
 _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
 """What a line with marks begins with."""
 GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
-own, such as the comparison of lists that hold each other many times."""
+own, such as a power of large numbers, or the comparison of lists that hold each other many times."""
 
 
 class _CodeGenerator(CodeGenerator):
@@ -107,36 +101,31 @@ class _Environment(jinja2.Environment):
 class _CodeCache(jinja2.BytecodeCache):
     """Compiled templates of installed packages, beside urdfsync's own compiled modules and trusted like these.
 
-    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. A file counts if
-    it has the hash of its code with the template, Python, and the files of Jinja and urdfsync that decide on the code.
+    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code counts while
+    the template, Python, and the modules that decide on the code are as they were; filters of constants are worked out
+    when it is compiled.
     """
 
     def __init__(self) -> None:
         self._stem = importlib.util.cache_from_source(__file__).removesuffix(".pyc")
-        with os.scandir(Path(jinja2.__file__).parent) as found:
-            files = [__file__, literals.__file__, *sorted(file.path for file in found if file.name.endswith(".py"))]
-        stats = [(file, status.st_size, status.st_mtime_ns) for file in files if (status := os.stat(file))]  # noqa: PTH116
-        self._compiler = repr((sys.version, stats))
+        files = map(Path, (__file__, literals.__file__, compiler.__file__))
+        self._compiler = repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
 
-    def _file(self, bucket: Bucket) -> Path:
-        return Path(f"{self._stem}.{bucket.key}")
-
-    def _hash(self, bucket: Bucket, code: bytes) -> bytes:
-        return hashlib.sha256(f"{self._compiler}\0{bucket.checksum}\0".encode() + code).digest()
+    def get_source_checksum(self, source: str) -> str:
+        """See Jinja, which adds the version of Python."""
+        return super().get_source_checksum(f"{self._compiler}\0{source}")
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """See Jinja."""
-        with contextlib.suppress(OSError):
-            content = self._file(bucket).read_bytes()
-            if content[:32] == self._hash(bucket, content[32:]):
-                bucket.code = marshal.loads(content[32:])  # noqa: S302 - as Python does with its own files there
+        # a file that is damaged can raise anything when it is taken for a pickle; the template is compiled then
+        with contextlib.suppress(Exception), open(f"{self._stem}.{bucket.key}", "rb") as file:  # noqa: PTH123
+            bucket.load_bytecode(file)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         """See Jinja; where nothing can be written, each process compiles the template."""
         if not sys.dont_write_bytecode:
-            code = marshal.dumps(bucket.code)
             with contextlib.suppress(OSError):
-                put(self._file(bucket), self._hash(bucket, code) + code)
+                put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())
 
 
 class _Sandbox(ImmutableSandboxedEnvironment):
@@ -146,7 +135,6 @@ class _Sandbox(ImmutableSandboxedEnvironment):
     """
 
     code_generator_class = _CodeGenerator
-    intercepted_binops = frozenset(("*", "**"))
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
@@ -156,7 +144,6 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         for name in ("lipsum", "random"):  # their text is another one each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
-        self.filters |= {name: _limited(self.filters[name]) for name in ("int", "round", "slice")}
 
     def join_path(self, template: str, parent: str) -> str:
         """See Jinja."""
@@ -171,15 +158,7 @@ class _Sandbox(ImmutableSandboxedEnvironment):
     def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
         """See Jinja; recursion without a loop looks at the clock here."""
         self.check_time()
-        return _small(super().call(context, function, *arguments, **named))
-
-    def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
-        """See Jinja. Raises OverflowError for a number that is too large."""
-        if isinstance(left, int) and isinstance(right, int):
-            sized = left.bit_length() * abs(right) if operator == "**" else left.bit_length() + right.bit_length()
-            if sized > MAX_BITS:
-                raise OverflowError("a number is too large")
-        return super().call_binop(context, operator, left, right)
+        return super().call(context, function, *arguments, **named)
 
     def getattr(self, obj: Any, attribute: str) -> Any:
         """See Jinja. Items of a dict go before its methods, as in an element that is called `items`.
@@ -191,28 +170,6 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
             return getattr(obj, attribute)
         return super().getattr(obj, attribute)
-
-
-def _limited(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A filter of Jinja that takes no number beyond Jinja's limit of ranges, and gives none that is too large.
-
-    It would work through such a number without a look at the clock.
-    """
-
-    @functools.wraps(function)
-    def checked(*arguments: Any, **named: Any) -> Any:
-        if any(isinstance(one, int) and abs(one) > MAX_RANGE for one in (*arguments[1:], *named.values())):
-            raise OverflowError(f"a number is larger than {MAX_RANGE}")
-        return _small(function(*arguments, **named))
-
-    return checked
-
-
-def _small(value: Any) -> Any:
-    """The value. Raises OverflowError if it is a number of more than `MAX_BITS`, such as a text's digits give."""
-    if isinstance(value, int) and value.bit_length() > MAX_BITS:
-        raise OverflowError("a number is too large")
-    return value
 
 
 @contextlib.contextmanager
@@ -273,8 +230,7 @@ class Renderer:
     def render(self, template: str, data: Mapping[str, Any]) -> str:
         """The template's text with `data`. Raises jinja2.TemplateError for a template that can't be used.
 
-        What is not allowed to a template, and what takes too long or too much, is a SecurityError, OverflowError or
-        MemoryError.
+        What is not allowed to a template, and what takes too long or too much, is a SecurityError or MemoryError.
         """
         return _render(self._environment, template, data)
 
