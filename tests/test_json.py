@@ -19,7 +19,7 @@ import pytest
 from support.commands import Execute
 
 from urdfsync import cli, config
-from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, SecondResult
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import FileStatus, Kind
@@ -260,10 +260,20 @@ def checked() -> CheckResult:
     return CheckResult(
         "arm",
         "Arm",
-        compiled=(CompiledModel("Arm", 0), CompiledModel("ArmRun", 412)),
         freedoms=1,
-        deviations=(hand, exact),
-        effects=(EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
+        tools=(
+            ToolResult(
+                "rumoca 0.10.2",
+                (CompiledModel("Arm", 0), CompiledModel("ArmRun", 412)),
+                ("Cell",),
+                (hand, exact),
+                (EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
+                12.5,
+                870.0,
+            ),
+            ToolResult("OpenModelica 1.27.0", (CompiledModel("Arm", 410),), seconds=31.5, megabytes=702.0),
+        ),
+        between=(exact,),
         notes=('link "tip" has made-up inertias, because it moves without any mass',),
         unchecked=("limits (they change no motion) are not compared",),
         gaps=("`Spring` was not compiled by itself, because its file does not parse",),
@@ -271,16 +281,6 @@ def checked() -> CheckResult:
         seconds=4.25,
         megabytes=310.5,
         reference="Pinocchio 4.1.0",
-        tool="rumoca 0.10.2",
-        second=SecondResult(
-            "OpenModelica 1.27.0",
-            (CompiledModel("Arm", 410),),
-            (exact,),
-            (exact,),
-            (exact,),
-            (12.5, 31.5),
-            (870.0, 702.0),
-        ),
     )
 
 

@@ -15,14 +15,14 @@ from support.checks import Compiling, thread_workers
 from urdfsync import cli, config
 from urdfsync.check import afterbuild
 from urdfsync.check import run as check_run
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.engine.result import Checked, Exit, Result, exit_code
 
-RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", tools=(ToolResult(compiled=(CompiledModel("Ladder", 12),)),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
 WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
 OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'

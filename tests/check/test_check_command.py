@@ -11,7 +11,7 @@ import pytest
 
 from urdfsync import cli
 from urdfsync.check.compilers.compiler import Tool
-from urdfsync.check.results import CheckOptions, CheckResult, EditEffect
+from urdfsync.check.results import CheckOptions, CheckResult, EditEffect, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
@@ -21,9 +21,9 @@ Capture = pytest.CaptureFixture[str]
 
 RIGHT = CheckResult("ladder", "Ladder")
 CHANGED = Deviation(Quantity.EFFORT, "R2", 1.0, 10.0, 10.0, "A")
-EDITED = msgspec.structs.replace(RIGHT, effects=(EditEffect(("Elements/R2.mo",), (CHANGED,)),))
+EDITED = msgspec.structs.replace(RIGHT, tools=(ToolResult(effects=(EditEffect(("Elements/R2.mo",), (CHANGED,)),)),))
 INCOMPLETE = msgspec.structs.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
-WRONG = msgspec.structs.replace(RIGHT, deviations=(CHANGED,))
+WRONG = msgspec.structs.replace(RIGHT, tools=(ToolResult(deviations=(CHANGED,)),))
 FAILED = msgspec.structs.replace(
     RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),)
 )

@@ -47,7 +47,7 @@ def test_a_check_takes_little_memory_itself(arm: Path) -> None:
     assert process.returncode == 1
     (found,) = document["robots"]
     assert (found["standing"], found["built"], found["diagnostics"]) == ("differs", False, [])
-    assert len(found["compiled"]) == 3
+    assert len(found["tools"][0]["compiled"]) == 3
     assert 0 < highest < 200 * MEGABYTE
     assert found["megabytes"] > highest / MEGABYTE
 

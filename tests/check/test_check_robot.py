@@ -19,7 +19,7 @@ from support.urdfs import dynamics, joint, link, robot
 from urdfsync import config
 from urdfsync.check import libraries
 from urdfsync.check import robot as robot_check
-from urdfsync.check.package import CheckedPackage, read_package
+from urdfsync.check.package import RobotPackage, read_package
 from urdfsync.check.report import summary
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.check.robot import check_robot
@@ -155,7 +155,7 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, model
     assert codes(result) == []
     assert len(result.compiled) == 3, "the edited robot compiles, although it can't be moved"
     assert result.status(strict=False) is CheckStatus.DIFFERS
-    assert max(one.relative for one in result.deviations or ()) > 1e-2
+    assert max(one.relative for one in result.deviations) > 1e-2
     (gap,) = result.gaps
     assert "not ready yet" in gap
 
@@ -206,7 +206,7 @@ def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
     file = arm / "Links" / "Base.mo"
     before = file.read_text()
 
-    def read_later(*arguments: Any) -> CheckedPackage:
+    def read_later(*arguments: Any) -> RobotPackage:
         file.write_text(f"// saved\n{before}")
         return read_package(*arguments)
 
@@ -319,8 +319,7 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
     result = check()
     nested = "the redeclaration of `elbow` inside of another modifier is not checked: rumoca ignores it"
     assert lines(result) == [
-        "Draft.mo:0: warning: this file can't be read as Modelica, so its names were not checked; "
-        "open it in a Modelica tool",
+        "Draft.mo:3: warning: the file lacks `;` before `end`; ",
         f"Bench/MyBench.mo:2: warning: {nested}; "
         "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
         "Bench/MyBench.mo:4: error: MyArm has no `laod`; did you mean `mine.load`?",
@@ -386,8 +385,29 @@ def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
     write({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"})
     compiler.problems["Cell"] = "unbalanced model: 2 equations, 3 unknowns"
     result = check()
-    assert (result.failing, len(result.compiled)) == (("Cell",), 3)
-    assert lines(result) == ["Cell.mo:0: warning: there is 1 equation too few; "]
+    assert (result.tools[0].failing, len(result.compiled)) == (("Cell",), 3)
+    hint = "a part of other models need not compile by itself"
+    assert lines(result) == [f"Cell.mo:0: warning: there is 1 equation too few; {hint}"]
+
+
+def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    """`Elbow` and `Arm` are words that other robots have as well."""
+    other = "within Other;\nmodel %s\n  %s part;\nend %s;\n"
+    write(
+        {
+            "Other/package.mo": "package Other\nend Other;\n",
+            "Other/Elbow.mo": other % ("Elbow", "Real", "Elbow"),
+            "Other/Arm.mo": other % ("Arm", "Elbow", "Arm"),
+            "Other/Bad.mo": other % ("Bad", "Arm.nothing", "Bad"),
+            "Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n",
+            "Line.mo": "model Line\n  Cell cell;\nend Line;\n",
+        }
+    )
+    result = check()
+    assert (result.diagnostics, result.gaps) == ((), ())
+    assert [one.model for one in result.compiled if one.is_users] == ["Cell", "Line"]
 
 
 def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:

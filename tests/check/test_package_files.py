@@ -12,6 +12,7 @@ import pytest
 
 from urdfsync import config
 from urdfsync.check import package as files
+from urdfsync.check.contents import package_texts
 from urdfsync.check.package import PackageTexts
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
@@ -74,8 +75,8 @@ def odd(tmp_path: Path) -> Path:
 
 
 def test_what_is_no_regular_file_is_left_out(odd: Path, plant: Config) -> None:
-    assert files.package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
-    assert files.package_texts(plant.root / "absent") == {}
+    assert package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
+    assert package_texts(plant.root / "absent") == {}
 
 
 @pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
@@ -93,7 +94,7 @@ def test_what_can_not_be_read_is_named_as_people_see_it(
     with monkeypatch.context() as patch:
         patch.setattr(os, method, refuse)
         with pytest.raises(OutputError) as caught:
-            files.package_texts(plant.root / "modelica" / "Plant")
+            package_texts(plant.root / "modelica" / "Plant")
     (found,) = caught.value.diagnostics
     assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
     assert found.hint
@@ -104,7 +105,7 @@ def test_a_file_that_would_fill_the_memory_is_refused(plant: Config, monkeypatch
     with Path("modelica/Plant/Large.mo").open("wb") as file:
         file.truncate(2**40)  # takes nothing on the disk, as in a repository
     with pytest.raises(OutputError, match=r"modelica/Plant/Large\.mo: error: it can't be read: it has more than"):
-        files.package_texts(plant.root / "modelica/Plant")
+        package_texts(plant.root / "modelica/Plant")
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:

@@ -9,7 +9,8 @@ import pytest
 from support import arm, corpus
 from support.arm import ELBOW
 
-from urdfsync.check.package import PackageTexts, package_texts
+from urdfsync.check.contents import package_texts
+from urdfsync.check.package import PackageTexts
 from urdfsync.check.texts import check_around, check_layout
 
 LIBRARY = corpus.REPOSITORY / "modelica" / "UrdfSync"

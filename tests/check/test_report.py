@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.check.results import CheckResult, CompiledModel, EditEffect
+from urdfsync.check.results import CheckResult, CompiledModel, EditEffect, ToolResult
 from urdfsync.commands.check import show_results
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
@@ -37,12 +37,19 @@ AGREEING = (
 BROKEN = Diagnostic(
     Severity.ERROR, "syntax", "the file does not end with `end Wheel;`", "modelica/Cart/Joints/Wheel.mo", 14
 )
+TOOL = ToolResult("rumoca 0.10.2", COMPILED, deviations=AGREEING)
+
+
+def tools(**facts: Any) -> tuple[ToolResult, ...]:
+    """One compiler that says something else."""
+    return (msgspec.structs.replace(TOOL, **facts),)
+
+
 RIGHT = CheckResult(
     "arm",
     "Arm",
-    compiled=COMPILED,
     freedoms=6,
-    deviations=AGREEING,
+    tools=(TOOL,),
     notes=("inertias were made up for 3 links",),
     unchecked=("limits are not compared",),
     seconds=12.41,
@@ -52,9 +59,11 @@ EDITED = msgspec.structs.replace(
     RIGHT,
     robot="loader",
     notes=(),
-    effects=(
-        EditEffect(("Joints/Elbow.mo",), (load("joint elbow", 0.672, 21.0),), ("joint elbow",)),
-        EditEffect(("Links/Hand.mo",), (), ("link hand",)),
+    tools=tools(
+        effects=(
+            EditEffect(("Joints/Elbow.mo",), (load("joint elbow", 0.672, 21.0),), ("joint elbow",)),
+            EditEffect(("Links/Hand.mo",), (), ("link hand",)),
+        )
     ),
 )
 INCOMPLETE = msgspec.structs.replace(
@@ -63,7 +72,9 @@ INCOMPLETE = msgspec.structs.replace(
     notes=(),
     gaps=("the effect of your edits was not measured: `robot.hand.body.m` is not declared",),
 )
-WRONG = msgspec.structs.replace(RIGHT, robot="picker", notes=(), deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
+WRONG = msgspec.structs.replace(
+    RIGHT, robot="picker", notes=(), tools=tools(deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
+)
 FAILED = CheckResult(
     "cart", "Cart", gaps=("nothing was compiled, since files have errors",), diagnostics=(BROKEN,), seconds=0.9
 )
@@ -129,7 +140,7 @@ def test_one_robot_needs_no_tally(capsys: Capture) -> None:
 
 def test_models_of_the_user_are_counted_apart(capsys: Capture) -> None:
     users = (CompiledModel("Cell", 9000, is_users=True), CompiledModel("Plant.Line", 7, is_users=True))
-    result = msgspec.structs.replace(RIGHT, compiled=(*COMPILED, *users), failing=("Part",))
+    result = msgspec.structs.replace(RIGHT, tools=tools(compiled=(*COMPILED, *users), failing=("Part",)))
     said = "3 models compile, and 2 of yours; 1 of yours does not; 6 degrees of freedom; 1,204 unknowns in the largest;"
     assert said in shown(capsys, result)[0]
 
@@ -173,7 +184,7 @@ AT_SHOULDER = "the torque of joint shoulder by 0.3 N·m"
 
 def edited(capsys: Capture, effect: EditEffect) -> str:
     """What is said of edits."""
-    _, sentence = shown(capsys, CheckResult("arm", "Arm", effects=(effect,)))
+    _, sentence = shown(capsys, CheckResult("arm", "Arm", tools=(ToolResult(effects=(effect,)),)))
     return sentence.strip()
 
 
@@ -217,10 +228,14 @@ def test_the_element_nearest_to_the_cause_comes_first(
 
 @given(st.floats(min_value=1e-6), st.floats(min_value=0, allow_infinity=False), st.sampled_from(Quantity))
 def test_any_number_can_be_told(difference: float, value: float, quantity: Quantity) -> None:
-    result = CheckResult("arm", "Arm", deviations=(Deviation(quantity, "it", difference, value, value, "N"),))
+    result = CheckResult(
+        "arm", "Arm", tools=(ToolResult(deviations=(Deviation(quantity, "it", difference, value, value, "N"),)),)
+    )
     show_results(Console(verbose=True), [result], strict=False)
 
 
+CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))
+SAME_MASS = ToolResult(deviations=(msgspec.structs.replace(MASS, difference=0),))
 GAP = "the effect of your edits was not measured: the robot can't be simulated"
 
 
@@ -228,10 +243,10 @@ GAP = "the effect of your edits was not measured: the robot can't be simulated"
     ({"gaps": (GAP,)}, True, "incomplete"),
     ({"gaps": (GAP,), "in_step": False}, False, "out of step"),
     ({"in_step": False, "built": False}, False, "not built"),
-    ({"effects": (EditEffect(("a.mo",), (ELBOW,)),)}, False, "right"),
-    ({"effects": (EditEffect(("a.mo",), (ELBOW,)),), "gaps": (GAP,)}, True, "differs"),
-    ({"deviations": (ELBOW,), "in_step": False}, False, "differs"),
-    ({"deviations": (msgspec.structs.replace(MASS, difference=0),)}, False, "right: syntax and layout; masses"),
+    ({"tools": (CHANGED,)}, False, "right"),
+    ({"tools": (CHANGED,), "gaps": (GAP,)}, True, "differs"),
+    ({"tools": (ToolResult(deviations=(ELBOW,)),), "in_step": False}, False, "differs"),
+    ({"tools": (SAME_MASS,)}, False, "right: syntax and layout; masses"),
 ])  # fmt: skip
 def test_one_word_for_all(capsys: Capture, facts: dict[str, Any], strict: bool, word: str) -> None:
     assert shown(capsys, CheckResult("arm", "Arm", **facts), strict=strict)[0].startswith(f"arm: {word}")

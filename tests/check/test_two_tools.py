@@ -7,11 +7,11 @@ from collections.abc import Mapping
 import msgspec
 import pytest
 
-from urdfsync.check.compilation import Compilation, compare
+from urdfsync.check.compilation import compare
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.process import Limits
-from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel
-from urdfsync.check.two_tools import compile_with_tools
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, ToolResult
+from urdfsync.check.two_tools import run_compilations
 from urdfsync.commands.check import show_results
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Compared, Experiment, Probe, Quantity
@@ -37,17 +37,21 @@ Numbers = Mapping[str, tuple[float, float]]
 class Said:
     """In the place of `Compilation`: a compiler that finds these numbers and says this."""
 
-    def __init__(self, tool: Tool, part: CheckResult, numbers: Numbers, edited: Numbers, *said: Diagnostic) -> None:
-        self.version, self.generated, self.edited = "1.27.0", numbers, edited or None
-        self._part, self._said = part, said
-        part.tool = TITLES[tool.name]
+    def __init__(self, tool: Tool, numbers: Numbers, edited: Numbers, *said: Diagnostic, version: str = "") -> None:
+        self.tool, self.version, self.generated, self.edited = tool, version, numbers, edited or None
+        self.result, self.diagnostics, self.gaps = ToolResult(TITLES[tool.name]), [*said], list[str]()
 
     def run(self, experiment: Experiment | None) -> None:
         """Fill the result."""
-        self._part.compiled = (CompiledModel("Arm", 10),)
-        self._part.add(self._said)
+        self.result.compiled = (CompiledModel("Arm", 10),)
         if experiment and self.generated:
-            self._part.deviations = compare(experiment.compared, self.generated, experiment.expected)
+            self.result.deviations = compare(experiment.compared, self.generated, experiment.expected)
+
+
+def compiled(experiment: Experiment | None, *said: Said) -> CheckResult:
+    result = CheckResult("arm", "Arm", reference=EXPERIMENT.reference)
+    run_compilations(said, experiment, result, Limits("a test", 60, 1e9))  # type: ignore[arg-type]
+    return result
 
 
 def check(
@@ -55,16 +59,18 @@ def check(
     edited: Mapping[str, Numbers] | None = None,
     said: Mapping[str, Diagnostic] | None = None,
 ) -> CheckResult:
-    result = CheckResult("arm", "Arm", reference=EXPERIMENT.reference)
-
-    def make(tool: Tool, part: CheckResult) -> Compilation:
-        found = [said[tool.name]] if said and tool.name in said else []
-        of_edited = (edited or {}).get(tool.name, {})
-        return Said(tool, part, numbers[tool.name], of_edited, *found)  # type: ignore[return-value]
-
-    compile_with_tools(TOOLS, make, EXPERIMENT, result, Limits("a test", 60, 1e9))
-    assert result.second
-    result.second = msgspec.structs.replace(result.second, seconds=(12.0, 34.04))
+    edited, said = edited or {}, said or {}
+    answers = [
+        Said(
+            tool,
+            numbers[tool.name],
+            edited.get(tool.name, {}),
+            *(one for name, one in said.items() if name == tool.name),
+        )
+        for tool in TOOLS
+    ]
+    result = compiled(EXPERIMENT, *answers)
+    result.tools[0].seconds, result.tools[1].seconds = 12.0, 34.04
     return result
 
 
@@ -126,14 +132,7 @@ def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
 
 
 def test_an_untried_version_is_noted() -> None:
-    result = CheckResult("arm", "Arm")
-
-    def make(tool: Tool, part: CheckResult) -> Compilation:
-        one = Said(tool, part, {}, {})
-        one.version = "1.14.2"
-        return one  # type: ignore[return-value]
-
-    compile_with_tools(TOOLS[1:], make, None, result, Limits("a test", 60, 1e9))
+    result = compiled(None, Said(TOOLS[1], {}, {}, version="1.14.2"))
     assert [str(one) for one in result.diagnostics] == [
         "note: OpenModelica 1.14.2 was not tried with urdfsync; 1.27 was [untried-compiler]"
     ]

@@ -33,8 +33,7 @@ end Base;
 def model(text: str = RUN, base: str = BASE) -> Model:
     texts = {"package.mo": b"package Plant\nend Plant;\n", "Run.mo": text.encode(), "Base.mo": base.encode()}
     sources = StoredClasses("Plant", Path("/p/Plant"), texts, {}, lambda _: None)
-    decoded = {f"/p/Plant/{name}": content.decode() for name, content in texts.items()}
-    return find_model(Scopes(sources), "Plant", "Run", decoded)
+    return find_model(Scopes(sources), "Plant", "Run", sources.content)
 
 
 @pytest.mark.parametrize(
@@ -48,7 +47,7 @@ def model(text: str = RUN, base: str = BASE) -> Model:
     ],
 )
 def test_settings_are_those_of_the_model_itself(said: str, expected: dict[str, float]) -> None:
-    assert model(RUN.replace("StopTime=2.5, Interval=1e-2, Tolerance=1e-6", said)).settings() == expected
+    assert model(RUN.replace("StopTime=2.5, Interval=1e-2, Tolerance=1e-6", said)).settings == expected
 
 
 def test_inputs_have_names_and_units_those_of_base_classes_first() -> None:
@@ -74,8 +73,17 @@ def test_inputs_that_no_table_can_drive_are_refused_with_their_line(input_: str)
 def test_inputs_become_outputs_where_they_are_declared_and_nothing_else_changes() -> None:
     driven = model().driven("Plant")
     assert driven.changed == {
-        "/p/Plant/Run.mo": RUN.replace("RealInput", "RealOutput"),
-        "/p/Plant/Base.mo": BASE.replace("RealInput", "RealOutput"),
+        Path("/p/Plant/Run.mo"): RUN.replace("RealInput", "RealOutput").encode(),
+        Path("/p/Plant/Base.mo"): BASE.replace("RealInput", "RealOutput").encode(),
     }
     assert driven.modifiers == ("elbowDrive(exact = true)", "slides(each exact = true)")
     assert model().driven("Plant.Arm").modifiers == (), "a model of the user's"
+
+
+@pytest.mark.parametrize(("begin", "end"), [("\ufeff", "\n"), ("", "\r\n")])
+def test_a_byte_order_mark_and_other_line_ends_move_nothing(begin: str, end: str) -> None:
+    """Components say where they begin in the text as it is parsed."""
+    same = model(begin + RUN.replace("\n", end), begin + BASE.replace("\n", end))
+    assert (same.settings, same.inputs()) == (model().settings, model().inputs())
+    changed = same.driven("Plant").changed[Path("/p/Plant/Run.mo")].decode()
+    assert changed == begin + RUN.replace("RealInput", "RealOutput")

@@ -16,7 +16,7 @@ from urdfsync.check import process
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
 from urdfsync.check.process import LimitError, Limits
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.workers import Workers, tell
@@ -40,7 +40,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         elif name == "late":
             while not Path("early.done").exists():
                 time.sleep(0.01)
-        result.compiled = (CompiledModel(f"{name.title()}Run", 10),)
+        result.tools = (ToolResult(compiled=(CompiledModel(f"{name.title()}Run", 10),)),)
     except LimitError as error:
         result.add(error.diagnostics)
     Path(f"{name}.done").touch()

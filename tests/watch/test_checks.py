@@ -16,14 +16,14 @@ from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, unt
 from support.networks import configure, edit
 
 from urdfsync.check import run
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel
+from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
-RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", tools=(ToolResult(compiled=(CompiledModel("Ladder", 12),)),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
 WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
 

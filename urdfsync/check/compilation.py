@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.check import compilers, libraries
+from urdfsync.check import compilers
 from urdfsync.check.compilers.compiler import (
     Compiler,
     CompileResult,
@@ -24,16 +24,10 @@ from urdfsync.check.compilers.compiler import (
     one_line,
 )
 from urdfsync.check.jobs import Jobs
-from urdfsync.check.package import CheckedPackage, PackageTexts, UsersModels
+from urdfsync.check.libraries import Libraries
+from urdfsync.check.package import PackageTexts, RobotPackage, UsersModels
 from urdfsync.check.process import Limits
-from urdfsync.check.results import (
-    MOST_SINGLE_EDITS,
-    CheckResult,
-    CompiledModel,
-    EditEffect,
-    agrees,
-    listed,
-)
+from urdfsync.check.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, agrees, listed
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment
 from urdfsync.files import shown
@@ -46,41 +40,37 @@ _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
-
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 """The texts of a version of the package, and what is done with it."""
 
 
 class Compilation:
-    """The compiling of one package by one compiler: what it finds goes into the result."""
+    """The compiling of one package by one compiler: `run` fills `result`, `diagnostics` and `gaps`."""
 
     def __init__(
         self,
-        package: CheckedPackage,
+        package: RobotPackage,
         tool: Tool,
-        processes: int,
-        result: CheckResult,
+        needed: Libraries,
+        users: UsersModels,
+        needed_by_users: Libraries,
         limits: Limits,
         folder: Path,
-        needed: libraries.Libraries,
-        users: UsersModels,
-        needed_by_users: libraries.Libraries,
+        processes: int = 1,
     ) -> None:
-        """So many `processes` may compile at a time; `folder` is for copies of the package.
+        """So many `processes` may compile at a time; copies of the package go below `folder`.
 
-        `users` are models outside of the package, and need more libraries. Raises CacheError.
+        The models of the user outside of the package, `users`, need more libraries than the package.
         """
-        self._package, self._processes, self._result = package, processes, result
-        texts = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
-        self._jobs = Jobs(package.robot, package.around, needed, texts, tool, limits, folder)
-        self._users, self._users_jobs = users, self._jobs
-        if users.files:
-            # of their own: what can't be read of the user's files would keep the package from being compiled
-            texts += package.users_files.values()
-            self._users_jobs = Jobs(package.robot, package.around, needed_by_users, texts, tool, limits, folder)
-        self._compiler = compilers.COMPILERS[tool.name]
-        result.tool = self._compiler.TITLE
+        self._package, self._users, self._processes = package, users, processes
+        self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
+        # of their own: what can't be read of the user's files would keep the package from being compiled
+        self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
+        self.tool, self._compiler = tool, compilers.COMPILERS[tool.name]
+        self.result = ToolResult(self._compiler.TITLE)
+        self.diagnostics: list[Diagnostic] = []
+        self.gaps: list[str] = []
         self.version = ""
         """Of the compiler; empty until it has said something."""
         self.generated: Series | None = None
@@ -90,92 +80,93 @@ class Compilation:
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
-        if experiment is None:
-            self._compile_all()
-        else:
-            self._compare(experiment)
-        order = [*self._package.models, *self._users.files]
-        self._result.compiled = tuple(sorted(self._result.compiled, key=lambda one: order.index(one.model)))
+        # versions of the package are compiled beside its models, so that these need not be divided
+        models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
+        done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
+        self._note_models(models, done)
+        if experiment:
+            self._compare(experiment, done)
 
-    def _compile_all(self) -> None:
-        """Compile all models, in as many processes as may work at the same time."""
-        jobs = self._model_jobs(max(1, min(self._processes, len(self._package.models))))
-        self._note_models(jobs, self._run_all(jobs))
-
-    def _compare(self, experiment: Experiment) -> None:
-        """Compile all models, and move the main one: as it is generated against the reference, edited against that."""
-        package, result = self._package, self._result
-        is_same = experiment.content == package.rendering.content
-        completed = package.generated if is_same else package.rendering.package(experiment.content)
-        probe, models = experiment.probe, self._model_jobs(1)
+    def _versions(self, experiment: Experiment) -> dict[str, _Job]:
+        """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
+        package, probe = self._package, experiment.probe
         run = Simulation(probe.stop, probe.step)
         move = [CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")]
-        jobs = {**models, "completed": (completed, move)}
-        if package.edits:  # the edited package, the generated one, and this one with each of the edits
-            files = package.edits
+        is_same = experiment.content == package.rendering.content
+        completed = package.generated if is_same else package.rendering.package(experiment.content)
+        jobs: dict[str, _Job] = {"completed": (completed, move)}
+        if package.edits:
             jobs["edited"] = package.files.texts, move
             if not is_same:
                 jobs["generated"] = package.generated, move
             own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-            for file in files if 1 < len(files) <= MOST_SINGLE_EDITS else ():
+            for file in package.edits if 1 < len(package.edits) <= MOST_SINGLE_EDITS else ():
                 jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, move
-        done = self._run_all(jobs)
-        self._note_models(models, done)
-        self.generated, said = self._series(done["completed"])
-        result.add(said)
+        return jobs
+
+    def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
+        """Hold the generated package against the reference, and the edited one against the generated."""
+        package, compared = self._package, experiment.compared
+        self.generated, faults = self._series(done["completed"])
+        self.diagnostics += faults
         if self.generated is not None:
-            result.deviations = compare(experiment.compared, self.generated, experiment.expected)
-        if package.edits:
-            without_edits = self.generated
-            if not is_same:
-                without_edits, said = self._series(done["generated"])
-                result.add(said)
-            self.edited, faults = self._series(done["edited"])
-            if faults:  # no fault of an edited package
-                result.gaps += (f"the effect of your edits was not measured: {faults[0].message}",)
-            if self.edited is None or without_edits is None:
-                return
-            alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
-            moved = {file: one for file, one in alone.items() if one is not None}
-            single = {file: compare(experiment.compared, one, without_edits) for file, one in moved.items()}
-            whole = compare(experiment.compared, self.edited, without_edits)
-            result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
+            self.result.deviations = compare(compared, self.generated, experiment.expected)
+        if not package.edits:
+            return
+        without_edits = self.generated
+        if "generated" in done:
+            without_edits, faults = self._series(done["generated"])
+            self.diagnostics += faults
+        self.edited, faults = self._series(done["edited"])
+        if faults:  # no fault of an edited package
+            self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
+        if self.edited is None or without_edits is None:
+            return
+        alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
+        single = {file: compare(compared, one, without_edits) for file, one in alone.items() if one is not None}
+        whole = compare(compared, self.edited, without_edits)
+        self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
-        """Jobs that compile all models, in `count` parts."""
-        tasks = []
-        for model in (*self._package.models, *self._users_models):
-            task = compile_task(f"{self._package.robot.target.package}.{model}")
-            tasks.append(msgspec.structs.replace(task, title=model))
-        texts, own = self._package.files.texts, self._package.robot.target.package.partition(".")[0]
-        jobs: dict[str, _Job] = {f"models{number}": (texts, tasks[number::count]) for number in range(count)}
+        """Return jobs that compile all models: those of the package in `count` parts, then the user's."""
+        package, own = self._package, self._package.robot.target.package
+        models = *package.models, *self._users_models
+        tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in models]
+        jobs: dict[str, _Job] = {
+            f"models{number}": (package.files.texts, tasks[number::count]) for number in range(count)
+        }
         if self._users.files:
-            jobs[_USERS] = texts, [compile_task(model, ("Modelica", "UrdfSync", own)) for model in self._users.files]
+            libraries = ("Modelica", "UrdfSync", own.partition(".")[0])
+            jobs[_USERS] = package.files.texts, [compile_task(model, libraries) for model in self._users.files]
         return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
+        compiled, files = list[CompiledModel](), self._package.files
         for label, (_, tasks) in jobs.items():
-            for task, one in zip(tasks, done[label], strict=False):
-                self._note_version(one)
-                if one.problem:
-                    file = self._users.files.get(task.title) if label == _USERS else None
-                    said = explain(one.problem, self._compiler, self._package.files, task.title, file)
-                    if label == _USERS or task.title in self._users_models:  # it may be meant to be a part of something
-                        said = [msgspec.structs.replace(each, severity=Severity.WARNING) for each in said]
-                    self._result.add(said)
-                    self._result.failing += (task.title,) if label == _USERS else ()
+            for task, answer in zip(tasks, done[label], strict=False):
+                self._note_version(answer)
+                is_users = label == _USERS
+                if answer.problem:
+                    file = self._users.files.get(task.title) if is_users else None
+                    said = explain(answer.problem, self._compiler, files, task.title, file)
+                    if is_users or task.title in self._users_models:
+                        said = [_as_part(each) for each in said]
+                    self.diagnostics += said
+                    self.result.failing += (task.title,) if is_users else ()
                     continue
-                told = {(known.file, known.line, known.code) for known in self._result.diagnostics}
-                said = explain_warnings(one.warnings, self._compiler, self._package.files)
                 # another model with the same part has it under another name
-                self._result.add(each for each in said if (each.file, each.line, each.code) not in told)
-                if label == _USERS or task.title not in self._users_models:
-                    self._result.compiled += (CompiledModel(task.title, one.unknowns, label == _USERS),)
+                told = {(known.file, known.line, known.code) for known in self.diagnostics}
+                said = explain_warnings(answer.warnings, self._compiler, files)
+                self.diagnostics += [each for each in said if (each.file, each.line, each.code) not in told]
+                if is_users or task.title not in self._users_models:
+                    compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
+        order = [*self._package.models, *self._users.files]
+        self.result.compiled = tuple(sorted(compiled, key=lambda one: order.index(one.model)))
 
-    def _note_version(self, one: CompileResult) -> None:
-        if one.version:
-            self.version, self._result.tool = one.version, f"{self._compiler.TITLE} {one.version}"
+    def _note_version(self, answer: CompileResult) -> None:
+        if answer.version:
+            self.version, self.result.tool = answer.version, f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
@@ -186,14 +177,11 @@ class Compilation:
                 try:
                     done[label] = future.result()
                 except (UrdfsyncError, OSError) as error:
-                    done[label] = []
-                    found = findings_of(error)
+                    done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be right
-                        self._result.gaps += (
-                            f"your models outside of the package were not compiled: {found[0].message}",
-                        )
+                        self.gaps.append(f"your models outside of the package were not compiled: {faults[0].message}")
                     else:
-                        self._result.add(found)
+                        self.diagnostics += faults
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
@@ -201,7 +189,7 @@ class Compilation:
         return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
 
     def _series(self, results: Sequence[CompileResult]) -> tuple[Series | None, list[Diagnostic]]:
-        """The one simulation of a job; None, and why, if there is none."""
+        """Return the one simulation of a job; None, and why, if there is none."""
         if not results:
             return None, []
         (result,) = results
@@ -210,9 +198,15 @@ class Compilation:
             return None, explain(result.problem, self._compiler, self._package.files)
         (run,) = result.runs
         if run.problem:
-            message = f"the robot can't be simulated: {' '.join(run.problem.split())[:200]}"
+            message = f"the robot can't be simulated: {one_line(run.problem)[:200]}"
             return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return run.values, []
+
+
+def _as_part(finding: Diagnostic) -> Diagnostic:
+    """Make a warning of what keeps a model of the user's from being compiled, since it may be a part of others."""
+    hint = "; ".join(filter(None, (finding.hint, "a part of other models need not compile by itself")))
+    return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
 
 def compare(compared: Iterable[Compared], found: Series, expected: Series) -> tuple[Deviation, ...]:

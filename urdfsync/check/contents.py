@@ -1,6 +1,6 @@
-"""What a library or a program contains: hashed, since results are remembered by contents, and copied for compilers.
+"""What packages, libraries and programs contain: read, copied for compilers, hashed for the keys of results.
 
-It may be a stranger's. So nothing follows a link out of it or to a folder, and a copy has a limit.
+A library may be a stranger's. So nothing follows a link out of it or to a folder, and a copy has a limit.
 """
 
 from __future__ import annotations
@@ -12,11 +12,14 @@ import shutil
 from collections.abc import Callable, Collection, Iterable, Iterator
 from pathlib import Path
 
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.dependencies import read_unrecorded
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.files import shown
 
 MOST_BYTES = 2**29
 """Of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
+RESOURCES = "Resources"
+"""The folder of a library with all that is no Modelica."""
 _BLOCK = 4096
 """Bytes that a file takes on disk at least."""
 _PIECE = 2**20
@@ -110,3 +113,30 @@ def copy_library(
 
 def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
     return UrdfsyncError(Diagnostic(Severity.ERROR, "library-not-copied", message, shown(path), hint=hint))
+
+
+def package_texts(folder: Path, top: Path | None = None, without: Collection[Path] = ()) -> dict[str, bytes]:
+    """Read the Modelica files of a package and of those in it, by their path below `top`; None for `folder`.
+
+    Folders in `without` are left out. Only regular files count, and links to such: a pipe must not be opened, links to
+    folders may go in circles. Raises OutputError for a file or a folder that can't be read.
+    """
+    texts: dict[str, bytes] = {}
+    try:
+        for place, folders, names in os.walk(folder, onerror=_refuse):
+            visible = [name for name in sorted(folders) if name != RESOURCES and not name.startswith(".")]
+            folders[:] = [name for name in visible if Path(place, name) not in without]
+            for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some
+                if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
+                    with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                        texts[path.relative_to(top or folder).as_posix()] = read_unrecorded(path)
+    except OSError as error:
+        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
+        file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
+        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
+    return texts
+
+
+def _refuse(error: OSError) -> None:
+    if not isinstance(error, FileNotFoundError | NotADirectoryError):
+        raise error

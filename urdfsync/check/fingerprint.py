@@ -15,7 +15,7 @@ from urdfsync import registry
 from urdfsync.check import compilers, libraries, package
 from urdfsync.check.cache import digest
 from urdfsync.check.compilers.compiler import Tool
-from urdfsync.check.contents import content_hash
+from urdfsync.check.contents import RESOURCES, content_hash, package_texts
 from urdfsync.check.results import CheckOptions
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import UrdfsyncError
@@ -42,7 +42,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
             # of these a copy is used, without resources
-            [(str(path), content_hash(path, [libraries.RESOURCES])) for path in needed.standard.values()],
+            [(str(path), content_hash(path, [RESOURCES])) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
         )
@@ -54,7 +54,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
     """Return the key of the check of a package in step; None if some of what it rests on can't be read."""
     domain = registry.domain(robot.domain)
     try:
-        texts = package.package_texts(robot.folder)
+        texts = package_texts(robot.folder)
         around = package.files_around(config, robot, texts)
         users = package.users_files(config, robot)
         every = [*texts.values(), *around.values(), *users.values()]

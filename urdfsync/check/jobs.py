@@ -17,35 +17,19 @@ from urdfsync.config import RobotConfig, find_own_library
 from urdfsync.modelica.names import LIBRARY
 
 
-class Jobs:
-    """Where the tasks of one robot are done."""
+class Jobs(msgspec.Struct, frozen=True):
+    """Where the tasks of one compiler are done with the package of one robot."""
 
-    def __init__(
-        self,
-        robot: RobotConfig,
-        around: Mapping[str, bytes],
-        needed: libraries.Libraries,
-        texts: Iterable[bytes],
-        tool: Tool,
-        limits: Limits,
-        folder: Path,
-        progress: Callable[[], None] | None = None,
-    ) -> None:
-        """Copy the part of the Modelica Standard Library that `texts` and other libraries need. Raises CacheError.
-
-        `around` is as in `package.files_around`; copies go below `folder`; for `progress` see `process.run`.
-        """
-        self._robot, self._around, self._tool, self._progress = robot, around, tool, progress
-        self._limits, self._folder = limits, folder
-        self._roots, self._originals = list[str](), dict[str, Path]()
-        if not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY:
-            others = (text for path in needed.others.values() for text in libraries.library_texts(path).values())
-            copy = libraries.standard_library_copy(needed.standard, [*texts, *others], UserCache.default())
-            self._roots = [str(copy)]
-            parts = needed.standard.items()
-            self._originals = {str(copy / name): path for name, path in parts if path.suffix != ".mo"}
-        own = find_own_library(LIBRARY, robot.target.package)
-        self._libraries = {**({LIBRARY: own} if own else {}), **needed.others}
+    robot: RobotConfig
+    tool: Tool
+    needed: libraries.Libraries
+    around: Mapping[str, bytes]
+    """See `package.files_around`."""
+    limits: Limits
+    folder: Path
+    """Copies of the package go below it."""
+    progress: Callable[[], None] | None = None
+    """See `process.run`."""
 
     def run(
         self,
@@ -54,41 +38,56 @@ class Jobs:
         tasks: Sequence[CompileTask],
         changed: Mapping[Path, bytes] | None = None,
     ) -> list[CompileResult]:
-        """Do tasks with a package in a process. Problems name the files that people know, and not their copies.
+        """Do tasks with a version of the package in a process. Problems name the files that people know.
 
-        `label` names the copy; `changed` are files of other libraries that have another content there. Raises
+        `label` names the copy; `changed` are files, by their absolute paths, that have another content in it. Raises
         CompilerError, LimitError and CacheError, and as `copy_library`.
         """
-        cache, folder = UserCache.default(), self._folder / label.replace("/", "-")
-        originals, roots = dict(self._originals), list(self._roots)
+        cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
+        texts = {path: changed.get(self.robot.folder / path, content) for path, content in texts.items()}
+        around = {path: changed.get(self.robot.output / path, content) for path, content in self.around.items()}
+        own = find_own_library(LIBRARY, self.robot.target.package)
+        needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
+        originals: dict[str, Path] = {}
+        """The folders and files that people know, by those that the compiler reads."""
+        roots: list[str] = []
+        if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
+            others = (text for path in self.needed.others.values() for text in libraries.library_texts(path).values())
+            every = [*texts.values(), *around.values(), *others]
+            standard = libraries.standard_library_copy(self.needed.standard, every, cache)
+            roots.append(str(standard))
+            parts = self.needed.standard.items()
+            originals |= {str(standard / name): path for name, path in parts if path.suffix != ".mo"}
         with cache_errors(cache.folder):
-            top = write_package(folder, self._robot, texts, self._around)
-            for path in self._libraries.values():
-                root = _readable(path, folder / ".libraries", changed or {})
-                originals[root] = path
-                roots.append(root)
-        originals[str(top)] = self._robot.output / top.name
-        with_imports = []  # of libraries, behind the first line of each text: rumoca loads no others
-        for task in tasks:
-            first, _, rest = task.source.partition("\n")
-            imports = "".join(f"  import {name};\n" for name in self._libraries if f"import {name};" not in rest)
-            with_imports.append(msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}"))
-        job = CompileJob((*roots, str(top)), tuple(with_imports))
+            top = write_package(folder, self.robot, texts, around)
+            for path in needed.values():
+                roots.append(_readable(path, folder / ".libraries", changed))
+                originals[roots[-1]] = path
+        roots.append(str(top))
+        originals[roots[-1]] = self.robot.output / top.name
+        tasks = [_with_imports(task, needed) for task in tasks]
+        job = CompileJob(tuple(roots), tuple(tasks))
+        results = compilers.run_job(self.tool, job, cache, self.limits, self.progress)
+        return [_with_originals(one, originals) for one in results]
 
-        def named(text: str) -> str:
-            for copy, original in originals.items():
-                text = text.replace(copy, str(original))
-            return text
 
-        return [
-            msgspec.structs.replace(
-                one,
-                problem=named(one.problem),
-                warnings=named(one.warnings),
-                runs=tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in one.runs),
-            )
-            for one in compilers.run_job(self._tool, job, cache, self._limits, self._progress)
-        ]
+def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
+    """Import libraries behind the first line of a task's text: rumoca loads no others."""
+    first, _, rest = task.source.partition("\n")
+    imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
+    return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
+
+
+def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
+    """Replace the paths of copies in what a compiler says."""
+
+    def named(text: str) -> str:
+        for copy, original in originals.items():
+            text = text.replace(copy, str(original))
+        return text
+
+    runs = tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in result.runs)
+    return msgspec.structs.replace(result, problem=named(result.problem), warnings=named(result.warnings), runs=runs)
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:

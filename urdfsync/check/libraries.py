@@ -5,16 +5,15 @@ from __future__ import annotations
 import os
 import re
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
 import msgspec
 
 from urdfsync.check.cache import UserCache, cache_errors, digest
-from urdfsync.check.contents import content_hash, copy_library
-from urdfsync.check.package import package_texts
-from urdfsync.config import Config, RobotConfig
+from urdfsync.check.contents import RESOURCES, content_hash, copy_library, package_texts
+from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
@@ -23,9 +22,6 @@ Version: TypeAlias = tuple[int, ...]
 
 OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
 NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
-
-RESOURCES = "Resources"
-"""The folder of a library with all that is no Modelica."""
 
 # The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
 _COPIED = tuple(
@@ -118,6 +114,20 @@ def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
     """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
+
+
+def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
+    """Return a function that finds the folder or file of a top-level class other than that of a robot's package.
+
+    Of the Modelica Standard Library only the parts in `standard` count.
+    """
+
+    def find(name: str) -> Path | None:
+        if own := find_own_library(name, package):
+            return own
+        return standard.get(name) if name in STANDARD_LIBRARIES else find_library(name, places)
+
+    return find
 
 
 class Libraries(msgspec.Struct, frozen=True):

@@ -7,18 +7,16 @@ are left out, unless they are mentioned.
 from __future__ import annotations
 
 import codecs
-import contextlib
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
+from urdfsync.check.contents import package_texts
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
-from urdfsync.domain import Domain
-from urdfsync.engine.actions import Action
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Bench
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rendering import Rendering
@@ -72,14 +70,15 @@ class PackageTexts(msgspec.Struct, frozen=True):
         return "the file was edited by hand" if path in self.edited else ""
 
 
-class CheckedPackage(msgspec.Struct):
-    """One robot as it is now."""
+class RobotPackage(msgspec.Struct):
+    """The package of one robot as it is now."""
 
     robot: RobotConfig
-    domain: Domain
     rendering: Rendering
-    source_diagnostics: tuple[Diagnostic, ...]
-    """Errors that a build would report, and what a thorough reading of the source says beyond warnings."""
+    bench: Bench | None
+    """How it is simulated; None if the domain does not say."""
+    errors: tuple[Diagnostic, ...]
+    """Errors that a build would report, but for those in files of Modelica."""
     on_disk: Mapping[str, bytes]
     """The Modelica files of the package on disk, by their path below it; none if there is no package."""
     in_step: bool
@@ -90,7 +89,7 @@ class CheckedPackage(msgspec.Struct):
     written: frozenset[str]
     """The files that urdfsync wrote, by their path below it; with those of elements whose new names wait."""
     files: PackageTexts
-    """What is checked: the package on disk, or what a build would write."""
+    """The texts that count: the package on disk, or what a build would write."""
     around: Mapping[str, bytes]
     """See `files_around`."""
     users_files: Mapping[Path, bytes]
@@ -101,7 +100,7 @@ class CheckedPackage(msgspec.Struct):
     """The edited files that have a part in the main model, and in which more than comments and blanks differ."""
 
 
-def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> CheckedPackage:
+def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
     """Read and generate the package of a robot. Writes nothing.
 
     Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
@@ -110,78 +109,68 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> C
     if built.failed:
         raise UrdfsyncError(*built.diagnostics)
     rendering = Rendering(config, robot, options)
-    domain = rendering.domain
+    domain, snapshot = rendering.domain, rendering.snapshot
     errors = [one for one in built.diagnostics if one.severity is Severity.ERROR]
-    said = [one for one in errors if not one.file.endswith(".mo")]  # of these the check tells by itself
     on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
-    models = tuple(domain.models(rendering.snapshot, robot.target, robot.options))
+    models = tuple(domain.models(snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
-    edits = (path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path]))
-    return CheckedPackage(
+    keys = (key for action in built.actions for key in (action.path, action.origin) if key)
+    return RobotPackage(
         robot=robot,
-        domain=domain,
         rendering=rendering,
-        source_diagnostics=tuple(dict.fromkeys(said)),
+        bench=domain.bench(snapshot, robot.target, robot.options),
+        errors=tuple(dict.fromkeys(one for one in errors if not one.file.endswith(".mo"))),
         on_disk=on_disk,
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
-        written=frozenset(_written(robot.folder, config.root, built.actions)),
+        written=frozenset(Path(os.path.relpath(config.root / key, robot.folder)).as_posix() for key in keys),
         files=PackageTexts(robot.target.package, robot.folder, texts, rendering.owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,
-        edits=tuple(edits),
+        edits=tuple(
+            path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path])
+        ),
     )
 
 
-def _written(folder: Path, root: Path, actions: Iterable[Action]) -> Iterator[str]:
-    """Where the files of a build are, and where they go: paths below the package."""
-    keys = (key for action in actions for key in (action.path, action.origin) if key)
-    return (Path(os.path.relpath(root / key, folder)).as_posix() for key in keys)
-
-
 def _words(text: bytes) -> list[str]:
-    """What a text says but for comments, blanks and ends of line."""
+    """Return what a text says but for comments, blanks and ends of line."""
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
-def package_texts(folder: Path) -> dict[str, bytes]:
-    """The Modelica files below a package's folder, by their path below it; see `read_files`."""
-    return _below(folder, read_files(folder))
-
-
 def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files of the top-level package around a robot's package, by their path below the output folder.
+    """Return the files of the top-level package around a robot's package, by their paths below the output folder.
 
     Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them.
     Packages around the robot's that do not exist yet are made up. Raises OutputError for a file that can't be read.
     """
-    top = robot.output / robot.target.package.partition(".")[0]
+    output, parts = robot.output, robot.target.package.split(".")
+    top = output / parts[0]
     others = {other.folder: other.target.package.rpartition(".")[2].encode() for other in config.robots}
     others = {folder: name for folder, name in others.items() if top in folder.parents and folder != robot.folder}
-    found = _below(robot.output, read_files(top, {robot.folder, *others})) if top != robot.folder else {}
-    waiting = [*texts.values(), *found.values()] if others else []
+    around = package_texts(top, output, {robot.folder, *others}) if top != robot.folder else {}
+    waiting = [*texts.values(), *around.values()] if others else []
     while waiting:
         text = waiting.pop()
         for folder in [folder for folder, name in others.items() if has_word(text, name)]:
             del others[folder]
-            more = _below(robot.output, read_files(folder, others))
-            found |= more
-            waiting += more.values()
-    parts = robot.target.package.split(".")
+            mentioned = package_texts(folder, output, others)
+            around |= mentioned
+            waiting += mentioned.values()
     for count in range(1, len(parts)):
         name = parts[count - 1]
         made_up = f"{within('.'.join(parts[:count]))}\npackage {name}\nend {name};\n"
-        found.setdefault(f"{'/'.join(parts[:count])}/package.mo", made_up.encode())
-    return found
+        around.setdefault(f"{'/'.join(parts[:count])}/package.mo", made_up.encode())
+    return around
 
 
 def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
-    """The user's models in no robot's package that have to do with this robot's package."""
+    """Return the user's models in no robot's package that may have to do with this robot's package."""
     return files_that_use(find_users_files(config, robot, [robot.folder.name]).mentioning, [robot.folder.name])
 
 
@@ -237,40 +226,3 @@ def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], 
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content.removeprefix(codecs.BOM_UTF8))  # rumoca refuses a byte order mark
     return folder / robot.target.package.partition(".")[0]
-
-
-def read_files(folder: Path, without: Collection[Path] = ()) -> dict[Path, bytes]:
-    """The texts of `stored_files`. Raises OutputError for a file or a folder that can't be read."""
-    found: dict[Path, bytes] = {}
-    try:
-        for path in stored_files(folder, without):
-            with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
-                found[path] = read_unrecorded(path)
-    except OSError as error:
-        message, hint = f"it can't be read: {error.strerror or error}", "check the permissions of it and of its folder"
-        file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
-        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
-    return found
-
-
-def _refuse(error: OSError) -> None:
-    if not isinstance(error, FileNotFoundError | NotADirectoryError):
-        raise error
-
-
-def stored_files(folder: Path, without: Collection[Path] = ()) -> Iterator[Path]:
-    """The Modelica files of a package and of those in it, but for the folders in `without`.
-
-    Only regular files count, and links to such: a pipe must not be opened, links to folders may go in circles. Raises
-    OSError for a folder that can't be read.
-    """
-    for place, folders, names in os.walk(folder, onerror=_refuse):
-        visible = [name for name in sorted(folders) if name != "Resources" and not name.startswith(".")]
-        folders[:] = [name for name in visible if Path(place, name) not in without]
-        for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some
-            if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
-                yield path
-
-
-def _below(folder: Path, files: Mapping[Path, bytes]) -> dict[str, bytes]:
-    return {path.relative_to(folder).as_posix(): content for path, content in files.items()}

@@ -15,12 +15,12 @@ from urdfsync.check.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
-    CompiledModel,
     EditEffect,
-    SecondResult,
+    ToolResult,
     agrees,
     largest,
     listed,
+    relative,
 )
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Deviation, Quantity
@@ -35,79 +35,87 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
-_ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 
 
 def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:
-    """All that there is to say about one robot alone."""
+    """Yield all that there is to say about one robot alone."""
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
-    said, advice = list[tuple[str, str]](), _ADVICE
-    if result.second:
-        said += _two_tools(result, result.second)
-    alone = result.deviations or (result.second.deviations if result.second else None) or ()
-    has_three = result.second is not None and result.second.between is not None
-    for one, others in () if has_three else _by_kind([one for one in alone if not agrees(one)]):
-        what, amount = _amount(one)
-        reference = result.reference or "the reference"
-        said.append((f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"))
-        if one.unit in ("N·m", "N", "kg"):
-            said.append((f"  its largest {what} by {reference} is {_digits(one.value)} {one.unit}", "dim"))
-        advice = ""
-    for found in result.effects:
-        changed = "; ".join(_change(*each) for each in _by_kind(found.deviations, found.owners))
+    sentences = list(_two_tools(result)) if len(result.tools) > 1 else []
+    if result.between is None:
+        sentences += _differences(result)
+    for effect in result.effects:
+        changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = "dim" if not changed else "bold red" if strict else "cyan"
-        said.append((f"{_edited(found)} {changed or 'nothing that is compared'}", style))
-    said += [(gap, "magenta") for gap in result.gaps]
+        sentences.append((f"{_edited(effect)} {changed or 'nothing that is compared'}", style))
+    sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
-        said.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
+        sentences.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
     elif result.conflicting:
-        told = "files are in conflict; settle that with `urdfsync resolve`"
-        said.append((told, "yellow"))
+        sentences.append(("files are in conflict; settle that with `urdfsync resolve`", "yellow"))
     elif not result.in_step:
-        said.append(("the package is out of step; run `urdfsync build`", "yellow"))
+        sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
     if verbose:
-        for model in result.compiled:
+        sentences += [(sentence, "dim") for sentence in _details(result)]
+    yield from (line(("  ", ""), sentence) for sentence in sentences)
+
+
+def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how the package differs from the reference, by the first compiler that could move it."""
+    advice = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
+    reference = result.reference or "the reference"
+    deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
+    for one, others in _by_kind([one for one in deviations if not agrees(one)]):
+        what, amount = _amount(one)
+        yield f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
+        if one.unit in ("N·m", "N", "kg"):
+            yield f"  its largest {what} by {reference} is {_digits(one.value)} {one.unit}", "dim"
+        advice = ""
+
+
+def _details(result: CheckResult) -> Iterator[str]:
+    """Yield each model, and each number that was compared."""
+    for tool in result.tools:
+        by = f" by {tool.tool}" if len(result.tools) > 1 else ""
+        for model in tool.compiled:
             size = f"{model.unknowns:,} unknowns" if model.unknowns else "compiles"
-            said.append((f"{model.model}: {size}", "dim"))
-        for one in result.deviations or ():
+            yield f"{model.model}: {size}{by}"
+        for one in tool.deviations or ():
             what, amount = _amount(one)
-            said.append((f"{one.element}: {what} differs by {amount} ({one.relative:.1e})", "dim"))
-        for one in (result.second and result.second.between) or ():
-            what, amount = _amount(one)
-            said.append((f"{one.element}: {what} differs by {amount} between the compilers", "dim"))
-        for found in result.effects:
-            said += [(f"{_edited(found)} {_change(one)}", "dim") for one in found.deviations]
-    yield from (line(("  ", ""), sentence) for sentence in said)
+            yield f"{one.element}: {what} differs by {amount} ({one.relative:.1e}){by}"
+    for one in result.between or ():
+        what, amount = _amount(one)
+        yield f"{one.element}: {what} differs by {amount} between the compilers"
+    for effect in result.effects:
+        yield from (f"{_edited(effect)} {_change(one)}" for one in effect.deviations)
 
 
-def _two_tools(result: CheckResult, second: SecondResult) -> Iterator[tuple[str, str]]:
-    """How far two compilers agree, who stands alone where they or the reference differ, and what they took."""
-    if second.between is not None:
+def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how far two compilers agree, who stands alone where they or the reference differ, and what they took."""
+    first, second = result.tools
+    if result.between is not None:
+        outliers: dict[str, list[Deviation]] = {}
         reference = result.reference or "the reference"
-        found: dict[str, list[Deviation]] = {}
-        for three in zip(result.deviations or (), second.deviations or (), second.between, strict=False):
+        for three in zip(first.deviations or (), second.deviations or (), result.between, strict=False):
             if not all(map(agrees, three)):
-                found.setdefault(_outlier(result.tool, second.tool, reference, *three), []).append(
-                    max(three, key=lambda one: math.inf if math.isnan(one.relative) else one.relative)
-                )
-        for name, deviations in found.items():
+                worst = max(three, key=relative)
+                outliers.setdefault(_outlier(first.tool, second.tool, reference, *three), []).append(worst)
+        for name, deviations in outliers.items():
             for one, others in _by_kind(deviations):
                 what, amount = _amount(one)
                 who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
                 yield f"{one.element}: {what}: {who}{others}", "bold red"
-        for one, others in _by_kind([one for one in second.edited if not agrees(one)]):
+        for one, others in _by_kind([one for one in result.between_edited if not agrees(one)]):
             what, amount = _amount(one)
-            sentence = f"{one.element}: with your edits, the {what} by {second.tool} differs from that by {result.tool}"
+            sentence = f"{one.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
             yield f"{sentence} by {amount}{others}", "bold red"
-        worst = max((one.relative for one in second.between), default=0.0)
-        if worst <= TOLERANCE:
-            yield f"{result.tool} and {second.tool} agree {f'to {worst:.1e}' if worst else 'exactly'}", ""
-    names = result.tool, second.tool
-    took = zip(names, second.seconds, second.megabytes, strict=True)
-    yield "; ".join(f"{name}: {seconds:.1f} s, {megabytes:.0f} MB" for name, seconds, megabytes in took), "dim"
+        largest_difference = max(map(relative, result.between), default=0.0)
+        if largest_difference <= TOLERANCE:
+            agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
+            yield f"{first.tool} and {second.tool} agree {agreement}", ""
+    yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
 
 
 def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
@@ -139,7 +147,7 @@ def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[S
 
 
 def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
-    """What was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
+    """Return what was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
     same = ("package", "failed", "built", "in_step", "conflicting", "reference", "seconds", "megabytes")
     lists = ("notes", "unchecked", "gaps")
     return {
@@ -148,47 +156,42 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         **{name: list(getattr(result, name)) for name in lists},
         "standing": result.status(strict),
         "summary": summary(result, strict),
-        "tool": result.tool or None,
-        "second": _second_values(result.second),
-        "compiled": list(map(_model_values, result.compiled)),
         "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
-        "agrees": None if result.deviations is None else not result.differs,
-        "deviations": list(map(_deviation_values, result.deviations or ())),
-        "edits": [
-            {**msgspec.structs.asdict(one), "deviations": list(map(_deviation_values, one.deviations))}
-            for one in result.effects
-        ],
+        "agrees": None if all(tool.deviations is None for tool in result.tools) else not result.differs,
+        "tools": list(map(_tool_values, result.tools)),
+        "between": _all_values(result.between),
+        "between_edited": _all_values(result.between_edited),
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }
 
 
-def _second_values(second: SecondResult | None) -> dict[str, Any] | None:
-    """What a second compiler says as plain data."""
-    if second is None:
-        return None
+def _tool_values(tool: ToolResult) -> dict[str, Any]:
+    """Return the answers of one compiler as plain data."""
     return {
-        "tool": second.tool,
-        "compiled": list(map(_model_values, second.compiled)),
-        "deviations": None if second.deviations is None else list(map(_deviation_values, second.deviations)),
-        "between": None if second.between is None else list(map(_deviation_values, second.between)),
-        "edited": list(map(_deviation_values, second.edited)),
-        "seconds": list(second.seconds),
-        "megabytes": list(second.megabytes),
+        "tool": tool.tool,
+        "compiled": [
+            {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users} for one in tool.compiled
+        ],
+        "failing": list(tool.failing),
+        "deviations": _all_values(tool.deviations),
+        "edits": [{**msgspec.structs.asdict(one), "deviations": _all_values(one.deviations)} for one in tool.effects],
+        "seconds": tool.seconds,
+        "megabytes": tool.megabytes,
     }
 
 
-def _model_values(one: CompiledModel) -> dict[str, Any]:
-    return {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users}
-
-
-def _deviation_values(one: Deviation) -> dict[str, Any]:
-    """A deviation as plain data; JSON has no infinite numbers."""
-    values = {
-        name: None if isinstance(value, float) and not math.isfinite(value) else value
-        for name, value in {**msgspec.structs.asdict(one), "relative": one.relative}.items()
-    }
-    return {**values, "reason": "the simulation gave no number" if values["difference"] is None else ""}
+def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] | None:
+    """Return deviations as plain data; JSON has no infinite numbers."""
+    if deviations is None:
+        return None
+    found = []
+    for one in deviations:
+        values = {**msgspec.structs.asdict(one), "relative": one.relative}
+        for name, value in values.items():
+            values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
+        found.append({**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"})
+    return found
 
 
 def summary(result: CheckResult, strict: bool) -> str:
@@ -200,18 +203,17 @@ def summary(result: CheckResult, strict: bool) -> str:
         count, users = len(own), len(result.compiled) - len(own)
         model = max(own or result.compiled, key=lambda model: model.unknowns)
         yours = f", and {users} of yours" if users else ""
-        if failing := len(result.failing):
+        if failing := len({name for tool in result.tools for name in tool.failing}):
             yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
         said.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
         if result.freedoms is not None:
-            said.append("1 degree of freedom" if result.freedoms == 1 else f"{result.freedoms} degrees of freedom")
+            said.append(f"{counted(result.freedoms, 'degree')} of freedom")
         if model.unknowns:
             said.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
     elif not errors:
         said.append("syntax and layout")
-    deviations = [*(result.deviations or ()), *((result.second and result.second.deviations) or ())]
     for name, quantities in _KINDS:
-        if worst := largest(deviations, quantities):
+        if worst := largest(result.deviations, quantities):
             agreement = f"agree to {worst.relative:.1e}" if worst.difference else "agree exactly"
             place = "" if quantities is MASSES else f" ({worst.element})"
             said.append(f"{name} {agreement if agrees(worst) else 'differ'}{place}")

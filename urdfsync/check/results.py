@@ -84,21 +84,21 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The elements that the files belong to, in the domain's words."""
 
 
-class SecondResult(msgspec.Struct, frozen=True):
-    """What a second compiler makes of a package, and how far the two compilers are apart."""
+class ToolResult(msgspec.Struct):
+    """The answers of one compiler about a package."""
 
-    tool: str
-    """Its name and version."""
+    tool: str = ""
+    """The compiler with its version."""
     compiled: tuple[CompiledModel, ...] = ()
+    failing: tuple[str, ...] = ()
+    """Full names of the user's models outside of the package that do not compile by themselves."""
     deviations: tuple[Deviation, ...] | None = None
-    """From the reference, in the order of those of the first compiler; None if nothing was compared."""
-    between: tuple[Deviation, ...] | None = None
-    """From the first compiler, for the package as it is generated; None if one of them could not move it."""
-    edited: tuple[Deviation, ...] = ()
-    """From the first compiler, for the package with the edits of the user; none if there are none."""
-    seconds: tuple[float, float] = (0.0, 0.0)
-    """That the first compiler took, and this one."""
-    megabytes: tuple[float, float] = (0.0, 0.0)
+    """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
+    effects: tuple[EditEffect, ...] = ()
+    """The effects of the user's edits, each apart where that can be told."""
+    seconds: float = 0.0
+    megabytes: float = 0.0
+    """The most memory that its processes took together, looked at ten times a second."""
 
 
 class CheckResult(msgspec.Struct):
@@ -112,15 +112,14 @@ class CheckResult(msgspec.Struct):
     """Whether the package on disk is what a build would leave."""
     conflicting: bool = False
     """Whether it is out of step because edits and new texts contradict each other."""
-    compiled: tuple[CompiledModel, ...] = ()
-    failing: tuple[str, ...] = ()
-    """Full names of the user's models outside of the package that do not compile by themselves."""
     freedoms: int | None = None
     """Degrees of freedom; None if the domain does not say."""
-    deviations: tuple[Deviation, ...] | None = None
-    """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
-    effects: tuple[EditEffect, ...] = ()
-    """What the edits of the user do, each apart where that can be told."""
+    tools: tuple[ToolResult, ...] = ()
+    """One for each compiler, in the order in which they were asked; none if nothing was compiled."""
+    between: tuple[Deviation, ...] | None = None
+    """Of the second compiler from the first, for the package as it is generated; None if one could not move it."""
+    between_edited: tuple[Deviation, ...] = ()
+    """The same for the package with the edits of the user; none if there are none."""
     notes: tuple[str, ...] = ()
     """What was made up or completed for the comparison, and why: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
@@ -134,10 +133,6 @@ class CheckResult(msgspec.Struct):
     """The most memory that its processes took together, looked at ten times a second."""
     reference: str = ""
     """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
-    tool: str = ""
-    """The compiler with its version, the first one of two; empty if nothing was compiled."""
-    second: SecondResult | None = None
-    """None if one compiler was asked."""
 
     @property
     def failed(self) -> bool:
@@ -145,12 +140,24 @@ class CheckResult(msgspec.Struct):
         return any(one.severity is Severity.ERROR for one in self.diagnostics)
 
     @property
+    def compiled(self) -> tuple[CompiledModel, ...]:
+        """The models that compile and are balanced, by the first compiler."""
+        return self.tools[0].compiled if self.tools else ()
+
+    @property
+    def deviations(self) -> list[Deviation]:
+        """The deviations from the reference, by all compilers."""
+        return [one for tool in self.tools for one in tool.deviations or ()]
+
+    @property
+    def effects(self) -> tuple[EditEffect, ...]:
+        """The effects of the user's edits, by the first compiler that measured them."""
+        return next((tool.effects for tool in self.tools if tool.effects), ())
+
+    @property
     def differs(self) -> bool:
-        """Whether what is generated is not what the reference says, whoever edited what, or two compilers disagree."""
-        found = list(self.deviations or ())
-        if self.second:
-            found += [*(self.second.deviations or ()), *(self.second.between or ()), *self.second.edited]
-        return not all(map(agrees, found))
+        """Whether the generated package is not as the reference says, whoever edited it, or two compilers disagree."""
+        return not all(map(agrees, (*self.deviations, *(self.between or ()), *self.between_edited)))
 
     @property
     def is_changed_by_edits(self) -> bool:
@@ -175,10 +182,14 @@ def agrees(deviation: Deviation) -> bool:
     return deviation.relative <= TOLERANCE
 
 
-def largest(deviations: Sequence[Deviation] | None, quantities: Sequence[Quantity]) -> Deviation | None:
-    """The deviation that is greatest relative to its kind; None if nothing of these quantities was compared."""
-    found = [one for one in deviations or () if one.quantity in quantities]
-    return max(found, key=lambda one: math.inf if math.isnan(one.relative) else one.relative, default=None)
+def relative(deviation: Deviation) -> float:
+    """Return the relative difference; what is no number is infinitely far."""
+    return math.inf if math.isnan(deviation.relative) else deviation.relative
+
+
+def largest(deviations: Iterable[Deviation], quantities: Sequence[Quantity]) -> Deviation | None:
+    """Return the deviation that is greatest relative to its kind; None if nothing of these quantities was compared."""
+    return max((one for one in deviations if one.quantity in quantities), key=relative, default=None)
 
 
 def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:

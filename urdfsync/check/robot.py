@@ -11,15 +11,16 @@ from typing import Any
 import msgspec
 
 from urdfsync import registry
-from urdfsync.check import compilers, libraries, process, texts
+from urdfsync.check import compilers, process, texts
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilation import Compilation
-from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.fingerprint import fingerprint
-from urdfsync.check.package import CheckedPackage, read_package, users_models
+from urdfsync.check.libraries import Libraries, find_libraries
+from urdfsync.check.names import check_names
+from urdfsync.check.package import RobotPackage, read_package, users_models
 from urdfsync.check.process import Limits, limits_of
 from urdfsync.check.results import CheckOptions, CheckResult, listed
-from urdfsync.check.two_tools import compile_with_tools
+from urdfsync.check.two_tools import run_compilations
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Experiment
@@ -43,7 +44,8 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         package = read_package(config, robot, request)
         known = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
         if known is None:
-            _check(config, package, options, result, limits, folder)
+            with contextlib.nullcontext(folder) if folder else cache.workspace() as place:
+                _check(config, package, options, result, limits, place)
             result.megabytes = limits.peak / 1e6
             is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
             if key and package.in_step and is_same:
@@ -58,59 +60,58 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
 
 
 def _check(
-    config: Config,
-    package: CheckedPackage,
-    options: CheckOptions,
-    result: CheckResult,
-    limits: Limits,
-    folder: Path | None,
+    config: Config, package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits, folder: Path
 ) -> None:
     """Check a package as far as this machine can; all that is found goes into the result."""
-    robot = package.robot
+    robot, rendering = package.robot, package.rendering
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
-    bench = package.domain.bench(package.rendering.snapshot, robot.target, robot.options)
-    result.freedoms = bench.freedoms if bench else None
+    result.freedoms = package.bench.freedoms if package.bench else None
     tell(f"{robot.name}: checking files and names")
-    result.add(package.source_diagnostics)
-    found = package.domain.cross_check(package.rendering.content, shown(robot.source))
-    result.add(map(package.rendering.source.locate, found))
+    result.add(package.errors)
+    result.add(map(rendering.source.locate, rendering.domain.cross_check(rendering.content, shown(robot.source))))
+    faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
+    result.add(faults)
+    if any(one.severity is Severity.ERROR for one in faults):
+        result.gaps = ("nothing was compiled, since files have errors",)
+        return
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
-    uses = [name for name, _ in package.domain.uses(robot.options)]
-    needed, missing = libraries.find_libraries(config, robot, contents, uses), _find_missing(options)
-    lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
-    if reason := _check_texts(package, needed, result):
-        result.gaps = (f"nothing was compiled, since {reason}",)
-    elif problem := missing or (needed.problem if lacks_library else None):
-        default = CheckOptions().tools
-        is_wanted = options.physics or (options.tools != default if missing else config.check.library)
-        if is_wanted:
-            result.add([problem])
+    uses = [name for name, _ in rendering.domain.uses(robot.options)]
+    needed = find_libraries(config, robot, contents, uses)
+    names = check_names(package, needed.standard)
+    result.add([*names.package, *names.users])
+    if any(one.severity is Severity.ERROR for one in names.package):
+        result.gaps = ("nothing was compiled, since names in the package do not exist",)
+        return
+    if problem := _find_missing(config, options, needed, result):
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
-    else:
-        with contextlib.nullcontext(folder) if folder else UserCache.default().workspace() as place:
-            users = users_models(robot, package.users_files)
-            if users.left_out:
-                files = listed([shown(path) for path in users.left_out])
-                result.gaps += (f"{files} outside of the package: nothing there was compiled",)
-            every = libraries.find_libraries(config, robot, [*contents, *package.users_files.values()], uses)
-            every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
-            experiment = _experiment(package, options, result, limits)
-
-            def compilation(tool: Tool, part: CheckResult) -> Compilation:
-                copies, count = place / robot.name / tool.name, options.compilers
-                return Compilation(package, tool, count, part, limits, copies, needed, users, every)
-
-            compile_with_tools(options.tools, compilation, experiment, result, limits)
+        return
+    users = users_models(robot, names.users_files)
+    if users.left_out:
+        files = listed([shown(path) for path in users.left_out])
+        result.gaps += (f"{files} outside of the package: nothing there was compiled",)
+    every = find_libraries(config, robot, [*contents, *names.users_files.values()], uses)
+    every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
+    experiment = _experiment(package, options, result, limits)
+    compilations = [
+        Compilation(package, tool, needed, users, every, limits, folder / robot.name / tool.name, options.compilers)
+        for tool in options.tools
+    ]
+    run_compilations(compilations, experiment, result, limits)
 
 
-def _find_missing(options: CheckOptions) -> Diagnostic | None:
-    return next(filter(None, map(compilers.find_missing, options.tools)), None)
+def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
+    """Return why nothing can be compiled; it is an error, too, if the user asked for more than the default."""
+    missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
+    lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
+    problem = missing or (needed.problem if lacks_library else None)
+    is_wanted = options.tools != CheckOptions().tools if missing else config.check.library
+    if problem and (options.physics or is_wanted):
+        result.add([problem])
+    return problem
 
 
-def _experiment(
-    package: CheckedPackage, options: CheckOptions, result: CheckResult, limits: Limits
-) -> Experiment | None:
-    """The experiment for the package; None if there is none, and the result says why."""
+def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
+    """Return the experiment for the package; None if there is none, and the result says why."""
     robot = package.robot
     if not options.physics:
         result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
@@ -118,7 +119,7 @@ def _experiment(
     tell(f"{robot.name}: asking the reference")
     try:
         arguments = robot.domain, package.rendering.content, shown(robot.source), robot.target, robot.options
-        (found,) = process.run(_experiments, *arguments, limits=limits)
+        (experiment,) = process.run(_experiments, *arguments, limits=limits)
     except UrdfsyncError as error:
         result.add(error.diagnostics)
         return None
@@ -126,28 +127,16 @@ def _experiment(
         message, hint = f"the reference crashed: {error}", "check without `--physics`"
         result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
         return None
-    if not isinstance(found, Experiment):
-        result.gaps += (f"poses, efforts and masses were not compared: {found}",)
+    if not isinstance(experiment, Experiment):
+        result.gaps += (f"poses, efforts and masses were not compared: {experiment}",)
         return None
-    result.notes, result.reference = found.notes, found.reference
-    result.unchecked += found.unchecked
+    result.notes, result.reference = experiment.notes, experiment.reference
+    result.unchecked += experiment.unchecked
     if package.on_disk and not package.in_step:
         result.unchecked += ("the effect of your edits was not measured: the package is not in step with its source",)
-    return found
+    return experiment
 
 
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     yield registry.domain(domain).experiment(*arguments)
-
-
-def _check_texts(package: CheckedPackage, needed: libraries.Libraries, result: CheckResult) -> str:
-    """Check files and names; returns why nothing can be compiled, empty if it can."""
-    found = texts.check_layout(package.files)
-    found += texts.check_around(package.robot.output, package.around)
-    result.add(found)
-    if any(one.severity is Severity.ERROR for one in found):
-        return "files have errors"
-    own, others = texts.check_names(package, needed.standard)
-    result.add([*own, *others])
-    return "names in the package do not exist" if any(one.severity is Severity.ERROR for one in own) else ""

@@ -1,4 +1,4 @@
-"""What is wrong with the texts of a package: syntax, layout, names, files that it refers to. No compiler is asked.
+"""What is wrong with the texts of a package: syntax, layout, files that it refers to. No compiler is asked.
 
 The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
 first one: one file that does not parse makes a compiler give up the whole package, often without telling which one it
@@ -8,22 +8,16 @@ is.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
-from urdfsync.check import libraries
-from urdfsync.check.package import CheckedPackage, PackageTexts
-from urdfsync.check.results import listed
-from urdfsync.config import find_own_library
+from urdfsync.check.package import PackageTexts, RobotPackage
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import brings_back
-from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import ClassName, StoredClasses, class_path
+from urdfsync.files import normalised
+from urdfsync.modelica.files import class_path
 from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file
-from urdfsync.modelica.names import STANDARD_LIBRARIES, is_identifier
-from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.syntax import StoredText, declared
-from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 from urdfsync.spelling import nearest
 
 _ORDER = "package.order"
@@ -174,7 +168,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
         return package.diagnostic(_ERROR, "not-utf8", "the file is not in UTF-8", path, line, hint="save it as UTF-8")
 
 
-def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
+def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
     """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
     own, output = package.robot.target.package, package.robot.output
     hint = "`urdfsync build` brings back what it imported; else put the file there"
@@ -188,66 +182,3 @@ def missing_resources(package: CheckedPackage) -> Iterator[Diagnostic]:
                 line = text.count("\n", 0, found.start()) + 1
                 message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
                 yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)
-
-
-def check_names(package: CheckedPackage, standard: Mapping[str, Path]) -> tuple[list[Diagnostic], list[Diagnostic]]:
-    """What is wrong with names in the package, and in the user's files outside of it; `standard` is the MSL.
-
-    Each fault is told once in each file, at its first line.
-    """
-    robot = package.robot
-
-    def find(name: str) -> Path | None:
-        if own := find_own_library(name, robot.target.package):
-            return own
-        if name in STANDARD_LIBRARIES:
-            return standard.get(name)
-        return libraries.find_library(name, libraries.search_path(robot))
-
-    around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
-    others = {**around, **package.users_files}
-    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find)
-    users = [name for name, one in sources.users.items() if Path(one.file) in package.users_files]
-    message, hint = "this file can't be read as Modelica, so its names were not checked", "open it in a Modelica tool"
-    unread = [path for path in sources.unread if path in package.users_files and path not in around]
-    found = [Diagnostic(Severity.WARNING, "names-unread", message, shown(path), hint=hint) for path in unread]
-    scopes = Scopes(sources)
-    return _check_classes(package, scopes, sources.own), [*found, *_check_classes(package, scopes, users)]
-
-
-def _check_classes(package: CheckedPackage, scopes: Scopes, names: Iterable[ClassName]) -> list[Diagnostic]:
-    """One finding for all places in a file that have the same fault."""
-    places: dict[tuple[str, UnresolvedKind, str, str], list[Unresolved]] = {}
-    for node in filter(None, map(scopes.node, sorted(names))):
-        for one in unresolved(node, scopes):
-            places.setdefault((node.file, one.kind, one.owner, one.part), []).append(one)
-    found = [_diagnostic(package, Path(file), alike) for (file, *_), alike in places.items()]
-    return sorted(found, key=lambda one: (one.file, one.line))
-
-
-def _diagnostic(package: CheckedPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
-    one, files = min(places, key=lambda place: place.line), package.files
-    severity, code, hint = Severity.WARNING, one.kind.value, ""
-    if one.kind is UnresolvedKind.NESTED_REDECLARE:
-        message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
-        hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
-    elif one.kind is UnresolvedKind.DOTTED_MODIFIER:
-        message = f"the modifier of `{one.name}` is not checked: rumoca ignores names with dots in modifiers"
-        first, *rest = one.name.split(".")
-        hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
-    else:
-        severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
-        message = one.message
-        if one.kind is UnresolvedKind.ELEMENT:
-            robot, snapshot = package.robot, package.rendering.snapshot
-            if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                option = package.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)
-                hint = brings_back(option) or hint
-    lines = sorted({place.line for place in places} - {one.line})
-    also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
-    if not file.is_relative_to(files.folder):
-        hint = "; ".join(filter(None, (hint, also)))
-        return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
-    path = file.relative_to(files.folder).as_posix()
-    hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
-    return files.diagnostic(severity, code, message, path, one.line, hint=hint)

@@ -7,28 +7,22 @@ import re
 import time
 import zipfile
 import zlib
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 import msgspec
 
 from urdfsync import __version__
 from urdfsync.check import compilers
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilation import explain
-from urdfsync.check.compilers.compiler import CompileResult, CompileTask, Export
-from urdfsync.check.jobs import Jobs
-from urdfsync.check.libraries import Libraries
-from urdfsync.check.process import limits_of
+from urdfsync.check.compilers.compiler import CompileTask, Export
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.options import Progress
-from urdfsync.simulate.models import Input, Model
+from urdfsync.simulate.models import Input
 from urdfsync.simulate.motion import read_motion
-from urdfsync.simulate.package import SimulatedPackage, check_compiler, find_with_libraries, read_package
+from urdfsync.simulate.package import extension, prepare, run_task
 from urdfsync.simulate.results import STOP, SimulateOptions
-from urdfsync.simulate.values import find_unknown, modifiers, read_values
+from urdfsync.simulate.values import modifiers
 
 TOLERANCE = 1e-10
 """Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
@@ -61,12 +55,6 @@ class Exported(msgspec.Struct, frozen=True):
     seconds: float
 
 
-class _Experiment(NamedTuple):
-    stop: float
-    step: float
-    tolerance: float
-
-
 def export(
     config: Config,
     robot: RobotConfig,
@@ -82,82 +70,46 @@ def export(
     motion could drive; OSError for what can't be read.
     """
     begin = time.monotonic()
-    check_compiler(options)
-    package = read_package(config, robot, options)
-    name = options.model or package.bench.run or package.bench.test
-    if not name:
-        message = f"the package of robot `{robot.name}` has no model that can be exported"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
-    model, needed = find_with_libraries(config, robot, options, name, package)
-    settings, values = model.settings(), read_values(options.values)
+    prepared = prepare(config, robot, options, for_export=True)
+    model = prepared.model
     inputs = tuple(model.inputs()) if for_trial else ()
     if for_trial and options.motion:
         read_motion(options.motion, inputs)  # what is wrong with it is said before the export, which takes minutes
-    stop = options.stop or settings.get("StopTime", STOP)
-    experiment = _Experiment(stop, model.step(stop, options.step), options.tolerance or TOLERANCE)
-    fmu_name = re.sub(r"\W", "_", model.name)
-    fmu_name = f"{fmu_name}_FMU" if fmu_name == model.name else fmu_name  # a model can't extend one of its name
-    plain = CompileTask(fmu_name, _text(fmu_name, model.name, [], experiment), title=model.name)
-    task = msgspec.structs.replace(
-        plain,
-        source=_text(fmu_name, model.name, modifiers(values), experiment),
-        # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
-        export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
-    )
+    stop = options.stop or model.settings.get("StopTime", STOP)
+    step, tolerance = model.step(stop, options.step), options.tolerance or TOLERANCE
+    name = re.sub(r"\W", "_", model.name)
+    name = f"{name}_FMU" if name == model.name else name  # a model can't extend one of its name
+
+    def text(changes: Sequence[str]) -> str:
+        # a model of its own, since the tolerance inside of an FMU is that of the annotation
+        times = f"StopTime = {stop!r}, Interval = {step!r}, Tolerance = {tolerance!r}"
+        description = f"{model.name}, {_BY_URDFSYNC} {__version__}"
+        return extension(name, model.name, changes, [f"  annotation (experiment({times}));"], description)
 
     def tell() -> None:
         progress(f"{robot.name}: compiling, {time.monotonic() - begin:.0f} s", 0, 1)
 
-    result = _compile(robot, options, package, needed, model, (task, plain), tuple(values), tell)
+    task = CompileTask(
+        name,
+        text(modifiers(prepared.values)),
+        parameters=tuple(prepared.values),
+        title=model.name,
+        # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
+        export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
+    )
+    result = run_task(prepared, options, "export", task, text([]), tell)
     note = compilers.find_untried(options.tool, result.version)
     return Exported(
         content=_corrected(result.fmu, with_model_exchange=kind.kind != "cs"),
         model=model.name,
-        name=fmu_name,
+        name=name,
         inputs=inputs,
-        **experiment._asdict(),
+        stop=stop,
+        step=step,
+        tolerance=tolerance,
         tool=f"{compilers.COMPILERS[options.tool.name].TITLE} {result.version}".rstrip(),
-        diagnostics=robot.without_ignored([*package.warnings, *([note] if note else [])]),
+        diagnostics=robot.without_ignored([*prepared.warnings, *([note] if note else [])]),
         seconds=time.monotonic() - begin,
-    )
-
-
-def _compile(
-    robot: RobotConfig,
-    options: SimulateOptions,
-    package: SimulatedPackage,
-    needed: Libraries,
-    model: Model,
-    tasks: tuple[CompileTask, CompileTask],
-    values: tuple[str, ...],
-    progress: Callable[[], None],
-) -> CompileResult:
-    """Do the first of two tasks; the second is without the changes of `values`. Raises UrdfsyncError."""
-    limits = limits_of(f"the export of `{model.name}`", options.timeout, options.memory)
-    cache, (task, plain), texts = UserCache.default(), tasks, package.texts.texts
-    cache.prepare()
-    with cache.workspace() as folder:
-        every = [*texts.values(), *package.around.values()]
-        jobs = Jobs(robot, package.around, needed, every, options.tool, limits, folder, progress)
-        (result,) = jobs.run("export", texts, [task])
-        if result.problem and values:  # perhaps since there is no such parameter
-            (found,) = jobs.run("plain", texts, [msgspec.structs.replace(plain, parameters=values)])
-            if unknown := find_unknown(model.name, values, found.parameters):
-                raise UrdfsyncError(*unknown)
-    if result.problem:
-        file, compiler = Path(model.node.file), compilers.COMPILERS[options.tool.name]
-        outside = None if package.texts.folder in file.parents else file
-        raise UrdfsyncError(*explain(result.problem, compiler, package.texts, file=outside))
-    return result
-
-
-def _text(name: str, model: str, changes: list[str], experiment: _Experiment) -> str:
-    """Return a model of its own, since the tolerance inside of an FMU is that of the annotation."""
-    changed = f"({', '.join(changes)})" if changes else ""
-    times = f"StopTime = {experiment.stop!r}, Interval = {experiment.step!r}, Tolerance = {experiment.tolerance!r}"
-    return (
-        f'model {name} "{model}, {_BY_URDFSYNC} {__version__}"\n'
-        f"  extends {model}{changed};\n  annotation (experiment({times}));\nend {name};\n"
     )
 
 

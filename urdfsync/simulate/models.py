@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import msgspec
@@ -11,6 +12,7 @@ import msgspec
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.files import shown
 from urdfsync.modelica.classes import OPAQUE, Node, Type
+from urdfsync.modelica.files import text_of
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import Component
 from urdfsync.simulate.results import STEPS
@@ -37,8 +39,8 @@ class Input(msgspec.Struct, frozen=True):
 class Driven(msgspec.Struct, frozen=True):
     """What is changed in a model so that its inputs can follow a table."""
 
-    changed: Mapping[str, str]
-    """Texts in which the inputs are outputs, by file: another block of the same model may then say what they are."""
+    changed: Mapping[Path, bytes]
+    """Contents in which the inputs are outputs, by file: another block of the same model may then say what they are."""
     modifiers: tuple[str, ...]
     """They switch the filters of drives off."""
 
@@ -46,23 +48,25 @@ class Driven(msgspec.Struct, frozen=True):
 class Model:
     """A class that can be simulated, with those that it extends."""
 
-    def __init__(self, scopes: Scopes, node: Node, texts: Mapping[str, str]) -> None:
-        """`texts` are the files of the package by path; others are read."""
+    def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
+        """`content` reads a file of Modelica."""
         self.node, self.name = node, str(node)
-        self._texts = texts
+        # as the parser had it, since components say where they begin
+        self._text = functools.cache(lambda file: text_of(content(file)))
         self._nodes = [one for one in _with_bases(scopes, node) if one.file]
 
+    @functools.cached_property
     def settings(self) -> dict[str, float]:
-        """Return what the annotation `experiment` of the model says, by the names of Modelica."""
-        text = self._class_text()
-        found = _EXPERIMENT.search(text)
+        """The numbers in the annotation `experiment` of the model, by the names of Modelica."""
+        name = self.node.definition.name
+        text = self._text(self.node.file)[name.starts[0] :] if self.node.file and name.starts else ""
+        found = _EXPERIMENT.search(re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0])
         numbers = {name: float(number) for name, number in _SETTING.findall(found[1])} if found else {}
         return {name: number for name, number in numbers.items() if number > 0}
 
     def step(self, stop: float, wanted: float | None) -> float:
         """Return the interval of results of a simulation until `stop`, in s, if no other is wanted."""
-        settings = self.settings()
-        return wanted or settings.get("Interval") or stop / settings.get("NumberOfIntervals", STEPS)
+        return wanted or self.settings.get("Interval") or stop / self.settings.get("NumberOfIntervals", STEPS)
 
     def inputs(self) -> list[Input]:
         """Return all inputs, those of base classes first. Raises ConfigError for one that can't be driven."""
@@ -103,7 +107,7 @@ class Model:
             text = self._text(file)
             for place in sorted(set(places), reverse=True):
                 text = f"{text[:place]}RealOutput{text[place + len('RealInput') :]}"
-            texts[file] = text
+            texts[Path(file)] = text.encode(errors="surrogateescape")
         return Driven(texts, tuple(modifiers))
 
     def _components(self) -> Iterator[tuple[Node, Component]]:
@@ -111,18 +115,8 @@ class Model:
             for component in node.components.values():
                 yield node, component
 
-    def _text(self, file: str) -> str:
-        if file not in self._texts:
-            return Path(file).read_text("utf-8-sig", "replace")
-        return self._texts[file]
 
-    def _class_text(self) -> str:
-        name = self.node.definition.name
-        text = self._text(self.node.file)[name.starts[0] :] if self.node.file and name.starts else ""
-        return re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0]
-
-
-def find_model(scopes: Scopes, package: str, name: str, texts: Mapping[str, str]) -> Model:
+def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str], bytes]) -> Model:
     """Return the model that a user means, by its full name or by that below the package. Raises ConfigError."""
     for full in dict.fromkeys((f"{package}.{name}", name)):
         node = scopes.node(full.split("."))
@@ -132,7 +126,7 @@ def find_model(scopes: Scopes, package: str, name: str, texts: Mapping[str, str]
                 what = "partial: other models extend it" if kind in _KINDS else f"a {kind}"
                 message = f"`{name}` can't be simulated: it is {what}"
                 raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, shown(Path(node.file))))
-            return Model(scopes, node, texts)
+            return Model(scopes, node, content)
     near = _near(scopes, package, name)
     hint = f"did you mean `{near}`?" if near else "give its full name; libraries are found beside the package, "
     hint = hint if near else f"{hint}in the folders of `users` and on MODELICAPATH"

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import msgspec
 
@@ -96,21 +96,16 @@ def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
-    """Return the value of each input at other times, as the functions of `course` have it."""
-    import numpy as np
+    """Return the value of each input at other times, as the functions of `in_modelica` have it."""
+    from scipy.interpolate import CubicSpline, make_interp_spline
 
-    places = np.clip(np.searchsorted(motion.times, times, side="right") - 1, 0, len(motion.times) - 2)
-    known = np.array(motion.times)
-    h = known[places + 1] - known[places]
-    a, b = (known[places + 1] - times) / h, (times - known[places]) / h
-    found = {}
-    for one, given in motion.values:
-        bends = second_derivatives(motion.times, given) if one.unit in _SMOOTH else [0.0] * len(given)
-        q, m = np.array(given), np.array(bends)
-        values = a * q[places] + b * q[places + 1]
-        values += ((a**3 - a) * m[places] + (b**3 - b) * m[places + 1]) * h**2 / 6
-        found[one.name] = [float(value) for value in values]
-    return found
+    samples = {}
+    for one, values in motion.values:
+        curve = (
+            CubicSpline(motion.times, values) if one.unit in _SMOOTH else make_interp_spline(motion.times, values, 1)
+        )
+        samples[one.name] = [float(value) for value in curve(times)]
+    return samples
 
 
 def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> list[tuple[str, float]]:
@@ -225,7 +220,7 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
         return ModelicaMotion(self.functions, tuple(declarations), (*when, *equations))
 
 
-def course(motion: Motion) -> ModelicaMotion:
+def in_modelica(motion: Motion) -> ModelicaMotion:
     """Return functions of a package, and an equation for each input that calls them."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))
@@ -250,30 +245,6 @@ def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[
 
     Such a spline is exact for a cubic; through three points it is a parabola, through two a straight line.
     """
-    import numpy as np  # 100 ms, which no other simulation needs
+    from scipy.interpolate import CubicSpline  # half a second, which no other simulation needs
 
-    count = len(times)
-    steps, slopes = np.diff(times), np.diff(values) / np.diff(times)
-    if count == 2:
-        return [0.0, 0.0]
-    if count == 3:
-        return [float(2 * (slopes[1] - slopes[0]) / (steps[0] + steps[1]))] * 3
-    # unknowns: the second derivatives at all points but the first and the last, which follow from these
-    lower, upper = steps[1:-1].copy(), steps[1:-1].copy()
-    middle, right = 2 * (steps[:-1] + steps[1:]), 6 * np.diff(slopes)
-    first, last = steps[0] / steps[1], steps[-1] / steps[-2]
-    middle[0] += steps[0] * (1 + first)
-    upper[0] -= steps[0] * first
-    middle[-1] += steps[-1] * (1 + last)
-    lower[-1] -= steps[-1] * last
-    for k in range(1, count - 2):
-        factor = lower[k - 1] / middle[k - 1]
-        middle[k] -= factor * upper[k - 1]
-        right[k] -= factor * right[k - 1]
-    found: Any = np.zeros(count)
-    found[count - 2] = right[-1] / middle[-1]
-    for k in range(count - 4, -1, -1):
-        found[k + 1] = (right[k] - upper[k] * found[k + 2]) / middle[k]
-    found[0] = (1 + first) * found[1] - first * found[2]
-    found[-1] = (1 + last) * found[-2] - last * found[-3]
-    return [float(one) for one in found]
+    return [float(one) for one in CubicSpline(times, values)(times, 2)]

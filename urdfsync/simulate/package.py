@@ -1,41 +1,70 @@
-"""The package of a robot as it is on disk, and a model of it or of the user that is simulated or exported."""
+"""The model that is simulated or exported, with the package of the robot on disk; and what compilers say of it."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
 from urdfsync.check import compilers, libraries
-from urdfsync.check.package import PackageTexts, files_around, package_texts, users_files
+from urdfsync.check.cache import UserCache
+from urdfsync.check.compilation import explain
+from urdfsync.check.compilers.compiler import CompileResult, CompileTask
+from urdfsync.check.jobs import Jobs
+from urdfsync.check.package import RobotPackage, read_package
+from urdfsync.check.process import limits_of
+from urdfsync.check.texts import check_around, check_layout
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Bench
-from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.rendering import Rendering
 from urdfsync.files import shown
 from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.simulate.models import Model, find_model
 from urdfsync.simulate.results import SimulateOptions
+from urdfsync.simulate.values import find_unknown, read_values
 from urdfsync.spelling import nearest
 
 
-class SimulatedPackage(msgspec.Struct):
-    """The package of a robot on disk, and what is around it."""
+class Prepared(msgspec.Struct, frozen=True):
+    """A model, and all that it needs."""
 
+    package: RobotPackage
     bench: Bench
     """Empty if the domain does not say how a package is simulated."""
-    texts: PackageTexts
-    around: Mapping[str, bytes]
+    model: Model
+    needed: libraries.Libraries
+    values: Mapping[str, str]
+    """Other values of parameters, in Modelica."""
     warnings: tuple[Diagnostic, ...]
 
 
-def check_compiler(options: SimulateOptions) -> None:
+def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for_export: bool = False) -> Prepared:
+    """Find the model, and read the package. Raises UrdfsyncError for whatever is wrong with these or the compiler."""
+    _check_compiler(options)
+    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+    package = read_package(config, robot, request)
+    place = shown(robot.folder)
+    if not package.on_disk:
+        message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, place, hint=hint))
+    message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
+    late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
+    bench = package.bench or Bench("", "", ())
+    name = options.model or (bench.run if for_export or options.motion else "")
+    name = name or ("" if options.motion else bench.test)
+    if not name:
+        what = "has inputs" if options.motion else "can be simulated"
+        message = f"the package of robot `{robot.name}` has no model that {what}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
+    model, needed = _find_model(config, options, name, package)
+    return Prepared(package, bench, model, needed, read_values(options.values), () if package.in_step else (late,))
+
+
+def _check_compiler(options: SimulateOptions) -> None:
     """Raise ConfigError for a compiler that can't do this, UrdfsyncError for one that is not there."""
     compiler = compilers.COMPILERS[options.tool.name]
     if missing := compilers.find_missing(options.tool):
@@ -47,53 +76,77 @@ def check_compiler(options: SimulateOptions) -> None:
         raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
 
 
-def read_package(config: Config, robot: RobotConfig, options: SimulateOptions) -> SimulatedPackage:
-    """Read the package of a robot. Raises UrdfsyncError if there is none."""
-    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
-    (built,) = build(config, [robot], request)
-    if built.failed:
-        raise UrdfsyncError(*built.diagnostics)
-    texts = package_texts(robot.folder)
-    if not texts:
-        message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, shown(robot.folder), hint=hint))
-    rendering = Rendering(config, robot, request)
-    bench = rendering.domain.bench(rendering.snapshot, robot.target, robot.options) or Bench("", "", ())
-    package = PackageTexts(robot.target.package, robot.folder, texts)
-    around = files_around(config, robot, texts)
-    message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
-    late = Diagnostic(Severity.WARNING, "out-of-step", message, shown(robot.folder), hint=hint)
-    return SimulatedPackage(bench, package, around, () if built.are_files_in_step else (late,))
-
-
-def find_with_libraries(
-    config: Config, robot: RobotConfig, options: SimulateOptions, name: str, package: SimulatedPackage
+def _find_model(
+    config: Config, options: SimulateOptions, name: str, package: RobotPackage
 ) -> tuple[Model, libraries.Libraries]:
     """Return the model of a name, and the libraries that it and the package need. Raises UrdfsyncError."""
-    needed = libraries.find_libraries(config, robot, [*package.texts.texts.values(), *package.around.values()])
+    robot, texts = package.robot, package.files.texts
+    needed = libraries.find_libraries(config, robot, [*texts.values(), *package.around.values()])
     if needed.problem and not compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY:
         raise UrdfsyncError(needed.problem)
-    texts, top = package.texts.texts, robot.target.package.partition(".")[0]
+    target = robot.target.package
     around = {robot.output / path: content for path, content in package.around.items() if path.endswith(".mo")}
-    is_own = f"{name.replace('.', '/')}.mo" in texts or name.startswith(f"{robot.target.package}.")
-    files = {} if is_own else users_files(config, robot)
-    places = [robot.output, config.root, *robot.users, *libraries.library_folders(os.environ)]
-
-    def find(library: str) -> Path | None:
-        if own := find_own_library(library, robot.target.package):
-            return own
-        return needed.standard.get(library) or libraries.find_library(library, places)
-
-    sources = StoredClasses(robot.target.package, robot.folder, texts, {**around, **files}, find)
-    contents = {robot.folder / path: content for path, content in texts.items()} | around | files
-    decoded = {str(path): content.decode("utf-8-sig", "replace") for path, content in contents.items()}
-    model = find_model(Scopes(sources), robot.target.package, name, decoded)
-    library = model.name.partition(".")[0]
+    places = list(dict.fromkeys([robot.output, config.root, *robot.users, *libraries.search_path(robot)]))
+    find = libraries.class_finder(target, needed.standard, places)
+    sources = StoredClasses(target, robot.folder, texts, {**around, **package.users_files}, find)
+    model = find_model(Scopes(sources), target, name, sources.content)
+    library, top = model.name.partition(".")[0], target.partition(".")[0]
     if library != top and library not in STANDARD_LIBRARIES:
         file = Path(model.node.file)
-        every = [*texts.values(), *package.around.values(), *([files[file]] if file in files else [])]
-        found = libraries.needed_libraries(every, top, places, [library])
-        if library not in found and find_own_library(library, robot.target.package) is None:
-            found[library] = file  # a file of another name than its class
-        needed = msgspec.structs.replace(needed, others={**needed.others, **found})
+        own = [package.users_files[file]] if file in package.users_files else []
+        others = libraries.needed_libraries([*texts.values(), *package.around.values(), *own], top, places, [library])
+        if library not in others and find_own_library(library, target) is None:
+            others[library] = file  # a file of another name than its class
+        needed = msgspec.structs.replace(needed, others={**needed.others, **others})
     return model, needed
+
+
+def extension(name: str, model: str, modifiers: Sequence[str], lines: Iterable[str] = (), description: str = "") -> str:
+    """Return the text of a model that extends another one."""
+    modified = f"({', '.join(modifiers)})" if modifiers else ""
+    first = f'model {name} "{description}"' if description else f"model {name}"
+    return "".join(f"{line}\n" for line in (first, f"  extends {model}{modified};", *lines, f"end {name};"))
+
+
+def run_task(
+    prepared: Prepared,
+    options: SimulateOptions,
+    kind: str,
+    task: CompileTask,
+    plain: str,
+    progress: Callable[[], None],
+    changed: Mapping[Path, bytes] | None = None,
+) -> CompileResult:
+    """Do a task, which is a simulation or an export; `plain` is its text without other values of parameters.
+
+    For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or has no such parameters.
+    """
+    package, model, cache = prepared.package, prepared.model, UserCache.default()
+    limits = limits_of(f"the {kind} of `{model.name}`", options.timeout, options.memory)
+    cache.prepare()
+    with cache.workspace() as folder:
+        jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, folder, progress)
+        (result,) = jobs.run(kind, package.files.texts, [task], changed)
+        if result.problem and task.parameters:  # perhaps since there is no such parameter
+            names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
+            (answer,) = jobs.run("plain", package.files.texts, [names], changed)
+            result = answer if answer.parameters else result
+    faults = find_unknown(model.name, task.parameters, result.parameters)
+    for name in result.without_effect:
+        message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
+        faults.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))
+    if result.problem:
+        # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
+        unread = [*check_layout(package.files), *check_around(package.robot.output, package.around)]
+        if errors := [one for one in unread if one.severity is Severity.ERROR]:
+            raise UrdfsyncError(*errors)
+        file = Path(model.node.file)
+        outside = None if package.files.folder in file.parents else file
+        said = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
+        if names_set := ", ".join(task.parameters):
+            hint = f"perhaps one of these is final, or gets the wrong kind of value: {names_set}"
+            said = [msgspec.structs.replace(one, hint=hint) for one in said]
+        faults += said
+    if faults:
+        raise UrdfsyncError(*faults)
+    return result

@@ -1,0 +1,117 @@
+"""Names that mean nothing, in the robot's package and in the files of the user that use it. No compiler is asked."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync.check import libraries
+from urdfsync.check.package import RobotPackage
+from urdfsync.check.results import listed
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import brings_back
+from urdfsync.files import shown
+from urdfsync.modelica.classes import Node
+from urdfsync.modelica.files import StoredClasses, class_of_file, files_that_use, parse_file, place_of, text_of
+from urdfsync.modelica.layout import check_class_file
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
+
+
+class NameCheck(NamedTuple):
+    """The findings about names, each once in a file, at its first line."""
+
+    package: list[Diagnostic]
+    users: list[Diagnostic]
+    """In files of the user outside of the package."""
+    users_files: Mapping[Path, bytes]
+    """The files of the user that use the package: by names that mean a class of it, or of another such file."""
+
+
+def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
+    """Resolve all names; `standard` are the libraries of the Modelica Standard Library."""
+    robot = package.robot
+    find = libraries.class_finder(robot.target.package, standard, libraries.search_path(robot))
+    around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
+    others = {**around, **package.users_files}
+    read = functools.cache(parse_file)  # for each file of the user anew
+    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find, read)
+    scopes = Scopes(sources)
+    own = _findings(package, _unresolved(filter(None, map(scopes.node, sorted(sources.own))), scopes))
+    places: list[tuple[Path, Unresolved]] = []
+    uses: dict[Path, set[Path]] = {}
+    unplaced = set(sources.unread)
+    for name, definition in sources.users.items():
+        if (path := Path(definition.file)) in package.users_files:
+            sources.seen.clear()
+            scopes = Scopes(sources)  # one that has resolved a name does not ask for its class again
+            if (node := scopes.node(name)) is None:  # there is no such package
+                unplaced.add(path)
+                continue
+            places += _unresolved([node], scopes)
+            seen = {Path(file) for file in sources.seen.values() if file}
+            # each file asks for the packages around it
+            around_it = {folder / "package.mo" for folder in path.parents}
+            uses.setdefault(path, set()).update(seen - around_it)
+    using = {path for path, seen in uses.items() if any(robot.folder in one.parents for one in seen)}
+    while more := {path for path, seen in uses.items() if path not in using and seen & using}:
+        using |= more
+    contents = {path: text for path, text in package.users_files.items() if path in unplaced}
+    unplaced = files_that_use(contents, [robot.folder.name]).keys() - around.keys()
+    users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
+    found = [one for path in sorted(unplaced) for one in _check_place(path, others)]
+    found += _findings(package, [one for one in places if one[0] in using])
+    return NameCheck(own, found, users_files)
+
+
+def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
+    """Yield why nothing is known of the names in a file of the user."""
+    name = ".".join((*place_of(path, files)[1], class_of_file(path)))
+    for one in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
+        if one.severity is Severity.ERROR:
+            yield msgspec.structs.replace(one, severity=Severity.WARNING, file=shown(path))
+
+
+def _unresolved(nodes: Iterable[Node], scopes: Scopes) -> list[tuple[Path, Unresolved]]:
+    return [(Path(node.file), one) for node in nodes for one in unresolved(node, scopes)]
+
+
+def _findings(package: RobotPackage, places: Iterable[tuple[Path, Unresolved]]) -> list[Diagnostic]:
+    """Return one finding for all places in a file that have the same fault."""
+    alike: dict[tuple[Path, UnresolvedKind, str, str], list[Unresolved]] = {}
+    for file, one in places:
+        alike.setdefault((file, one.kind, one.owner, one.part), []).append(one)
+    found = [_diagnostic(package, file, uses) for (file, *_), uses in alike.items()]
+    return sorted(found, key=lambda one: (one.file, one.line))
+
+
+def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
+    one, files = min(places, key=lambda place: place.line), package.files
+    severity, code, hint = Severity.WARNING, one.kind.value, ""
+    if one.kind is UnresolvedKind.NESTED_REDECLARE:
+        message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
+        hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
+    elif one.kind is UnresolvedKind.DOTTED_MODIFIER:
+        message = f"the modifier of `{one.name}` is not checked: rumoca ignores names with dots in modifiers"
+        first, *rest = one.name.split(".")
+        hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
+    else:
+        severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
+        message = one.message
+        if one.kind is UnresolvedKind.ELEMENT:
+            robot, snapshot = package.robot, package.rendering.snapshot
+            if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
+                option = package.rendering.domain.option_for_connector(one.part, snapshot, robot.target, robot.options)
+                hint = brings_back(option) or hint
+    lines = sorted({place.line for place in places} - {one.line})
+    also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
+    if not file.is_relative_to(files.folder):
+        hint = "; ".join(filter(None, (hint, also)))
+        return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
+    path = file.relative_to(files.folder).as_posix()
+    hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
+    return files.diagnostic(severity, code, message, path, one.line, hint=hint)
