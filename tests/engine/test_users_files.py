@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import pytest
 from support.networks import C1, configure, rename, run, source
 
 from urdfsync.dependencies import Dependencies
+from urdfsync.engine import users_files
 from urdfsync.engine.result import Result
 
 USE = "  .Ladder.Elements.C1 other;\n"
@@ -91,3 +93,29 @@ def test_what_is_no_modelica_is_told_if_it_mentions_the_robot(project: Path) -> 
     write({"Words.mo": "Ladder? No Modelica.", "Other.mo": "No Modelica."})
     (found,) = run().diagnostics
     assert (found.severity, found.code, found.file, found.line) == ("warning", "syntax", "Words.mo", 1)
+
+
+def test_more_folders_than_a_project_has_are_not_looked_through(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Such as all folders of the disk, which `/` names: the first ones are looked at, and no file is read."""
+    configure('users = ["/"]\n')
+    write({"Bench.mo": model("Bench")})
+    monkeypatch.setattr(users_files, "_MOST", 50)
+    run()
+    drop_capacitor()
+    with Dependencies() as dependencies:
+        (found,) = run(dry=True).diagnostics
+    assert (found.severity, found.code, found.file) == ("warning", "too-many-folders", "urdfsync.toml")
+    assert not any(str(path).endswith("Bench.mo") for _, path in dependencies.entries)
+
+
+def test_of_a_text_without_end_no_names_are_looked_at(project: Path) -> None:
+    """Reading it would take longer than 3 s."""
+    run()
+    text = model("Bench", body=f"{USE}  parameter Real table[:] = {{{', '.join(['0.125'] * 150_000)}}};\n")
+    write({"Bench.mo": text})
+    drop_capacitor()
+    (found,) = run().diagnostics
+    assert (found.severity, found.code, found.file) == ("warning", "too-long", "Bench.mo")
+    edited = Path("modelica/Ladder/Ladder.mo")
+    edited.write_text(edited.read_text().replace("\nequation", f"\n  // {'long ' * 200_000}\n\nequation"))
+    assert [one.file for one in run().diagnostics] == ["Bench.mo", str(edited)]

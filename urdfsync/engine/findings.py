@@ -25,6 +25,8 @@ CONNECTORS = "connector-changed"
 """Code of the notes on what users may connect to."""
 _FEW = 3
 """So many files are named; of more, only their number."""
+_LINES = 20
+"""So many lines with the same fault are named; of more, only their number."""
 _NEW = 6
 """So many new connectors are named; of more, only their number."""
 
@@ -38,6 +40,11 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
         found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
+    if inputs.users_files.is_too_wide:
+        message = "no model of yours is looked at: the folders to look through are too many"
+        hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
+        place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
+        found.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
     if generation.changes is not None and inputs.last is not None and generation.changes.changes:
         for path, one in inputs.domain.find_doubtful(inputs.last, generation.now, generation.changes.renames):
@@ -64,8 +71,8 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
             places.setdefault((one.file, what), []).append(one)
     for first, *more in places.values():
         finding = first.finding
-        lines = sorted({one.finding.line for one in more} - {finding.line})
-        also = f"also in line{'s' if len(lines) > 1 else ''} {', '.join(map(str, lines))}" if lines else ""
+        lines = [*map(str, sorted({one.finding.line for one in more} - {finding.line}))]
+        also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,

@@ -27,10 +27,11 @@ from urdfsync.engine.package_files import encode, text_hash
 from urdfsync.engine.package_names import class_of, declared_names, new_name, new_names, renamed_identifiers
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
-from urdfsync.modelica.files import ClassName, StoredClasses, class_parts, files_that_use, parse_file, place_of, text_of
+from urdfsync.modelica.files import ClassName, StoredClasses, class_parts, files_that_use, place_of, text_of
 from urdfsync.modelica.layout import check_class_file
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.statements import (
+    TOO_LONG,
     Reading,
     compare,
     component_of,
@@ -47,6 +48,12 @@ _ON_DISK = frozenset(one for one in Reason if one.kind in (Kind.LEAVE, Kind.CONF
     Reason.ADOPT,
 }
 """Actions that leave the file on disk."""
+_TOO_LONG = Diagnostic(
+    Severity.WARNING,
+    "too-long",
+    f"the file {TOO_LONG.faults[0].reason}: names in it are not looked at",
+    hint="`urdfsync check` looks at them",
+)
 
 
 class Misfit(msgspec.Struct, frozen=True):
@@ -221,10 +228,11 @@ class Package(Mapping[str, bytes]):
 
     def _read(self, content: bytes) -> StoredText:
         """Parse a file; of generated ones only what others see."""
-        if content in self._generated and content not in self._readings:
+        if content not in self._readings:
             text = text_of(content)
-            self._readings[content] = parse_without(text, plain_statements(text))
-        return self._readings[content].stored if content in self._readings else parse_file(content)
+            passed = plain_statements(text) if content in self._generated else frozenset[str]()
+            self._readings[content] = parse_without(text, passed)
+        return self._readings[content].stored
 
     # --- findings -------------------------------------------------------------------------------------------------
 
@@ -308,6 +316,8 @@ class Package(Mapping[str, bytes]):
         """Look at a file of the package; at a generated one for what others lack."""
         one, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
         file = self._inputs.files.path(one.key)
+        if reading.stored is TOO_LONG:
+            return [Misfit(file, _TOO_LONG, one.key)]
         said = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
         found = [Misfit(file, finding, one.key, one.is_expected) for finding in _errors(said)]
         node = scopes.node(name) if not found else None
@@ -323,6 +333,8 @@ class Package(Mapping[str, bytes]):
     def _look_around(self, path: Path, scopes: Scopes) -> list[Misfit]:
         """Look at a file of the user's outside of the package."""
         text = self._read(self.around[path])
+        if text is TOO_LONG:
+            return [Misfit(path, _TOO_LONG)]
         around = tuple(text.within.split(".")) if text.within else ()
         expected = place_of(path, self.around)[1]
         if text.is_broken or (expected and around != expected):

@@ -10,10 +10,14 @@ import msgspec
 
 from urdfsync import dependencies
 from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.modelica.files import class_of_file, files_that_use, modelica_files
+from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 """Files that make a folder another project, or a virtual environment of Python."""
+
+
+_MOST = 20_000
+"""Folders that are looked through, in a second: a stranger's configuration may name the whole disk."""
 
 
 class UsersFiles(msgspec.Struct, frozen=True):
@@ -21,7 +25,9 @@ class UsersFiles(msgspec.Struct, frozen=True):
 
     all: Mapping[Path, bytes]
     mentioning: Mapping[Path, bytes]
-    """Those that mention the robot, be it in a comment, or the class of another such file."""
+    """Those that use the robot, or the class of another such file."""
+    is_too_wide: bool = False
+    """Whether there are so many folders that no file was looked for."""
 
     def tops(self) -> dict[str, Path]:
         """Return the files or folders of top-level classes, by name; where several have one name, none."""
@@ -43,10 +49,14 @@ def find_users_files(
     of which `former_folder` may be one, other projects, virtual environments, and what can't be read.
     """
     packages, found = {str(one.folder) for one in config.robots} | {str(former_folder)}, dict[Path, bytes]()
-    for place in dict.fromkeys((config.root, robot.output, *robot.users)):
-        paths = [place] if place.suffix == ".mo" else map(Path, modelica_files(place, _NOT_USERS, packages))
-        for path in paths:
-            if path not in found and not any(str(parent) in packages for parent in path.parents):
-                with contextlib.suppress(OSError):
-                    found[path] = dependencies.read_file(path)
+    places = (config.root, robot.output, *robot.users)
+    folders = (place for place in places if place.suffix != ".mo")
+    try:
+        below = [*map(Path, modelica_files(*folders, others=_NOT_USERS, left_out=packages, most=_MOST))]
+    except TooManyFoldersError:
+        return UsersFiles({}, {}, is_too_wide=True)
+    for path in (*below, *(place for place in places if place.suffix == ".mo")):
+        if not any(str(parent) in packages for parent in path.parents):
+            with contextlib.suppress(OSError):
+                found[path] = dependencies.read_file(path)
     return UsersFiles(found, files_that_use(found, names))

@@ -15,13 +15,14 @@ from typing import TypeAlias
 
 from urdfsync.dependencies import is_file, read_file, scan_modelica
 from urdfsync.modelica.classes import OPAQUE, Node
-from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
 
 ClassName: TypeAlias = tuple[str, ...]
 _PACKAGE = "package.mo"
 _NOT_CLASSES = "Resources"
+_NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*')|\"(?:[^\"\\]|\\.)*\"|//[^\n]*|/\*.*?\*/", re.DOTALL)
+"""Strings and comments; quoted names, which may look like them, are a group."""
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:
@@ -161,19 +162,32 @@ class StoredClasses:
         return next((path for path in (folder / _PACKAGE, Path(f"{folder}.mo")) if is_file(path)), None)
 
 
-def modelica_files(folder: Path, others: Collection[str] = (), left_out: Collection[str] = ()) -> Iterator[str]:
-    """Yield all files of Modelica below a folder, but for links, hidden folders and `Resources`.
+class TooManyFoldersError(Exception):
+    """So many folders are not looked through."""
 
-    Folders below it that hold a file of one of the names `others` are left out as well, and those whose paths are in
-    `left_out`. What is looked at is recorded as a dependency. What can't be looked at is left out.
+
+def modelica_files(
+    *folders: Path, others: Collection[str] = (), left_out: Collection[str] = (), most: int | None = None
+) -> Iterator[str]:
+    """Yield all files of Modelica below folders, each once, but for links, hidden folders and `Resources`.
+
+    Folders below them that hold a file of one of the names `others` are left out as well, and those whose paths are in
+    `left_out`. What is looked at is recorded as a dependency. What can't be looked at is left out. Raises
+    TooManyFoldersError beyond `most` folders.
     """
-    waiting = [str(folder)]
+    tops, seen = [*map(str, folders)], set[str]()
+    waiting = tops[::-1]
     while waiting:
         current = waiting.pop()
+        if current in seen:
+            continue
+        seen.add(current)
+        if most is not None and len(seen) > most:
+            raise TooManyFoldersError
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
             inside = sorted(scan_modelica(current), key=lambda entry: entry.name)
-        if current != str(folder) and any(entry.name in others for entry in inside):
+        if current not in tops and any(entry.name in others for entry in inside):
             continue
         for entry in inside:
             if entry.name.startswith(".") or entry.name == _NOT_CLASSES:
@@ -221,7 +235,8 @@ def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes
 
 
 def _is_used(name: str, content: bytes) -> bool:
-    return has_word(content, name.encode()) and any(token.text == name for token in lex(text_of(content))[0])
+    word = name.encode()
+    return has_word(content, word) and has_word(_NO_CODE.sub(rb"\1 ", content), word)
 
 
 def parse_file(content: bytes) -> StoredText:

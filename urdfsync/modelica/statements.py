@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
-from urdfsync.modelica.lexer import is_name
+from urdfsync.modelica.lexer import Fault, is_name
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, StoredText, declared
 
@@ -22,6 +22,12 @@ _COMPONENT = re.compile(
 _UNNAMED = re.compile(r"\s*(?:connect|assert|annotation)\s*\(")
 _ENCLOSED = re.compile(r'"(?:[^"\\]|\\.)*"|[({\[][^(){}\[\]"]*[)}\]]')
 _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
+
+
+_LONGEST = 1_000_000
+"""Characters that are read of a text: more take longer than 3 s."""
+TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 1)])
+"""Stands for a text of which more would have to be read."""
 
 
 class Difference(NamedTuple):
@@ -44,11 +50,15 @@ class Reading(NamedTuple):
     """Lines of the components of which only type and name were read."""
 
 
-@functools.lru_cache(maxsize=8)  # row "robot model edited, in the daemon": 200 of the 160 ms that it may cost more
+@functools.lru_cache(maxsize=64)  # row "robot model edited, in the daemon": 200 of the 160 ms that it may cost more
 def parse_without(text: str, passed: frozenset[str]) -> Reading:
-    """Parse a text without some of its plain statements; their components have types and names only."""
+    """Parse a text without some of its plain statements; their components have types and names only.
+
+    It is `TOO_LONG` if too much of it is left.
+    """
     shortened, lines = _shorten(text, passed)
-    return Reading(shortened, parse(shortened), lines)
+    size = len(text) - sum(map(len, passed))
+    return Reading(shortened, parse(shortened) if size <= _LONGEST else TOO_LONG, lines)
 
 
 @functools.lru_cache(maxsize=8)  # the same row: 100 ms
@@ -56,7 +66,10 @@ def compare(mine: str, generated: str) -> Difference:
     """Compare an edited text with the generated one."""
     own, other = (Counter(text.split(_END)) for text in (mine, generated))
     same = frozenset(one for one, count in own.items() if other[one] == count and is_plain(one))
-    rests = [parse(_END.join(one for one in statements if one not in same)) for statements in (own, other)]
+    texts = [_END.join(one for one in statements if one not in same) for statements in (own, other)]
+    if max(map(len, texts)) > _LONGEST:
+        return Difference(same, frozenset(), is_whole=False)
+    rests = [*map(parse, texts)]
     paths = (one.path for rest in rests for one in declared(rest.classes))
     names = {path[-1] for path in paths if path[1:]}  # a class of another name is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
