@@ -58,5 +58,5 @@ def test_names_can_not_move_the_cursor(
     robot.write_text(f'<robot name="r"><link name="a"/><link name="{name}"/>{joint}</robot>')
     assert cli.main(["diff", "r.urdf", "--against", "old.urdf"]) == 1
     said = capsys.readouterr().out
-    assert r"link tip \x9b2J \u202e[bold]  added" in said
+    assert r"link tip \x9b2J \u202e[bold]: added" in said
     assert all(line.isprintable() for line in said.splitlines())

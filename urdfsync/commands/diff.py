@@ -16,21 +16,17 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
-from urdfsync.domain import ChangeKind
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
-from urdfsync.output.outline import OutlineRow, effect_rows, outline
-from urdfsync.output.phrases import change_counts, counted, error_count, generator_change
+from urdfsync.output.outline import effect_rows
+from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
-from urdfsync.output.results import action_word, file_line, headline, result_values
+from urdfsync.output.results import action_word, change_line, file_line, headline, result_values
 
-_STYLES = {ChangeKind.ADDED: "green", ChangeKind.REMOVED: "red", ChangeKind.RENAMED: "cyan"}
-_WIDEST = 44
-"""Longer labels push their values to the right."""
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
@@ -143,37 +139,15 @@ def _summary(found: Comparison) -> str:
     return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
 
 
-# --- text ---------------------------------------------------------------------------------------------------------
-
-
 def _lines(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
     """Yield the lines below the first one: changes by element, effects on the model, files; of many the first."""
-    changes, effects = found.result.changes, effect_rows(found.effects)
-    elements = outline(changes, everything=verbose) if changes else {}
-    widths = _widths([row for rows in elements.values() for row in rows])
-    lines = [line((f"  {generator_change(changes)}", ""))] if changes and changes.generator else []
-    for title, rows in elements.items():
-        itself = [(f"  {row.value}", _STYLES.get(row.kind, "")) for row in rows if not row.label]
-        lines.append(line((f"  {title}", "dim" if all(row.is_quiet for row in rows) else "bold"), *itself))
-        lines += [_row_line(row, *widths) for row in rows if row.label]
-    yield from first_lines(lines, _CHANGES, "line", verbose=verbose)
-    if effects:
-        lines = [_row_line(row, *_widths(effects[:_EFFECTS])) for row in effects]
+    head, changes = _summary(found), found.result.changes
+    told = [text for text in change_lines(changes, everything=verbose) if text not in head] if changes else []
+    yield from first_lines(list(map(change_line, told)), _CHANGES, "line", verbose=verbose)
+    if effects := [line((f"  {text}", "")) for text in effect_rows(found.effects)]:
         yield from (line(("", "")), line(("Effects", "bold")))
-        yield from first_lines(lines, _EFFECTS, "effect", verbose=verbose)
+        yield from first_lines(effects, _EFFECTS, "effect", verbose=verbose)
     yield from _files(found, verbose)
-
-
-def _widths(rows: Sequence[OutlineRow]) -> tuple[int, int]:
-    """Return how wide the columns of labels and of values with a relation are."""
-    labels, values = ([len(row.label) for row in rows], [len(row.value) for row in rows if row.relation])
-    return min(max(labels, default=0), _WIDEST), min(max(values, default=0), _WIDEST)
-
-
-def _row_line(row: OutlineRow, label: int, value: int) -> StyledLine:
-    quiet = "dim" if row.is_quiet else ""
-    style, text = quiet or _STYLES.get(row.kind, ""), f"{row.value:<{value}}  " if row.relation else row.value
-    return line((f"    {row.label:<{label}}  ", quiet), (text, style), (row.relation, "dim"))
 
 
 def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:

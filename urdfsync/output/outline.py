@@ -14,13 +14,9 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import msgspec
-
 from urdfsync.changes import Change, Changes, is_number
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 
-_NOT_MODELLED, _ROUNDING = "not modelled", "rounding"
-"""Relations of changes that matter little, and labels of the rows that count them."""
 _NAMES = 140
 """Characters of the names of elements in a title; there is always one name."""
 _SAME = 1e-9
@@ -33,26 +29,9 @@ _CONTEXT = 12
 _HASH = "[0-9a-f]{64}"
 
 
-class OutlineRow(msgspec.Struct, frozen=True):
-    """What happened at one place of an element; the label is empty for the element itself."""
-
-    label: str
-    kind: ChangeKind = ChangeKind.CHANGED
-    value: str = ""
-    """`54 → 60 N·m`, `added`, or all that there is to say."""
-    relation: str = ""
-    """Percent, or the same values in degrees."""
-    is_quiet: bool = False
-    """Whether nothing in the package depends on it, or next to nothing."""
-
-    def __str__(self) -> str:
-        """The row as words: `limit / effort 54 → 60 N·m (+11.1 %)`."""
-        return " ".join(filter(None, (self.label, self.value, f"({self.relation})" if self.relation else "")))
-
-
-def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[OutlineRow, ...]]:
+def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the rows of changed elements; with `everything`, each change has a row of its own and all its digits."""
-    elements: dict[tuple[OutlineRow, ...], list[str]] = defaultdict(list)
+    elements: dict[tuple[str, ...], list[str]] = defaultdict(list)
     for element, found in changes.by_element().items():
         rows = [change_row([one], exact=True) for one in found] if everything else _element_rows(found)
         elements[tuple(rows)].append(element)
@@ -69,62 +48,59 @@ def _title(elements: Sequence[str]) -> str:
     return f"{begin}{', '.join(names[:few])}{more}"
 
 
-def _element_rows(found: Sequence[Change]) -> list[OutlineRow]:
+def _element_rows(changes: Sequence[Change]) -> list[str]:
     """Return a row for each change or vector, and one that counts what is not modelled, and one for all rounding."""
-    counts = {_NOT_MODELLED: 0, _ROUNDING: 0}
+    counts = {"not modelled": 0, "rounding": 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
-    for change in found:
+    for change in changes:
         are_numbers = is_number(change.old) and is_number(change.new)
         component = re.fullmatch(_COMPONENT, change.path[-1])
         if change.change_class is ChangeClass.UNMODELLED:
-            counts[_NOT_MODELLED] += 1
+            counts["not modelled"] += 1
         elif change.noise or (are_numbers and change.unit in ("m", "rad") and abs(change.new - change.old) <= _SAME):
-            counts[_ROUNDING] += 1
+            counts["rounding"] += 1
         elif component and are_numbers:
             vectors[(*change.path[:-1], component[1], change.unit)].append(change)
         else:
             vectors[id(change)].append(change)
     rows = [change_row(components) for components in vectors.values()]
-    for label, number in counts.items():
-        if number:
-            rows.append(OutlineRow(label, value=f"{number} change{'s' if number > 1 else ''}", is_quiet=True))
-    return rows
+    return rows + [f"{label} {number} change{'s' if number > 1 else ''}" for label, number in counts.items() if number]
 
 
-def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineRow:
-    """Return a change, or those of the components of a vector, as a row; with `exact` all digits and the whole text."""
+def change_row(components: Sequence[Change], *, exact: bool = False) -> str:
+    """Return a change, or those of the components of a vector, as words: `limit / effort 54 → 60 N·m (+11.1 %)`.
+
+    With `exact` these are all digits and the whole text.
+    """
     first, old, new = components[0], components[0].old, components[0].new
     label = " / ".join(first.path[1:])
-    is_quiet = first.change_class is ChangeClass.UNMODELLED
-    relation = _NOT_MODELLED if is_quiet else ""
+    relation = "not modelled" if first.change_class is ChangeClass.UNMODELLED else ""
     if first.kind is ChangeKind.RENAMED:
-        return OutlineRow(label, first.kind, f"renamed to {new}")
+        return _row(label, f"renamed to {new}")
     if first.kind is not ChangeKind.CHANGED:
         details = _details(new if first.kind is ChangeKind.ADDED else old if label else None)
-        return OutlineRow(label, first.kind, f"{first.kind}: {details}" if details else first.kind, relation, is_quiet)
+        return _row(label, f"{first.kind}: {details}" if details else first.kind, relation)
     if len(components) > 1:
         indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
         label = f"{label.rpartition('[')[0]}[{indices}]"
         old, new = [change.old for change in components], [change.new for change in components]
     if first.noise:
-        relation = _ROUNDING
+        relation = "rounding"
     elif first.unit == "rad" and is_number(first.old) and is_number(first.new):
         degrees = [list(map(math.degrees, one)) if isinstance(one, list) else math.degrees(one) for one in (old, new)]
         relation = _pair(*degrees, mark="°")
     else:
         relation = _percent(old, new) or relation
-    value = f"{_pair(old, new, exact=exact)} {first.unit}".rstrip()
-    return OutlineRow(label, first.kind, value, relation, is_quiet or first.noise)
+    return _row(label, f"{_pair(old, new, exact=exact)} {first.unit}".rstrip(), relation)
 
 
-def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
+def effect_rows(effects: Sequence[Effect]) -> list[str]:
     """Return properties of the whole model as rows, without those that differ by rounding at most."""
     rows = []
     for effect in effects:
-        old, new, kind = effect.old, effect.new, ChangeKind.CHANGED
+        old, new = effect.old, effect.new
         value, relation, is_same = _pair(old, new), effect.hint or _percent(old, new), old == new
         if old is None or new is None:
-            kind = ChangeKind.REMOVED if new is None else ChangeKind.ADDED
             gone = f"{old} is gone" if isinstance(old, str) else f"was {_value(old)}"
             value, relation = gone if new is None else f"now {_value(new)}", effect.hint
         elif _is_vector(old) and _is_vector(new) and len(old) == len(new):
@@ -133,8 +109,13 @@ def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
         elif is_number(old) and is_number(new):
             is_same = math.isclose(old, new, rel_tol=_SAME)
         if not is_same:
-            rows.append(OutlineRow(" ".join(effect.path), kind, f"{value} {effect.unit}".rstrip(), relation))
+            rows.append(_row(" ".join(effect.path), f"{value} {effect.unit}".rstrip(), relation))
     return rows
+
+
+def _row(label: str, value: str, relation: str = "") -> str:
+    """Return what happened at one place; the label is empty for the element itself."""
+    return " ".join(filter(None, (label, value, f"({relation})" if relation else "")))
 
 
 # --- values in few characters -------------------------------------------------------------------------------------

@@ -50,6 +50,14 @@ def file_line(path: str, word: str, style: str, why: str = "") -> StyledLine:
     return line((f"  {word:<9}  ", style), (path, ""), (f"  {why}" if why else "", "dim"))
 
 
+def change_line(text: str) -> StyledLine:
+    """A line about a change, with its element in bold: `  link fore: inertial / mass 1 → 1.2 kg (+20 %)`."""
+    element, colon, what = text.partition(": ")
+    styles = {"added": "green", "removed": "red", "renamed": "cyan", "rounding": "dim", "not modelled": "dim"}
+    style = next((styles[word] for word in styles if what.startswith(word)), "")
+    return line((f"  {element}{colon}", "bold" if colon else ""), (what, style))
+
+
 def show_results(console: Console, results: Iterator[Result], *, explain: bool = False) -> list[Result]:
     """Show what was done with each robot as soon as it is done, and return it all."""
     shown_results = []
@@ -89,10 +97,8 @@ def result_lines(
         yield line((f"  {change_counts(result.effective_changes)}, as before; --verbose lists them", "dim"))
     elif result.effective_changes:
         most = None if verbose or explain else _CHANGES
-        changed = [
-            line((f"  {words}", "")) for words in change_lines(result.effective_changes, most, everything=verbose)
-        ]
-        yield from first_lines(changed, _CHANGES, "line", verbose=verbose or explain)
+        changed = map(change_line, change_lines(result.effective_changes, most, everything=verbose))
+        yield from first_lines(list(changed), _CHANGES, "line", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
         actions = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]
