@@ -22,22 +22,7 @@ from urdfsync.output.console import Console
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
-    "init",
-    "add",
-    "remove",
-    "adopt",
-    "build",
-    "diff",
-    "status",
-    "watch",
-    "check",
-    "simulate",
-    "fmu",
-    "resolve",
-    "record",
-    "hook",
-    "merge-driver",
-    "library",
+    "init add remove adopt build diff status watch check simulate fmu resolve record hook merge-driver library".split()
 )
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 

@@ -18,7 +18,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console
 
 CODES = (
-    "exit codes: 0 in step, 1 out of step (status, diff, build --check), 2 error, 3 conflict, "
+    "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "
     "4 another build is running, 130 interrupted"
 )
 DRIVER_ERROR = 255
@@ -76,6 +76,12 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "help": "robots of urdfsync.toml, their sources or outputs (default: all)",
     },
     "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
+    "--set": {
+        "action": "append",
+        "metavar": "NAME=VALUE",
+        "default": [],
+        "help": "give a parameter a value; may be repeated",
+    },
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
         "action": "store_true",
@@ -97,9 +103,10 @@ def add_command(
     commands: Commands, name: str, run: Callable[[argparse.Namespace, Console], int], shared: str = "", **texts: Any
 ) -> Parser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has."""
+    texts["epilog"] += "" if "exit codes" in texts["epilog"] else f"\n\n{CODES}"
     parser = commands.add_parser(name, **texts)
-    for one in shared.split():
-        parser.add_argument(one, **_SHARED[one])
+    for option in shared.split():
+        parser.add_argument(option, **_SHARED[option])
     parser.set_defaults(run=run, parser=parser)
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")

@@ -35,7 +35,7 @@ def add(commands: arguments.Commands) -> None:
         "robots --robot --wait --trust --jobs --executor",
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
-        epilog=f"example: urdfsync build arm --dry-run --explain\n\n{arguments.CODES}",
+        epilog="example: urdfsync build arm --dry-run --explain",
     )
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")

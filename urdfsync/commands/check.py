@@ -33,8 +33,7 @@ def add(commands: arguments.Commands) -> None:
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
         "the same source. Nothing is written. What your edits change is reported, and is no error.",
         epilog="examples: urdfsync check arm --physics\n"
-        "          urdfsync check --physics --strict --timeout 60 --json\n\n"
-        "exit codes: 0 right, 1 differs, out of step or not built, 2 error, 130 interrupted",
+        "          urdfsync check --physics --strict --timeout 60 --json",
     )
     option, default = parser.add_argument, CheckOptions()
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")

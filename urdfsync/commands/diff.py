@@ -47,8 +47,7 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"
-        "          urdfsync diff --edits modelica/Arm/Links\n\n"
-        "exit codes: 0 both give the same package, 1 they do not, 2 error, 4 another build is running, 130 interrupted",
+        "          urdfsync diff --edits modelica/Arm/Links",
     )
     parser.add_argument(
         "sources", nargs="*", metavar="SOURCE", help="sources or robots, with --edits also outputs (default: all)"

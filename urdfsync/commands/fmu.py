@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import os
 from pathlib import Path
 
-from urdfsync import config
 from urdfsync.check.compilers.compiler import Export
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
+from urdfsync.commands.simulate import input_files, simulate_options
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
@@ -22,8 +21,6 @@ from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial, try_out
 from urdfsync.simulate.report import fmu_lines, fmu_to_json
 from urdfsync.simulate.results import STOP, SimulateOptions
 
-_OPTIONS = ("model", "stop", "step", "tolerance", "motion", "timeout", "memory", "wait")
-"""Fields of `SimulateOptions` that are arguments of the same name."""
 _VERSIONS = {"2": "2.0", "3": "3.0"}
 _EXPORTED = {"me": "me", "cs": "cs", "both": "me_cs"}
 
@@ -34,15 +31,14 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "fmu",
         run,
-        "--robot --wait",
+        "--robot --wait --set",
         help="export a robot as FMU, by OpenModelica",
         description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
         "It has the inputs and outputs of the model by their names. OpenModelica has to be there. With --check FMPy "
         "validates the FMU, and its trajectory is compared with that of `urdfsync simulate`.",
         epilog="examples: urdfsync fmu arm\n"
         "          urdfsync fmu arm --fmi 3 --kind cs --output arm.fmu --check\n"
-        "          urdfsync fmu arm --input motion.csv --check\n\n"
-        "exit codes: 0 exported, 1 the check found something, 2 error, 130 interrupted",
+        "          urdfsync fmu arm --input motion.csv --check",
     )
     option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
@@ -57,7 +53,6 @@ def add(commands: arguments.Commands) -> None:
     stop = f"end of the simulation that the FMU proposes (default: as the model says, else {STOP:g})"
     option("--stop", type=arguments.amount, metavar="S", help=stop)
     option("--step", type=arguments.amount, metavar="S", help="the step that it proposes (default: likewise)")
-    option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
     option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
     arguments.add_program_trust(parser)
@@ -72,18 +67,17 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         message = "`--check` needs FMPy, which is not installed"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=install_command("fmu")))
     if args.motion and args.kind == "me":
-        message = "a motion is for the check of co-simulation"
-        raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="take `--kind cs` or `both`"))
+        raise arguments.UsageError(
+            args.parser, "a motion is for the check of co-simulation", "take `--kind cs` or `both`"
+        )
     if args.motion and not args.check:
-        message = "`--input` is the motion for `--check`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "usage", message, hint="give both, or none"))
+        raise arguments.UsageError(args.parser, "`--input` is the motion for `--check`", "give both, or none")
+    if args.output and args.output.suffix.lower() != ".fmu":
+        raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:
-        inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
-        _check_output(args.output, args, inputs)
+        check_file(args.output, input_files(configuration, robot, args.motion))
     (tool,) = chosen_tools(configuration, "omc", trusted=args.trust)
-    chosen = {name: getattr(args, name) for name in _OPTIONS}
-    paths = config.ros_package_path(os.environ)
-    options = SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen)
+    options = simulate_options(args, tool)
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
     file = args.output or _default_file(exported)
@@ -115,12 +109,6 @@ def _findings(trial: Trial, file: Path) -> list[Diagnostic]:
             hint = "try a smaller `--tolerance`"
             found.append(Diagnostic(Severity.WARNING, "fmu-differs", message, shown(file), hint=hint))
     return found
-
-
-def _check_output(file: Path, args: argparse.Namespace, inputs: dict[str, Path]) -> None:
-    if file.suffix.lower() != ".fmu":
-        raise not_writable(file, "an FMU's name ends with .fmu", "name such a file")
-    check_file(file, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
 
 
 def _default_file(exported: Exported) -> Path:

@@ -64,9 +64,7 @@ def add(commands: arguments.Commands) -> None:
         help="build or check what is being committed; for hooks of git",
         description="Build or check the robots that a commit touches, and make sure that all of it is staged. "
         "All configurations that git tracks are looked at. The index is never written.",
-        epilog="example: urdfsync hook check\n\n"
-        "exit codes: 0 passes, 1 out of step or not staged, 2 error, 3 conflict, "
-        "4 another build is running, 130 interrupted",
+        epilog="example: urdfsync hook check",
     )
     modes, configs = "build brings packages in step, check writes nothing", f"only these, instead of all {FILE_NAME}"
     parser.add_argument("mode", choices=("build", "check"), help=modes)

@@ -34,11 +34,9 @@ def add(commands: arguments.Commands) -> None:
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
         "are not imported. For a record that follows its source, and for a robot whose base floats, use "
-        '`approach = ["record"]` in a project: only there is the height computed that it stands at.'
-        "",
+        '`approach = ["record"]` in a project: only there is the height computed that it stands at.',
         epilog="examples: urdfsync record robot.urdf\n"
-        "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant\n\n"
-        "exit codes: 0 written, or there already; 2 error, 130 interrupted",
+        "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant",
     )
     parser.add_argument(
         "source", nargs="+", metavar="SOURCE", help="the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
@@ -99,25 +97,25 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
     A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
     for what can't be written.
     """
-    content = record.encode()
+    content, problem = record.encode(), ("", "", "")
     try:
-        if file.exists():
-            if not file.is_file():
-                raise _problem(
-                    "output-in-the-way", f"{kind_of(file.stat().st_mode)} is in its place", file, "name a file"
-                )
-            if normalised(read_unrecorded(file)) == content:
-                return False
-            if file.samefile(source):
-                raise _problem("output-is-source", "the record would replace its source", file, "name another file")
-            if not force:
-                hint = "name another one, or replace it with --force"
-                raise _problem("file-exists", "the file exists, and holds something else", file, hint)
-        put(file.resolve(), content)
+        if file.exists() and not file.is_file():
+            problem = "output-in-the-way", f"{kind_of(file.stat().st_mode)} is in its place", "name a file"
+        elif file.exists() and normalised(read_unrecorded(file)) == content:
+            return False
+        elif file.exists() and file.samefile(source):
+            problem = "output-is-source", "the record would replace its source", "name another file"
+        elif file.exists() and not force:
+            hint = "name another one, or replace it with --force"
+            problem = "file-exists", "the file exists, and holds something else", hint
+        else:
+            put(file.resolve(), content)
+            return True
     except OSError as error:
         hint = "check that its folder exists and may be written to, and that there is space on the disk"
-        raise _problem("output-not-writable", f"it can't be written: {error.strerror}", file, hint) from None
-    return True
+        problem = "output-not-writable", f"it can't be written: {error.strerror}", hint
+    code, message, hint = problem
+    raise OutputError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))
 
 
 def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:
@@ -131,7 +129,3 @@ def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target
         raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
     stem = file.stem if file is not None and is_class_name(file.stem) else ""
     return Target(within, name or stem or class_name(source.name.partition(".")[0]) + _SUFFIX)
-
-
-def _problem(code: str, message: str, file: Path, hint: str) -> OutputError:
-    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))

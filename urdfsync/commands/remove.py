@@ -11,7 +11,7 @@ from urdfsync import tomlfile
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -23,8 +23,6 @@ from urdfsync.output.results import action_word, file_line, headline, show_resul
 from urdfsync.state.transaction import save
 
 _STAYS = (Reason.ORPHAN, Reason.NEEDED)
-_ATTEMPTS = 5
-"""So often the configuration is written, if somebody saves it in between."""
 _FILES = 20
 """So many files that go are listed at most, without --verbose."""
 
@@ -102,17 +100,10 @@ def _reason(action: Action) -> str:
 
 
 def _take_out(configuration: Config, robot: str) -> None:
-    """Write the configuration without the robot; what is saved in it meanwhile stays. Raises UrdfsyncError."""
-    for attempt in range(1, _ATTEMPTS + 1):
-        try:
-            with write_errors(configuration.file):
-                content = configuration.file.read_bytes()
-                save(configuration.file, content, _without_robot(configuration, robot, content))
-        except OutputError:
-            if attempt == _ATTEMPTS:
-                raise
-        else:
-            return
+    """Write the configuration without the robot. Raises UrdfsyncError, also if somebody saves it meanwhile."""
+    with write_errors(configuration.file):
+        content = configuration.file.read_bytes()
+        save(configuration.file, content, _without_robot(configuration, robot, content))
 
 
 def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:

@@ -53,9 +53,7 @@ def add(commands: arguments.Commands) -> None:
         description="Settle conflicts between your edits and what is generated. "
         "Then the files that waited for that are written.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
-        "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge\n\n"
-        "exit codes: 0 no conflict left, 1 you said no, 2 error, 3 conflicts left, 4 another build is running, "
-        "130 interrupted",
+        "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge",
     )
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file, or a folder for all conflicts below it")
     parser.add_argument("--all", action="store_true", help="all conflicts")

@@ -7,11 +7,14 @@ import importlib
 import os
 import threading
 from pathlib import Path
+from typing import Any
 
 from urdfsync import config
 from urdfsync.check.compilers import COMPILERS
+from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
@@ -20,7 +23,7 @@ from urdfsync.simulate.report import result_lines, to_json
 from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
 from urdfsync.simulate.run import simulate
 
-_OPTIONS = ("model", "stop", "step", "tolerance", "method", "motion", "timeout", "memory", "wait")
+_OPTIONS = ("model", "stop", "step", "tolerance", "motion", "timeout", "memory", "wait")
 """Fields of `SimulateOptions` that are arguments of the same name."""
 
 
@@ -30,7 +33,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "simulate",
         run,
-        "--robot --wait",
+        "--robot --wait --set",
         help="simulate a robot, and hold its joints against their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
@@ -38,8 +41,7 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync simulate arm --plot arm.png\n"
         "          urdfsync simulate --model Plant.Cell --stop 5 --csv cell.csv\n"
         "          urdfsync simulate arm --set robot.elbow.parameters.dynamics.damping=4\n"
-        "          urdfsync simulate arm --input motion.csv\n\n"
-        "exit codes: 0 simulated, also where limits are passed; 2 error, 130 interrupted",
+        "          urdfsync simulate arm --input motion.csv",
     )
     option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
@@ -52,7 +54,6 @@ def add(commands: arguments.Commands) -> None:
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
     methods = "; ".join(f"{', '.join(one.METHODS)} ({one.TITLE})" for one in COMPILERS.values())
     option("--method", metavar="M", default="", help=f"of the integration: {methods}")
-    option("--set", action="append", metavar="NAME=VALUE", default=[], help="give a parameter a value; may be repeated")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
     option("--parquet", type=Path, metavar="FILE", help="likewise")
@@ -68,21 +69,13 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     configuration = arguments.configuration(args)
     robot = arguments.select_robot(args, configuration, console)
     outputs = Outputs(args.csv, args.parquet, args.plot)
-    inputs = {"the source of the robot": robot.source, "the configuration": configuration.file}
-    check_outputs(outputs, inputs | ({"the file with the inputs": args.motion} if args.motion else {}))
+    check_outputs(outputs, input_files(configuration, robot, args.motion))
     if outputs.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
         later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
         later.daemon = True
         later.start()
-    chosen = {name: getattr(args, name) for name in _OPTIONS}
     tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trust)
-    options = SimulateOptions(
-        tool=tool,
-        values=tuple(args.set),
-        variables=tuple(args.variable),
-        package_paths=config.ros_package_path(os.environ),
-        **chosen,
-    )
+    options = simulate_options(args, tool, method=args.method, variables=tuple(args.variable))
     result = simulate(configuration, robot, options, console.progress)
     write_outputs(outputs, result)
     if console.json:
@@ -94,3 +87,16 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     code = Exit.ERROR if stopped else Exit.IN_STEP
     console.end("simulate", code)
     return code
+
+
+def simulate_options(args: argparse.Namespace, tool: Tool, **others: Any) -> SimulateOptions:
+    """Return how to simulate, as the arguments say."""
+    chosen = {name: getattr(args, name) for name in _OPTIONS}
+    paths = config.ros_package_path(os.environ)
+    return SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen, **others)
+
+
+def input_files(configuration: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:
+    """Return the files that no output may replace, by what they are."""
+    files = {"the source of the robot": robot.source, "the configuration": configuration.file}
+    return files | ({"the file with the inputs": motion} if motion else {})

@@ -49,9 +49,7 @@ def add(commands: arguments.Commands) -> None:
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",
-        epilog="example: urdfsync status arm --verbose\n\n"
-        "exit codes: 0 in step, 1 out of step or broken, 2 error, 3 conflict, 4 another build is running, "
-        "130 interrupted",
+        epilog="example: urdfsync status arm --verbose",
     )
 
 
