@@ -8,7 +8,17 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from urdfsync.merge.words import place_of, quoted
-from urdfsync.modelica.tree import LAYOUT, Node, SyntaxTree, TreeKind, comments, is_section, read_tree
+from urdfsync.modelica.tree import (
+    LAYOUT,
+    Node,
+    SyntaxTree,
+    TreeKind,
+    UnreadableError,
+    comments,
+    is_same,
+    is_section,
+    read_tree,
+)
 
 _ITEM = re.compile(r" #\d+$")
 """The end of the key of something that has no name, but a number."""
@@ -36,7 +46,7 @@ class Edit(msgspec.Struct, frozen=True):
 
 
 def find_edits(base: str, mine: str) -> list[Edit] | None:
-    """Return what differs between two versions of a class; None if one of the texts is no single class.
+    """Return what differs between two versions of a class; None if a text is no class of Modelica.
 
     Blanks and the order of declarations are no difference, but for the inputs and outputs of a function. New comments
     are one, together.
@@ -44,7 +54,10 @@ def find_edits(base: str, mine: str) -> list[Edit] | None:
     one, two = read_tree(base), read_tree(mine)
     if not (one and two):
         return None
-    found = [_edit(path, old, new) for path, old, new in _differences((), one, two)]
+    try:
+        found = [_edit(path, old, new) for path, old, new in _differences((), one, two)]
+    except UnreadableError:
+        return None
     if comments(base) != comments(mine):
         found.append(Edit("comments", "", base, mine))
     return list(dict.fromkeys(found))
@@ -63,7 +76,7 @@ def _differences(
     path: tuple[str, ...], old: Node, new: Node
 ) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
     """Yield the innermost things that differ, with the keys around them."""
-    if old.meaning == new.meaning:
+    if is_same(old, new):
         return
     if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (
         path and path[-1] in LAYOUT

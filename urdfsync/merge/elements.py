@@ -34,9 +34,9 @@ from urdfsync.modelica.tree import (
     TreeKind,
     as_sum,
     comments,
+    is_same,
     is_section,
     section_name,
-    words_of,
 )
 
 ROUNDING = 1e-6
@@ -78,6 +78,11 @@ class Contradiction(msgspec.Struct, frozen=True):
     starts: tuple[int, int, int]
     """Where the texts of base, mine and generated begin; where the thing around it does on a side that lacks it."""
 
+    def behind(self, starts: Iterable[int]) -> Contradiction:
+        """Return it with places from the beginning of something larger, in which the sides begin at `starts`."""
+        base, mine, generated = (start + begin for start, begin in zip(self.starts, starts, strict=True))
+        return msgspec.structs.replace(self, starts=(base, mine, generated))
+
 
 Piece: TypeAlias = str | Contradiction
 Path: TypeAlias = tuple[str, ...]
@@ -103,12 +108,12 @@ def _join(pieces: Iterable[Piece]) -> list[Piece]:
 
 def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: frozenset[str]) -> list[Piece]:
     """Merge a thing that both sides have; `kept` are the annotations in which the layout is the user's."""
-    if (base and base.meaning == generated.meaning) or mine.meaning == generated.meaning:
-        return [mine.text]
     if base and base.text == mine.text and not kept:
         return [generated.text]
+    if (base and is_same(base, generated)) or is_same(mine, generated):
+        return [mine.text]
     is_picture, key = not kept.isdisjoint(PICTURES.intersection(path)), path[-1] if path else ""
-    if (key in kept and not is_picture) or (not base and (key in LAYOUT or mine.bare == generated.bare)):
+    if (key in kept and not is_picture) or (not base and (key in LAYOUT or is_same(mine, generated, layout=False))):
         return [mine.text]
     if any(isinstance(node, SyntaxTree) and node.kind is TreeKind.SUM for node in (base, mine, generated)):
         base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
@@ -124,16 +129,20 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: fro
 
 def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
     """Merge a thing that is taken whole from one side; blocks, algorithm sections and strings merge by lines."""
-    is_same = base is not None and base.meaning == mine.meaning
-    if base and (is_same or _has_lines(path, generated)) and all("\n" in node.text for node in (base, mine, generated)):
+    is_users = base is None or not is_same(base, mine)
+    if (
+        base
+        and (not is_users or _has_lines(path, generated))
+        and all("\n" in node.text for node in (base, mine, generated))
+    ):
         text = merge_whole_lines(base.text, mine.text, generated.text)
-        if text is not None and (not is_same or words_of(text) == generated.meaning):
+        if text is not None and (is_users or is_same(Leaf(text), generated)):
             return [text]
-    if base and is_same:
+    if base and not is_users:
         return [generated.text, *(f" {note}" for note in _new_comments(mine.text, base.text))]
     if _is_rounding(mine, generated) or (base and _is_rounding(base, generated)):
         return [mine.text]
-    return [_contradiction(path, base, mine, generated, mine)]
+    return [_contradiction(path, base, mine, generated)]
 
 
 def _has_lines(path: Path, node: Node) -> bool:
@@ -144,12 +153,9 @@ def _has_lines(path: Path, node: Node) -> bool:
     return is_block or path[-1].startswith("statements of ") or len(node.words) == 1
 
 
-def _contradiction(
-    path: tuple[str, ...], base: Node | None, mine: Node | None, generated: Node | None, around: Node
-) -> Contradiction:
-    nodes = (base, mine, generated)
-    texts, starts = [node.text if node else "" for node in nodes], [(node or around).start for node in nodes]
-    return Contradiction(path, texts[0], texts[1], texts[2], (starts[0], starts[1], starts[2]))
+def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: Node | None) -> Contradiction:
+    texts = [node.text if node else "" for node in (base, mine, generated)]
+    return Contradiction(path, texts[0], texts[1], texts[2], (0, 0, 0))
 
 
 def _is_rounding(one: Node, other: Node) -> bool:
@@ -188,7 +194,7 @@ def _merge_parts(
     path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, kept: frozenset[str]
 ) -> list[Piece]:
     """Merge things that consist of others."""
-    trees = base or msgspec.structs.replace(mine, parts=(), opening="", closing=""), mine, generated
+    trees = base or SyntaxTree(mine.kind, ()), mine, generated
     if mine.kind is TreeKind.BODY:
         kept = find_users_layout(*trees[:2])
         trees = pair(*trees) if base else trees
@@ -209,29 +215,31 @@ def _merge_parts(
             notes += _remaining_notes(part, old)
             continue
         elif part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
-            nothing = msgspec.structs.replace(old.node, parts=())
+            nothing = old.node.with_parts(())
             pieces = _merge(here, old.node, part.node, nothing, kept)
         elif not is_picture and part.key not in kept:
-            pieces = [_contradiction(here, old.node, part.node, None, part.node)]
+            pieces = [_contradiction(here, old.node, part.node, None)]
         # inside of an element, blanks depend on those beside them
         before, after, remark = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
         items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
     arranged = arrange(mine, generated, kept) if mine.kind is TreeKind.BODY and kept else {}
     for part in generated.parts:
+        if part.key in items:
+            continue
         old = base.find(part.key)
         is_gone = old and (is_picture or part.key in LAYOUT or _is_unchanged(part.key, base, generated))
-        if part.key in items or (is_gone and not is_section(part.key)):
+        if is_gone and not is_section(part.key):
             continue
         pieces = [arranged.get(part.key, part.node.text)]
         if old and not is_section(part.key):
-            pieces = [_contradiction((*path, part.key), old.node, None, part.node, mine)]
+            pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
     # what one side moved and the other removed has a place, but is no longer there
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
-        return [_contradiction(place, base, mine, generated, mine)]
+        return [_contradiction(place, base, mine, generated)]
     return _text_of(trees, [items[key] for key in order], notes)
 
 
@@ -252,7 +260,9 @@ def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree) -> bool:
     old, new = base.find(key), side.find(key)
     if not (old and new):
         return False
-    return old.node.bare == new.node.bare and section_name(base.sections[key]) == section_name(side.sections[key])
+    return is_same(old.node, new.node, layout=False) and section_name(base.sections[key]) == section_name(
+        side.sections[key]
+    )
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
@@ -311,7 +321,8 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> lis
     blanks = ""
     for number, item in enumerate(items):
         append_blanks(found, blanks + item.before)
-        found += item.pieces
+        places = [tree.place_of(item.key) for tree in trees] if len(item.pieces) > 1 else (0, 0, 0)
+        found += (piece if isinstance(piece, str) else piece.behind(places) for piece in item.pieces)
         blanks = item.after
         if mine.separator and number < len(items) - 1:
             append_blanks(found, blanks)

@@ -1,7 +1,8 @@
 """Places for new things in a diagram that the user has arranged himself.
 
 Something new gets the place beside its neighbour that it has in the generated diagram, or the nearest one that is free;
-a new line goes from one end to the other with a bend in the middle. Lengths are in units of the diagram.
+a new line goes from one end to the other with a bend in the middle. Lengths are in units of the diagram;
+a place, or the way to another one, is a complex number.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import TypeAlias
 
-from urdfsync.modelica.tree import Leaf, Node, Part, SyntaxTree
+from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
 """Annotations with graphics: what the export adds to them is drawn there, whoever has the layout."""
@@ -27,45 +28,13 @@ _REACH = 40
 _MOST_COMPARISONS = 1_000_000
 """So often two boxes are compared at most: a second. What is new after that may lie upon something."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
+_PLACEMENTS = {
+    place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")
+}
+_ARRAYS = {key: re.compile(rf"\b{key}\s*=\s*(\{{[^()=]*\}})") for key in ("extent", "origin", "points")}
 
-
-class Point(NamedTuple):
-    """A place, or the way from one to another."""
-
-    x: float
-    y: float
-
-    def shifted(self, by: Point) -> Point:
-        """The place so far away."""
-        return Point(self.x + by.x, self.y + by.y)
-
-    def to(self, other: Point) -> Point:
-        """The way to another place."""
-        return Point(other.x - self.x, other.y - self.y)
-
-
-_NOWHERE = Point(0, 0)
-"""The way to where one is."""
-
-
-class Extent(NamedTuple):
-    """The place of a component."""
-
-    low: Point
-    high: Point
-
-    @property
-    def centre(self) -> Point:
-        """The middle."""
-        return Point((self.low.x + self.high.x) / 2, (self.low.y + self.high.y) / 2)
-
-    def shifted(self, by: Point) -> Extent:
-        """The box so far away."""
-        return Extent(self.low.shifted(by), self.high.shifted(by))
-
-    def touches(self, other: Extent) -> bool:
-        """Whether the two lie upon each other."""
-        return all(one.low[axis] < two.high[axis] for one, two in ((self, other), (other, self)) for axis in (0, 1))
+Box: TypeAlias = tuple[complex, complex]
+"""The place of a component, by its lower left and its upper right corner."""
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
@@ -85,15 +54,13 @@ def _is_moved(key: str, base: Node, mine: Node) -> bool:
     """Whether an annotation about layout of one element is not as it was, but for graphics that were added."""
     keys = ("annotation", *(("Placement",) if key.endswith("ransformation") else ()), key)
     old, new = (_inside(node, keys) for node in (base, mine))
-    return old is not None and (
-        new is None or not (_has_all(new, old) if key in PICTURES else new.meaning == old.meaning)
-    )
+    return old is not None and (new is None or not (_has_all(new, old) if key in PICTURES else is_same(new, old)))
 
 
 def _has_all(mine: Node, base: Node) -> bool:
     """Whether all that base draws is there as it was."""
     if not (isinstance(mine, SyntaxTree) and isinstance(base, SyntaxTree)):
-        return mine.meaning == base.meaning
+        return is_same(mine, base)
     pairs = ((mine.find(part.key), part) for part in base.parts)
     return all(own is not None and _has_all(own.node, part.node) for own, part in pairs)
 
@@ -103,74 +70,65 @@ def arrange(mine: SyntaxTree, generated: SyntaxTree, kept: Collection[str]) -> d
 
     `kept` are the annotations in which the layout is the user's.
     """
-    new = [part for part in generated.parts if not mine.find(part.key)]
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
-    shifts = {
-        place: _shifts(mine, generated, lines, place)
-        for place in ("transformation", "iconTransformation")
-        if place in kept
-    }
+    shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in kept}
     found: dict[str, str] = {}
-    for part in new:
+    for part in generated.parts:
+        if mine.find(part.key):
+            continue
+        text = part.node.text
         if part.key in lines and "Line" in kept:
-            start, end = (shifts["transformation"].get(one, _NOWHERE) for one in lines[part.key])
-            found[part.key] = _rerouted(part, start, end)
-        elif part.key not in lines:
-            found[part.key] = _moved(
-                part, {place: ways[part.key] for place, ways in shifts.items() if part.key in ways}
-            )
+            start, end = (shifts["transformation"].get(one, 0) for one in lines[part.key])
+            text = _rerouted(text, start, end)
+        for place, ways in shifts.items():
+            text = _moved(text, place, ways.get(part.key, 0))
+        found[part.key] = text
     return found
 
 
 def _shifts(
     mine: SyntaxTree, generated: SyntaxTree, lines: Mapping[str, tuple[str, str]], place: str
-) -> dict[str, Point]:
+) -> dict[str, complex]:
     """Return how far each component is from its generated place, by key; those that `mine` lacks get a free one."""
     boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
     planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
-    shifts = {key: planned[key].centre.to(boxes[key].centre) for key in planned.keys() & boxes.keys()}
-    left = _MOST_COMPARISONS
-    for key in planned:
+    shifts = {key: sum(boxes[key]) / 2 - sum(planned[key]) / 2 for key in planned.keys() & boxes.keys()}
+    comparisons = _MOST_COMPARISONS
+    for key, (low, high) in planned.items():
         if not mine.find(key):
-            steps = left // max(len(boxes), 1)
-            shifts[key], count = _find_shift(key, planned, shifts, lines, boxes.values(), steps)
-            left -= count * len(boxes)
-            boxes[key] = planned[key].shifted(shifts[key])
+            wanted = _shift_of_neighbour(key, planned, shifts, lines)
+            shifts[key] = wanted
+            for way in _steps()[: comparisons // max(len(boxes), 1)]:
+                comparisons -= len(boxes)
+                shift = wanted + way
+                if not any(_touch((low + shift, high + shift), box) for box in boxes.values()):
+                    shifts[key] = shift
+                    break
+            boxes[key] = low + shifts[key], high + shifts[key]
     return shifts
 
 
-def _find_shift(
-    key: str,
-    planned: Mapping[str, Extent],
-    shifts: Mapping[str, Point],
-    lines: Mapping[str, tuple[str, str]],
-    taken: Collection[Extent],
-    steps: int,
-) -> tuple[Point, int]:
-    """How far from its generated place a new component goes: as far as its neighbour did, and on to a free place.
+def _shift_of_neighbour(
+    key: str, planned: Mapping[str, Box], shifts: Mapping[str, complex], lines: Mapping[str, tuple[str, str]]
+) -> complex:
+    """Return how far the part that a new one hangs on is from its generated place; else that of the one before it."""
+    around = (other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts)
+    earlier = (other for other in itertools.takewhile(key.__ne__, planned) if other in shifts)
+    neighbour = next(around, None) or max(enumerate(earlier), default=(0, ""))[1]
+    return shifts.get(neighbour, 0)
 
-    Of the places around, so many as `steps` are looked at; returns also how many were.
-    """
-    around = [other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts]
-    earlier = [other for other in itertools.takewhile(lambda other: other != key, planned) if other in shifts]
-    neighbour = next(iter(around), earlier[-1] if earlier else "")
-    wanted = shifts.get(neighbour, _NOWHERE)
-    number = 0
-    for number, way in enumerate(_steps()[:steps], start=1):
-        shift = wanted.shifted(way)
-        box = planned[key].shifted(shift)
-        if not any(box.touches(other) for other in taken):
-            return shift, number
-    return wanted, number
+
+def _touch(one: Box, other: Box) -> bool:
+    """Whether two boxes lie upon each other."""
+    return all(low.real < high.real and low.imag < high.imag for low, high in ((one[0], other[1]), (other[0], one[1])))
 
 
 @functools.cache
-def _steps() -> list[Point]:
+def _steps() -> list[complex]:
     """Ways to the places around one, the nearest first, and of those the one below."""
     reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
-    return sorted(
-        itertools.starmap(Point, itertools.product(reach, reach)), key=lambda way: (abs(way.x) + abs(way.y), way.y)
-    )
+    ways = itertools.starmap(complex, itertools.product(reach, reach))
+    return sorted(ways, key=lambda way: (abs(way.real) + abs(way.imag), way.imag))
 
 
 # --- annotations --------------------------------------------------------------------------------------------------
@@ -187,71 +145,62 @@ def _inside(node: Node, keys: Sequence[str]) -> Node | None:
     return inner
 
 
-def _find(part: Part, *keys: str) -> Leaf | None:
-    """The value of an annotation of an element: `_find(part, "Line", "points")`."""
-    node = _inside(part.node, ("annotation", *keys))
-    for key in ("value", "expression"):
-        found = node.find(key) if isinstance(node, SyntaxTree) else None
-        node = found.node if found else None
-    return node if isinstance(node, Leaf) else None
+def _points(array: re.Match[str] | None) -> list[complex]:
+    """The points that an array in a text has."""
+    numbers = [float(number) for number in _NUMBER.findall(array[1])] if array else []
+    return [complex(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
 
 
-def _points(leaf: Leaf | None) -> list[Point]:
-    numbers = [float(number) for number in _NUMBER.findall(leaf.text)] if leaf else []
-    return [Point(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
+def _arrays(text: str, place: str) -> Iterator[re.Match[str] | None]:
+    """Yield the extent and the origin of a component in the diagram or in the icon."""
+    placement = _PLACEMENTS[place].search(text)
+    for key in ("extent", "origin"):
+        yield _ARRAYS[key].search(text, *placement.span(1)) if placement else None
 
 
-def _box(part: Part, place: str) -> Extent | None:
+def _box(part: Part, place: str) -> Box | None:
     """The place of a component in the diagram or in the icon; None for what has none."""
-    corners = _points(_find(part, "Placement", place, "extent"))
-    origin = next(iter(_points(_find(part, "Placement", place, "origin"))), _NOWHERE)
-    if len(corners) != 2 or not all(map(math.isfinite, (*itertools.chain(*corners), *origin))):
-        return None  # such as 1e999
-    (left, right), (low, high) = (sorted(one) for one in zip(*corners, strict=True))
-    return Extent(Point(left, low), Point(right, high)).shifted(origin)
+    corners, origins = map(_points, _arrays(part.node.text, place))
+    if len(corners) != 2 or not part.key.startswith("component "):
+        return None
+    (left, right), (low, high) = sorted(one.real for one in corners), sorted(one.imag for one in corners)
+    box = [complex(left, low) + sum(origins), complex(right, high) + sum(origins)]
+    if not all(math.isfinite(abs(corner)) for corner in box):  # such as 1e999
+        return None
+    return box[0], box[1]
 
 
 def _ends(part: Part) -> tuple[str, str] | None:
     """The keys of the components that a line connects."""
-    if not part.key.startswith("connect ") or not isinstance(part.node, SyntaxTree):
+    connectors = re.findall(r"([\w']+)[\w.\[\]']*", part.node.text.partition(")")[0])[1:]
+    if not part.key.startswith("connect ") or len(connectors) != 2:
         return None
-    connect = part.node.find("connect")
-    names = re.findall(r"[\w.\[\]']+", connect.node.text)[1:] if connect else []
-    return (f"component {_first(names[0])}", f"component {_first(names[1])}") if len(names) == 2 else None
+    return f"component {connectors[0]}", f"component {connectors[1]}"
 
 
-def _first(name: str) -> str:
-    return re.split(r"[.\[]", name, maxsplit=1)[0]
+def _moved(text: str, place: str, way: complex) -> str:
+    """The text of a component in another place of the diagram or of the icon."""
+    extent, origin = _arrays(text, place)
+    return _replaced(text, origin or extent, [point + way for point in _points(origin or extent)]) if way else text
 
 
-def _moved(part: Part, ways: Mapping[str, Point]) -> str:
-    """The text of a component in other places of the diagram and of the icon."""
-    found = []
-    for place, way in ways.items():
-        leaf = _find(part, "Placement", place, "origin") or _find(part, "Placement", place, "extent")
-        found.append((leaf, [point.shifted(way) for point in _points(leaf)]))
-    return _replaced(part, found)
-
-
-def _rerouted(part: Part, start: Point, end: Point) -> str:
+def _rerouted(text: str, start: complex, end: complex) -> str:
     """The text of a connection whose ends have moved."""
-    leaf = _find(part, "Line", "points")
-    points = _points(leaf)
+    array = _ARRAYS["points"].search(text)
+    points = _points(array)
     if start == end or len(points) < 2:
-        return _replaced(part, [(leaf, [point.shifted(start) for point in points])])
-    first, last = points[0].shifted(start), points[-1].shifted(end)
-    middle = (first.x + last.x) / 2
-    bends = [] if first.x == last.x or first.y == last.y else [Point(middle, first.y), Point(middle, last.y)]
-    return _replaced(part, [(leaf, [first, *bends, last])])
+        return _replaced(text, array, [point + start for point in points]) if start else text
+    first, last = points[0] + start, points[-1] + end
+    middle = (first.real + last.real) / 2
+    is_straight = first.real == last.real or first.imag == last.imag
+    bends = [] if is_straight else [complex(middle, first.imag), complex(middle, last.imag)]
+    return _replaced(text, array, [first, *bends, last])
 
 
-def _replaced(part: Part, found: Sequence[tuple[Leaf | None, list[Point]]]) -> str:
-    """The text of a part with other points in annotations."""
-    text = part.node.text
-    known = [(leaf, points) for leaf, points in found if leaf]
-    for leaf, points in sorted(known, key=lambda one: one[0].start, reverse=True):
-        said = ", ".join(f"{{{point.x:g}, {point.y:g}}}" for point in points)
-        said = f"{{{said}}}" if len(points) > 1 else said
-        place = leaf.start - part.node.start
-        text = f"{text[:place]}{said}{text[place + len(leaf.text) :]}"
-    return text
+def _replaced(text: str, array: re.Match[str] | None, points: Sequence[complex]) -> str:
+    """The text with other points in an array."""
+    if not array:
+        return text
+    said = ", ".join(f"{{{point.real:g}, {point.imag:g}}}" for point in points)
+    said = f"{{{said}}}" if len(points) > 1 else said
+    return f"{text[: array.start(1)]}{said}{text[array.end(1) :]}"

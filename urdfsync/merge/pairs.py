@@ -10,7 +10,7 @@ from collections import defaultdict
 
 import msgspec
 
-from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, key_by_whole_equation
+from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_whole_equation
 
 _ALIKE = 0.5
 """Share of words that two equations have in common at least, if one is the new version of the other."""
@@ -31,7 +31,7 @@ def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[Syn
     ours, theirs = _Added(mine, base), _Added(generated, base)
     for part in gone:
         one, other = ours.find_version(part), theirs.find_version(part)
-        if (one and other) or ((one or other) and _is_equation(part)):
+        if (one and other) or ((one or other) and is_equation(part)):
             ours.take(one, part.key)
             theirs.take(other, part.key)
     return base, ours.with_keys(), theirs.with_keys()
@@ -56,7 +56,7 @@ class _Added:
     def find_version(self, part: Part) -> Part | None:
         """What the side has instead of a thing of base."""
         kind, *ends = part.key.split()
-        if _is_equation(part):
+        if is_equation(part):
             added = self._free(kind)
             self._comparisons += len(added)
             if self._comparisons > _MOST_COMPARISONS:
@@ -80,11 +80,7 @@ class _Added:
     def with_keys(self) -> SyntaxTree:
         """Return the body with the keys that were taken."""
         parts = [msgspec.structs.replace(one, key=self._keys.get(id(one), one.key)) for one in self._side.parts]
-        return msgspec.structs.replace(self._side, parts=tuple(parts))
-
-
-def _is_equation(part: Part) -> bool:
-    return isinstance(part.node, SyntaxTree) and part.node.find("equation") is not None
+        return self._side.with_parts(parts)
 
 
 def _likeness(one: Part, other: Part) -> float:

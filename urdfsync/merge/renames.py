@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 
 from urdfsync.modelica.lexer import Token, lex
-from urdfsync.modelica.tree import Part, SyntaxTree
+from urdfsync.modelica.tree import Part, SyntaxTree, words_of
 
 _COMPONENT = "component "
 _MODIFIER = "("
@@ -70,15 +70,11 @@ def _components(file: SyntaxTree) -> dict[str, Part]:
     return {part.key.removeprefix(_COMPONENT): part for part in parts if part.key.startswith(_COMPONENT)}
 
 
-def _likeness(part: Part, name: str) -> object:
-    """Equal for components that differ in nothing but their own names."""
-    return _without(part.node.bare, name)
-
-
-def _without(meaning: object, name: str) -> object:
-    if isinstance(meaning, tuple):
-        return tuple(_without(one, name) for one in meaning)
-    return "" if meaning == name else meaning
+def _likeness(part: Part, name: str) -> Hashable:
+    """Equal for components that differ in nothing but their own names and their layout."""
+    parts = part.node.parts if isinstance(part.node, SyntaxTree) else ()
+    texts = (inner.node.text for inner in parts if inner.key != "annotation")
+    return tuple("" if word == name else word for text in texts for word in words_of(text))
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:

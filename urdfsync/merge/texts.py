@@ -12,11 +12,10 @@ from urdfsync.merge.elements import Contradiction, Piece, merge_trees
 from urdfsync.merge.lines import merge_lines, split_lines
 from urdfsync.merge.pairs import TooManyPairsError
 from urdfsync.merge.renames import find_renamed, rename, without_clashes
-from urdfsync.merge.stubs import Stubs
 from urdfsync.merge.words import describe
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.tree import read_tree
+from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults, read_tree
 
 MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated"), (">>>>>>> generated", "")
 """What stands before each version of a contradiction, and behind the last one."""
@@ -65,16 +64,17 @@ def merge(
     if names:
         base, mine = rename(base, mine, without_clashes(names, mine))
     ending = _ending(mine)
-    pieces, texts = merge_pieces(base, mine, generated, ending, is_modelica=is_modelica)
+    known: KnownStatements = {}
+    pieces, texts = merge_pieces(base, mine, generated, ending, known if is_modelica else None)
     conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
     merged, sides = with_markers(pieces, ending), (mine, generated)
     if not conflicts:
-        flaw = find_flaw(merged, sides) if is_modelica and merged != mine else ""
+        flaw = find_flaw(merged, sides, known) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, conflicts, flaw)
     if any(isinstance(one, Contradiction) and _is_new_part(one) for one in pieces):
         return Merge(None, merged, conflicts)  # both added a part of this name: no side has what the other one means
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
-    sound = [text if not is_modelica or not find_flaw(text, sides) else None for text in preferred]
+    sound = [text if not is_modelica or not find_flaw(text, sides, known) else None for text in preferred]
     return Merge(None, merged, conflicts, "", sound[0], sound[1])
 
 
@@ -92,10 +92,10 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
     """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
     ending = _ending(mine)
-    pieces, _ = merge_pieces(base, mine, other, ending, is_modelica=True)
+    pieces, _ = merge_pieces(base, mine, other, ending, {})
     merged = with_markers(pieces, ending, markers)
     if not _conflict_count(pieces) and find_flaw(merged, (mine, other)):
-        pieces, _ = merge_pieces(base, mine, other, ending, is_modelica=False)
+        pieces, _ = merge_pieces(base, mine, other, ending, None)
         merged = with_markers(pieces, ending, markers)
     return merged, _conflict_count(pieces)
 
@@ -114,9 +114,12 @@ def _with_ending(text: str, ending: str) -> str:
 
 
 def merge_pieces(
-    base: str, mine: str, generated: str, ending: str, *, is_modelica: bool
+    base: str, mine: str, generated: str, ending: str, known: KnownStatements | None
 ) -> tuple[list[Piece], Sequence[str]]:
-    """Return the merged text in pieces, and the texts that were merged; new lines get the `ending`."""
+    """Return the merged text in pieces, and the texts that were merged; new lines get the `ending`.
+
+    `known` gets the elements and equations that were read; with None, all is merged by lines.
+    """
     base, generated = _with_ending(base, ending), _with_ending(generated, ending)
     written = base, mine, generated
     one, two, three = plain = [text.replace("\r\n", "\n") for text in written]
@@ -126,7 +129,7 @@ def merge_pieces(
     if one == two and not is_mixed:
         return [generated], written
     texts = written if is_mixed else plain
-    pieces = _merge_classes(*texts) if is_modelica else None
+    pieces = None if known is None else _merge_classes(texts[0], texts[1], texts[2], known)
     if pieces is None:
         return _merge_by_lines(mine, plain, ending), plain
     if is_mixed:
@@ -134,31 +137,17 @@ def merge_pieces(
     return [piece.replace("\n", ending) if isinstance(piece, str) else piece for piece in pieces], texts
 
 
-def _merge_classes(base: str, mine: str, generated: str) -> list[Piece] | None:
+def _merge_classes(base: str, mine: str, generated: str, known: KnownStatements) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
-    stubs = Stubs(base, mine, generated)
-    one, two, three = map(read_tree, stubs.texts)
+    one, two, three = (read_tree(text, known) for text in (base, mine, generated))
     if not (one and two and three):
         return None
-    names = find_renamed(one, two, three)
-    if names:  # they may stand in what was not read
-        one, three = (read_tree(text) for text in rename(base, generated, names, modifiers=False))
-        two = read_tree(mine)
     try:
-        pieces = merge_trees(one, two, three) if one and two and three else None
-    except TooManyPairsError:
+        if names := find_renamed(one, two, three):
+            one, three = (read_tree(text, known) for text in rename(base, generated, names, modifiers=False))
+        return merge_trees(one, two, three) if one and three else None
+    except (TooManyPairsError, UnreadableError):
         return None
-    return pieces if names or not pieces else [_expanded(piece, stubs, (base, mine, generated)) for piece in pieces]
-
-
-def _expanded(piece: Piece, stubs: Stubs, texts: Sequence[str]) -> Piece:
-    """A piece of merged text as it is without stand-ins, which have as many lines as what they stand for."""
-    if isinstance(piece, str):
-        return stubs.expand(piece)
-    lines = [text.count("\n", 0, start) for text, start in zip(stubs.texts, piece.starts, strict=True)]
-    starts = [sum(map(len, text.split("\n", line)[:line])) + line for text, line in zip(texts, lines, strict=True)]
-    base, mine, generated = (stubs.expand(text) for text in (piece.base, piece.mine, piece.generated))
-    return Contradiction(piece.path, base, mine, generated, (starts[0], starts[1], starts[2]))
 
 
 def _merge_by_lines(mine: str, texts: Sequence[str], ending: str) -> list[Piece]:
@@ -231,18 +220,18 @@ def _version(row: Sequence[Piece], side: str) -> str:
     return text if text.strip() else ""
 
 
-def find_flaw(text: str, sides: Sequence[str]) -> str:
+def find_flaw(text: str, sides: Sequence[str], known: KnownStatements | None = None) -> str:
     """Return why a merged text can't be right as Modelica; empty if it can. Names and types are not checked.
 
+    What a side has is `known`, and not read again.
     What is wrong with one of the sides already, as often as in the merge, is no flaw: it is its author's business.
     """
-    faults = [*find_markers(text), *parse(text).faults]
-    known: Counter[str] = Counter()
+    faults = [*find_markers(text), *find_faults(text, known or {})]
+    counts = Counter[str]()
     for side in sides if faults else ():
-        known |= Counter(fault.reason for fault in (*find_markers(side), *parse(side).faults))
-    seen: Counter[str] = Counter()
+        counts |= Counter(fault.reason for fault in (*find_markers(side), *parse(side).faults))
     for reason, line, _ in faults:
-        seen[reason] += 1
-        if seen[reason] > known[reason]:
+        counts[reason] -= 1
+        if counts[reason] < 0:
             return f"{reason} (line {line})"
     return ""

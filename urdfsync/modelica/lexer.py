@@ -1,26 +1,36 @@
-"""Cut Modelica text into the tokens that a compiler sees, each with its line."""
+"""Cut Modelica text into the tokens that a compiler sees, each with its place."""
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
+from functools import cached_property
 from typing import NamedTuple
 
 from urdfsync.modelica.names import KEYWORDS
 
+_STRING = r'"(?:[^"\\]++|\\.)*+"'
+_QUOTED_NAME = r"'(?:[^'\\\n]|\\.)*+'"
 _TOKEN = re.compile(
-    r"""
-    (?P<blank>\s+|//[^\n]*|/\*.*?\*/)
-    | (?P<endless_comment>/\*.*)
-    | "(?:[^"\\]|\\.)*"
-    | (?P<endless_string>"(?:[^"\\]|\\.)*)
-    | '(?:[^'\\\n]|\\.)*'
-    | (?P<endless_name>')
-    | :=|==|<=|>=|<>|[^\W\d]\w*|\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|.
+    rf"""
+    (?:\s++|//[^\n]*+|/\*.*?\*/|(?P<endless_comment>/\*.*+))*+
+    (
+      {_STRING}|".*+
+      | {_QUOTED_NAME}
+      | :=|==|<=|>=|<>|[^\W\d]\w*+|\d++(?:\.\d*+)?(?:[eE][-+]?\d++)?
+      | \Z
+      | .
+    )
     """,
     re.VERBOSE | re.DOTALL,
 )
-_ENDLESS = {"endless_comment": "comment", "endless_string": "string", "endless_name": "quoted name"}
-
+_WORD = 2
+"""The number of the group that is a token."""
+STATEMENT = re.compile(
+    rf"""(?:[^;"'/]++|{_STRING}|{_QUOTED_NAME}|'|//[^\n]*+|/\*.*?\*/|/(?![/*]))*+;""", re.VERBOSE | re.DOTALL
+)
+"""All up to the next semicolon, unless something before it has no end."""
+_ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
 _MARKER = re.compile(r"(<{7,}|\|{7}|={7}|>{7,})(\s|$)")
 
 
@@ -41,18 +51,69 @@ class Token(NamedTuple):
     start: int
 
 
+class Lexer:
+    """Cuts a text into tokens, statement by statement, when they are asked for."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.words: list[str] = []
+        """The tokens up to here; at the end of the text an empty one."""
+        self.starts: list[int] = []
+        """Where each token begins in the text."""
+        self.position = int(text.startswith("\ufeff"))
+        """Where the next token is looked for."""
+        self.endless: list[Fault] = []
+        """Comments, strings and quoted names without an end."""
+
+    def read_statement(self) -> None:
+        """Add the tokens up to the next semicolon, or to the end of the text."""
+        statement = STATEMENT.match(self.text, self.position)
+        stop, first = statement.end() if statement else len(self.text), len(self.words)
+        add_word, add_start = self.words.append, self.starts.append
+        for match in _TOKEN.finditer(self.text, self.position, stop):
+            add_word(word := match[_WORD])
+            add_start(match.start(_WORD))
+            if not word:
+                break
+        if statement:  # what ends a statement does not end the text
+            del self.words[-1], self.starts[-1]
+        elif match["endless_comment"]:
+            self._add_endless("comment", match.start("endless_comment"))
+        elif self.words[-2:-1] and _ENDLESS_STRING.fullmatch(self.words[-2]):
+            self._add_endless("string", self.starts[-2])
+        if "'" in self.words[first:]:
+            for word, start in zip(self.words[first:], self.starts[first:], strict=True):
+                if word == "'":
+                    self._add_endless("quoted name", start)
+        self.position = stop
+
+    def _add_endless(self, kind: str, start: int) -> None:
+        self.endless.append(Fault(f"has a {kind} without an end", self.line_at(start)))
+
+    def line_at(self, start: int) -> int:
+        """Return the line of a place in the text, from 1."""
+        return bisect_left(self._line_ends, start) + 1
+
+    @cached_property
+    def _line_ends(self) -> list[int]:
+        return [match.start() for match in re.finditer("\n", self.text)]
+
+
+def words_in(text: str) -> list[str]:
+    """Return the tokens of a text as texts alone."""
+    lexer = Lexer(text)
+    while not lexer.words or lexer.words[-1]:
+        lexer.read_statement()
+    return lexer.words[:-1]
+
+
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
     """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
-    found, faults, line = [], [], 1
-    for match in _TOKEN.finditer(text, text.startswith("\ufeff")):
-        word, kind = match[0], match.lastgroup
-        if kind in _ENDLESS:
-            faults.append(Fault(f"has a {_ENDLESS[kind]} without an end", line))
-        if kind not in ("blank", "endless_comment"):
-            found.append(Token(word, line, match.start()))
-        line += word.count("\n")
-    found.append(Token("", line, len(text)))
-    return found, faults
+    lexer = Lexer(text)
+    while not lexer.words or lexer.words[-1]:
+        lexer.read_statement()
+    tokens = map(Token, lexer.words, map(lexer.line_at, lexer.starts), lexer.starts)
+    return list(tokens), lexer.endless
 
 
 def find_markers(text: str) -> list[Fault]:

@@ -1,4 +1,4 @@
-"""Read Modelica text into syntax values, and say what is missing in it or there twice.
+"""Read Modelica text: what its names mean, what is missing in it or there twice, and what it consists of.
 
 The grammar is the concrete syntax of the language specification 3.6 (appendix A). It is generous where that costs
 nothing: it does not ask which kind of class may have what, nor for the precedence of operators. Elements and equations
@@ -8,11 +8,11 @@ are read one by one, so that one that is no Modelica does not hide what is wrong
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
-from urdfsync.modelica.lexer import Fault, is_name, lex
+from urdfsync.modelica.lexer import Fault, Lexer, is_name
 from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Modifier, Name, StoredText
 
 _DEEPEST = 50
@@ -22,15 +22,17 @@ _LONGEST = 60
 
 SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})
-CLASSES = frozenset("class model record block connector type package function operator".split())
+_CLASSES = frozenset("class model record block connector type package function operator".split())
 # prefixes in their order, of which each group may have one
-CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
-ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
-ARGUMENT_PREFIXES = ("redeclare",), ("each",), ("final",), ("replaceable",)
-TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
-CLASS_STARTS = CLASSES.union(*CLASS_PREFIXES)
+_CLASS_PREFIXES = ("encapsulated",), ("partial",), ("expandable", "pure", "impure")
+_ELEMENT_PREFIXES = ("redeclare",), ("final",), ("inner",), ("outer",), ("replaceable",)
+_ARGUMENT_PREFIXES = ("redeclare",), ("each",), ("final",), ("replaceable",)
+_TYPE_PREFIXES = ("flow", "stream"), ("discrete", "parameter", "constant"), ("input", "output")
+_CLASS_STARTS = _CLASSES.union(*_CLASS_PREFIXES)
+_OPEN, _CLOSED = frozenset("([{"), frozenset(")]}")
 _ARITHMETIC = frozenset("+-*/^")
 _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
+_BLOCKS = frozenset({"if", "when", "for", "while"})
 _BRANCHES = {"if": ("elseif", "else"), "when": ("elsewhen",)}
 _CALLED = frozenset({"assert", "der", "initial", "pure"})
 """Keywords that are called like functions."""
@@ -42,13 +44,7 @@ _REPEATABLE = frozenset(
 
 def parse(text: str) -> StoredText:
     """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
-    return read(SyntaxParser(text))
-
-
-def read(parser: SyntaxParser) -> StoredText:
-    """Read all that a parser has before it."""
-    parser.document()
-    return StoredText(parser.faults, parser.within, parser.within_line, parser.open[0].classes, tuple(parser.libraries))
+    return Parser(text).read()
 
 
 class _FaultError(Exception):
@@ -59,40 +55,55 @@ class _FaultError(Exception):
         self.fault = Fault(reason, line)
 
 
-class SyntaxParser:
+class Parser(Lexer):
     """Reads one text from the first token to the last.
 
-    A method reads what it is named for, and returns its value, or the names used in it. It raises _FaultError where
-    something is missing; `_each` catches that, and goes on behind the element or equation.
+    A method reads what it is named for, and returns its value. It raises _FaultError where something is missing;
+    `_each` catches that, and goes on behind the element or equation.
     """
 
     def __init__(self, text: str) -> None:
-        self.tokens, self.faults = lex(text)
+        super().__init__(text)
+        self.faults: list[Fault] = []
         self.at = 0
-        self.within: str | None = None
-        self.within_line = 0
+        self._within: str | None = None
+        self._within_line = 0
         self.open = [Class(Name(("",), 0), "")]
         """The classes around this place, the innermost one last; the first stands for the file."""
-        self.libraries = list[str]()
+        self._libraries = list[str]()
         """Libraries that `uses` annotations name."""
+        self._names = list[Name]()
+        """Names in expressions, until what they stand in takes them."""
+        self._seen = set[str]()
+        """What may be only once beside the element or equation that is being read."""
         self._depth = self._subscript_depth = 0
+
+    def read(self) -> StoredText:
+        """Read all of the text."""
+        self.document()
+        faults = [*self.endless, *self.faults]
+        return StoredText(faults, self._within, self._within_line, self.open[0].classes, tuple(self._libraries))
 
     # --- tokens ---------------------------------------------------------------------------------------------------
 
     @property
     def word(self) -> str:
         """The token that comes now; empty behind the last one."""
-        return self.tokens[self.at].text
+        try:
+            return self.words[self.at]
+        except IndexError:
+            self.read_statement()
+            return self.words[self.at]
 
     @property
     def line(self) -> int:
         """The line of that token."""
-        return self.tokens[self.at].line
+        return self.line_at(self.starts[self.at]) if self.word or self.words else 1
 
     @property
     def following(self) -> str:
-        """The token after that."""
-        return self.tokens[min(self.at + 1, len(self.tokens) - 1)].text
+        """The token after that, within a statement."""
+        return self.words[self.at + 1] if self.word not in (";", "") else ""
 
     def _step(self) -> str:
         word = self.word
@@ -101,11 +112,16 @@ class SyntaxParser:
 
     def _accept(self, *words: str) -> str:
         """Go on if the token is one of these, and return it; else return an empty text."""
-        return self._step() if self.word in words else ""
+        word = self.word
+        if word not in words:
+            return ""
+        self.at += 1
+        return word
 
     def _expect(self, word: str) -> None:
-        if not self._accept(word):
+        if self.word != word:
             raise self._lack(f"`{word}`")
+        self.at += 1
 
     def _identifier(self) -> str:
         if not is_name(self.word):
@@ -118,20 +134,32 @@ class SyntaxParser:
 
     def _since(self, start: int) -> str:
         """Return the tokens since the one with the number `start`, with blanks where they would run together."""
-        text = " ".join(token.text for token in self.tokens[start : self.at])
-        return re.sub(r" ?([.()\[\]]) ?", r"\1", text)
+        return re.sub(r" ?([.()\[\]]) ?", r"\1", " ".join(self.words[start : self.at]))
 
     def _once(self, seen: set[str], key: str, reason: str) -> None:
         """Note a fault if the key is in `seen`; else put it there."""
         if key in seen:
-            self.faults.append(Fault(reason, self.tokens[self.at - 1].line, is_repetition=True))
+            self.faults.append(Fault(reason, self.line_at(self.starts[self.at - 1]), is_repetition=True))
         seen.add(key)
 
     def _declared_name(self, names: set[str]) -> Name:
         """The name of something that is declared beside `names`."""
-        token, text = self.tokens[self.at], self._identifier()
+        text, start = self._identifier(), self.starts[self.at - 1]
         self._once(names, text, f"declares `{text}` twice")
-        return Name((text,), token.line, starts=(token.start,))
+        return Name((text,), self.line_at(start), starts=(start,))
+
+    def _take_names(self, mark: int) -> tuple[Name, ...]:
+        """Return the names that were read since there were so many."""
+        if len(self._names) == mark:
+            return ()
+        names = tuple(self._names[mark:])
+        del self._names[mark:]
+        return names
+
+    def _leave_out(self, indices: set[str], mark: int) -> None:
+        """Leave out the indices of a loop from the names that were read since there were so many."""
+        names = self._take_names(mark)
+        self._names += (name for name in names if name.is_global or name.parts[0] not in indices)
 
     def _enter(self) -> None:
         if self._depth == _DEEPEST:
@@ -150,63 +178,88 @@ class SyntaxParser:
         if not self._accept(closing):
             raise self._lack(f"`,` or `{closing}`")
 
-    def _each(self, read: Callable[..., list[Name] | None], *arguments: object) -> list[Name]:
+    def _each(self, read: Callable[..., None], *arguments: object) -> None:
         """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
         start, depth, subscript_depth, classes = self.at, self._depth, self._subscript_depth, len(self.open)
+        mark = len(self._names)
         try:
             self._enter()
-            found = read(*arguments)
+            read(*arguments)
             self._depth -= 1
             self._expect(";")
+            self._note(";", self.at - 1)
         except _FaultError as error:
             self.faults.append(error.fault)
             self._depth, self._subscript_depth = depth, subscript_depth
-            del self.open[classes:]
+            del self.open[classes:], self._names[mark:]
             while self.word not in (";", "end", "", *SECTIONS):
                 self._step()
             if self.word == ";" or self.at == start:
                 self._step()
-            return []
-        return found or []
+
+    # --- for the tree (`urdfsync.modelica.tree`), which overrides these ---------------------------------------------
+
+    def _mark(self) -> int:
+        """Return what `_note` takes for `mark`, to put into a part all parts that are noted meanwhile."""
+        return 0
+
+    def _note(self, key: str, start: int, mark: int | None = None) -> None:
+        """Note that the tokens since the one with the number `start` are a part with this key."""
+
+    def _note_statement(self, start: int) -> None:
+        """Note that all since the token with this number is an element, an equation, or the words of a section."""
+
+    def _next_word(self) -> str:
+        """Return the first word of the next element or equation."""
+        return self.word
+
+    def _skips_rest(self) -> bool:
+        """Whether the rest of an element or equation was left out, since only its name counts."""
+        return False
 
     # --- names and expressions ------------------------------------------------------------------------------------
 
-    def _name(self, subscripts: list[Name] | None = None) -> Name:
-        """A name with dots. If it may have subscripts, `subscripts` gets the names in them."""
-        line, is_global = self.line, bool(self._accept("."))
-        parts, starts = list[str](), list[int]()
-        while not parts or (self.word == "." and is_name(self.following) and self._step()):
-            starts.append(self.tokens[self.at].start)
-            parts.append(self._identifier())
-            if subscripts is not None:
-                subscripts += self._subscripts()
-        return Name(tuple(parts), line, is_global, starts=tuple(starts))
+    def _name(self, *, has_subscripts: bool = False) -> Name:
+        """A name with dots. If it may have subscripts, the names in them are read, too."""
+        word = self.word
+        line, is_global = self.line_at(self.starts[self.at]), word == "."
+        self.at += is_global
+        parts, starts = [self._identifier()], [self.starts[self.at - 1]]
+        while True:
+            if has_subscripts and self.word == "[":
+                self._subscripts()
+            if self.word != "." or not is_name(self.following):
+                return Name(tuple(parts), line, is_global, starts=tuple(starts))
+            starts.append(self.starts[self.at + 1])
+            parts.append(self.words[self.at + 1])
+            self.at += 2
 
-    def _reference(self) -> list[Name]:
+    def _reference(self) -> None:
         """A component or function, after the names in its subscripts."""
-        found: list[Name] = []
-        name = self._name(found)
-        return [*found, name._replace(is_called=self.word == "(")]
+        name = self._name(has_subscripts=True)
+        self._names.append(name._replace(is_called=True) if self.word == "(" else name)
 
-    def _subscripts(self) -> list[Name]:
+    def _subscripts(self) -> None:
         """Subscripts or the sizes of an array, if there are any."""
-        found: list[Name] = []
         if self.word == "[":
             self._subscript_depth += 1
             for _ in self._list("[", "]"):
                 if not (self.word == ":" and self.following in (",", "]") and self._step()):
-                    found += self._expression()
+                    self._expression()
             self._subscript_depth -= 1
-        return found
 
-    def _expression(self) -> list[Name]:
-        found: list[Name] = []
+    def _expression(self) -> None:
+        word = self.word
+        # most expressions are one number or string, and most tokens of a text stand in these
+        if (word[:1] == '"' or word[:1].isdecimal()) and self.words[self.at + 1] in (",", ")", "}", ";"):
+            self.at += 1
+            return
         while branch := self._accept("if"):
             self._enter()
             while branch:
-                found += self._expression()
+                self._expression()
                 self._expect("then")
-                found += self._expression()
+                self._expression()
                 branch = self._accept("elseif")
             self._depth -= 1
             self._expect("else")
@@ -217,37 +270,38 @@ class SyntaxParser:
                 if self.word == "." and self.following in ("+", "-"):
                     self._step()
                 self._accept("+", "-")
-            found += self._operand()
+            self._operand()
             if self.word == "." and self.following in _ARITHMETIC:
                 self._step()
             operator = self._accept(*_OPERATORS)
-        return found
 
-    def _operand(self) -> list[Name]:
+    def _operand(self) -> None:
         word = self.word
-        if word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false"):
+        is_literal = word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false")
+        if is_literal or (word == "end" and self._subscript_depth):
             self._step()
-            return []
-        if word == "end" and self._subscript_depth:
-            self._step()
-            return []
-        if word == "(":  # an expression, or the outputs of a function, some of which may be left out
-            inside = [name for _ in self._list() if self.word not in (",", ")") for name in self._expression()]
-            return inside + self._subscripts()
-        if word == "[" and self.following != "]":
-            return [name for _ in self._list("[", "]", separators=",;") for name in self._expression()]
-        if word == "{":
-            return [name for _ in self._list("{", "}") for name in self._item()]
-        if self._accept(*_CALLED):
-            return self._call()
-        if is_name(word) or word == ".":
-            found = self._reference()
-            return found + self._call() if self.word == "(" else found
-        raise self._lack("an expression")
+        elif word == "(":  # an expression, or the outputs of a function, some of which may be left out
+            for _ in self._list():
+                if self.word not in (",", ")"):
+                    self._expression()
+            self._subscripts()
+        elif word == "[" and self.following != "]":
+            for _ in self._list("[", "]", separators=",;"):
+                self._expression()
+        elif word == "{":
+            for _ in self._list("{", "}"):
+                self._item()
+        elif self._accept(*_CALLED):
+            self._call()
+        elif is_name(word) or word == ".":
+            self._reference()
+            if self.word == "(":
+                self._call()
+        else:
+            raise self._lack("an expression")
 
-    def _call(self) -> list[Name]:
+    def _call(self) -> None:
         """The arguments of a function."""
-        found: list[Name] = []
         names: set[str] = set()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
@@ -257,60 +311,65 @@ class SyntaxParser:
             elif names:
                 raise self._lack("the name of an argument")
             if self._accept("function"):
-                found.append(self._name()._replace(is_called=True))
-                found += self._call()
+                self._names.append(self._name()._replace(is_called=True))
+                self._call()
             else:
-                found += self._item()
-        return found
+                self._item()
 
-    def _item(self) -> list[Name]:
+    def _item(self) -> None:
         """An expression, possibly with the indices of a reduction."""
-        found = self._expression()
+        mark = len(self._names)
+        self._expression()
         if self._accept("for"):
-            indices, ranges = self._indices()
-            found = _without(indices, found + ranges)
-        return found
+            self._leave_out(self._indices(), mark)
 
-    def _indices(self) -> tuple[set[str], list[Name]]:
+    def _indices(self) -> set[str]:
         """The indices of a loop or of a reduction, and the names in their ranges."""
-        indices, ranges = set[str](), list[Name]()
+        indices = set[str]()
         while not indices or self._accept(","):
             indices.add(self._identifier())
             if self._accept("in"):
-                ranges += self._expression()
-        return indices, ranges
+                self._expression()
+        return indices
 
     # --- classes --------------------------------------------------------------------------------------------------
 
     def document(self) -> None:
         """A whole file."""
         if self.word == "within":
-            self._each(self._within)
+            mark = self._mark()
+            self._each(self._within_clause)
+            self._note("within", 0, mark)
         names: set[str] = set()
         while self.word:
             self._each(self._stored_class, names)
 
-    def _within(self) -> None:
-        self.within_line = self.line
+    def _within_clause(self) -> None:
+        self._within_line = self.line
         self._expect("within")
-        self.within = str(self._name()) if self.word != ";" else ""
+        self._within = str(self._name()) if self.word != ";" else ""
 
     def _stored_class(self, names: set[str]) -> None:
         prefixes = self._prefixes((("final",),))
         if self.word == "end":
             raise _FaultError("has an `end` too many", self.line)
-        if self.word not in CLASS_STARTS:
+        if self.word not in _CLASS_STARTS:
             raise self._lack("a class")
         self.open[-1].classes.append(self._class(names, prefixes))
 
-    def _prefixes(self, groups: Sequence[tuple[str, ...]]) -> set[str]:
+    def _prefixes(self, groups: Sequence[tuple[str, ...]], key: str = "prefixes") -> set[str]:
         """At most one of each group, in order."""
-        return {found for prefixes in groups if (found := self._accept(*prefixes))}
+        start = self.at
+        found = {found for prefixes in groups if (found := self._accept(*prefixes))}
+        if found and key:
+            self._note(key, start)
+        return found
 
     def _class(self, names: set[str], prefixes: set[str]) -> Class:
         """A class; `names` are those declared before in the class around it, `prefixes` those read already."""
-        prefixes |= self._prefixes(CLASS_PREFIXES)
-        kind = self._accept(*CLASSES)
+        start = self.at
+        prefixes |= self._prefixes(_CLASS_PREFIXES, "")
+        kind = self._accept(*_CLASSES)
         if not kind:
             raise self._lack("the kind of class")
         if kind == "operator" and (more := self._accept("record", "function")):
@@ -318,7 +377,9 @@ class SyntaxParser:
         is_extension = bool(self._accept("extends"))
         name = self._declared_name(names)
         found = Class(name, kind, frozenset(prefixes), is_extension=is_extension)
-        if not is_extension and self._accept("="):
+        is_short = not is_extension and bool(self._accept("="))
+        self._note("head", start)
+        if is_short:
             self._short_class(found)
             return found
         found.arguments = self._arguments() if is_extension else ()
@@ -328,14 +389,16 @@ class SyntaxParser:
         around = {str(one.name) for one in self.open}  # another name is a slip, unless it ends a class around this one
         if self.word != "end" or not is_name(end := self.following) or (end in around and end != str(name)):
             raise self._lack(f"`end {name}`")
-        self._step()
-        if self._step() != str(name):
-            self.faults.append(Fault(f"ends `{name}` with `end {end}`", self.tokens[self.at - 1].line))
+        self.at += 2
+        self._note("end", self.at - 2)
+        if end != str(name):
+            self.faults.append(Fault(f"ends `{name}` with `end {end}`", self.line_at(self.starts[self.at - 1])))
         self.open.pop()
         return found
 
     def _short_class(self, found: Class) -> None:
         """The part of a class behind its equals sign."""
+        start, mark = self.at, self._mark()
         if self._accept("enumeration"):
             names: set[str] = set()
             literals: list[str] = []
@@ -344,14 +407,14 @@ class SyntaxParser:
                     literals.append(str(self._declared_name(names)))
                     self._comment()
             found.literals = tuple(dict.fromkeys(literals))
+            self._note("definition", start, mark)
         elif self._accept("der"):
             for _ in self._list():
                 self._name()
             found.is_derivative = True
+            self._note("definition", start)
         else:
-            self._prefixes(TYPE_PREFIXES)
-            name = self._name()
-            self._subscripts()
+            _, name = self._type()
             found.alias = Extends(name, self._arguments())
         self._comment()
 
@@ -359,7 +422,11 @@ class SyntaxParser:
         """Elements, equations and algorithms up to the class's `end`."""
         names, equations = set[str](), set[str]()
         around, section = self.open[-1], "public"
-        while (word := self.word) not in ("end", ""):
+        while True:
+            self._seen = equations if section == "equation" else names
+            word, start = self._next_word(), self.at
+            if word in ("end", ""):
+                break
             if word == "initial" and self.following in ("equation", "algorithm"):
                 self._step()
             if found := self._accept(*SECTIONS):
@@ -367,37 +434,51 @@ class SyntaxParser:
             elif section in ("public", "protected") or word == "external":
                 self._each(self._element, names)
             else:
-                around.uses += self._each(self._equation, equations if section == "equation" else None)
+                self._each(self._equation, equations if section == "equation" else None)
+                around.uses += self._take_names(0)
+            self._note_statement(start)
             if word == "annotation" and self.word not in ("end", ""):
                 self.faults.append(Fault(f"goes on after the annotation of `{around.name}`", self.line))
 
     # --- elements -------------------------------------------------------------------------------------------------
 
     def _element(self, names: set[str]) -> None:
-        around = self.open[-1]
+        around, start, mark = self.open[-1], self.at, self._mark()
         if self.word == "annotation":
             self._annotation()
         elif self._accept("import"):
             around.imports.append(self._import())
+            self._note("import", start, mark)
         elif self._accept("extends"):
+            self._note("word", start)
             base = self._base()
             self._once(names, f"extends {base.type}", f"extends `{base.type}` twice")
             around.extends.append(base)
             self._annotation()
         elif self._accept("external"):
             self._external()
+            self._note("external", start, mark)
         else:
-            prefixes = self._prefixes(ELEMENT_PREFIXES)
-            if self.word in CLASS_STARTS:
+            prefixes = self._prefixes(_ELEMENT_PREFIXES)
+            if self.word in _CLASS_STARTS:
                 found = self._class(names, prefixes)
                 found.constraint = self._constraint()
                 around.classes.append(found)
             else:
                 around.components += self._components(names, prefixes)
 
+    def _type(self) -> tuple[set[str], Name]:
+        """Prefixes of a type, the type, and sizes of an array."""
+        start = self.at
+        prefixes, name = self._prefixes(_TYPE_PREFIXES, ""), self._name()
+        self._subscripts()
+        self._note("type", start)
+        return prefixes, name
+
     def _base(self) -> Extends:
         """A class with its modifiers."""
-        name = self._name()
+        start, name = self.at, self._name()
+        self._note("type", start)
         return Extends(name, self._arguments())
 
     def _import(self) -> ImportClause:
@@ -413,43 +494,64 @@ class SyntaxParser:
             self._expect("*")
         else:
             for _ in self._list("{", "}"):
-                line, start, short = self.line, self.tokens[self.at].start, self._identifier()
-                member = short
+                short = member = self._identifier()
                 if self._accept("="):
-                    line, start, member = self.line, self.tokens[self.at].start, self._identifier()
-                names[short] = name._replace(parts=(*name.parts, member), line=line, starts=(*name.starts, start))
+                    member = self._identifier()
+                start = self.starts[self.at - 1]
+                names[short] = name._replace(
+                    parts=(*name.parts, member), line=self.line_at(start), starts=(*name.starts, start)
+                )
         self._comment()
         return ImportClause(name, names)
 
     def _external(self) -> None:
         self._description()
-        found: list[Name] = []
+        mark = len(self._names)
         if self.word not in (";", "annotation"):
-            found += self._expression()
+            self._expression()
             if self._accept("="):
-                found += self._expression()
+                self._expression()
         # the function of the other language has a name of its own
-        self.open[-1].uses += [name for name in found if not name.is_called]
+        self.open[-1].uses += [name for name in self._take_names(mark) if not name.is_called]
         self._comment()
 
     def _components(self, names: set[str], prefixes: set[str]) -> list[Component]:
         """The components of one declaration."""
-        prefixes |= self._prefixes(TYPE_PREFIXES)
-        kind, sizes = self._name(), self._subscripts()
+        start, mark, names_mark = self.at, self._mark(), len(self._names)
+        more, kind = self._type()
+        sizes = self._take_names(names_mark)
         found: list[Component] = []
         while not found or self._accept(","):
-            name, uses = self._declared_name(names), [*sizes, *self._subscripts()]
-            arguments, values = self._modification()
-            condition = self._expression() if self._accept("if") else []
-            found.append(Component(name, kind, frozenset(prefixes), arguments, (*uses, *values, *condition)))
+            name = self._declared_name(names)
+            self._note("name", self.at - 1)
+            if not found and self._skips_rest():
+                return []
+            self._sizes()
+            arguments = self._modification()
+            condition = self.at
+            if self._accept("if"):
+                self._expression()
+                self._note("condition", condition)
+            uses = (*sizes, *self._take_names(names_mark))
+            found.append(Component(name, kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
         constraint = self._constraint()
-        return [msgspec.structs.replace(one, constraint=constraint) for one in found]
+        if found[1:]:  # in the tree, several components of one declaration stand or fall together
+            self._note("components", start, mark)
+        return [msgspec.structs.replace(one, constraint=constraint) for one in found] if constraint else found
+
+    def _sizes(self) -> None:
+        start = self.at
+        self._subscripts()
+        self._note("sizes", start)
 
     def _constraint(self) -> Extends | None:
+        start, mark = self.at, self._mark()
         if not self._accept("constrainedby"):
             return None
+        self._note("word", start)
         found = self._base()
+        self._note("constraint", start, mark)
         self._comment()
         return found
 
@@ -461,125 +563,148 @@ class SyntaxParser:
     def _description(self) -> None:
         """A description string, if there is one."""
         if self.word[:1] == '"':
+            start = self.at
             self._step()
             while self._accept("+"):
                 if self.word[:1] != '"':
                     raise self._lack("a string")
                 self._step()
+            self._note("description", start)
 
     def _annotation(self) -> None:
         """An annotation, if there is one; names have meanings of their own in it."""
         if self._accept("annotation"):
-            for one in self._arguments():
+            for one in self._arguments("annotation"):
                 if one.name.parts == ("uses",):
-                    self.libraries += (used.name.parts[0] for used in one.arguments)
+                    self._libraries += (used.name.parts[0] for used in one.arguments)
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 
-    def _modification(self) -> tuple[tuple[Modifier, ...], list[Name]]:
-        """Modifiers in parentheses and the names in a value; both may be missing."""
+    def _modification(self) -> tuple[Modifier, ...]:
+        """Modifiers in parentheses and a value; both may be missing."""
         arguments = self._arguments()
-        has_value = self._accept("=", ":=") and not self._accept("break")
-        return arguments, self._expression() if has_value else []
+        start, mark = self.at, self._mark()
+        if self._accept("=", ":="):
+            self._note("sign", start)
+            if not self._accept("break"):
+                self._expression()
+            self._note("expression", start + 1)
+            self._note("value", start, mark)
+        return arguments
 
-    def _arguments(self) -> tuple[Modifier, ...]:
+    def _arguments(self, key: str = "arguments") -> tuple[Modifier, ...]:
         """Modifiers in parentheses, if there are any."""
-        names: set[str] = set()
-        return tuple(found for _ in self._list() if (found := self._argument(names))) if self.word == "(" else ()
+        if self.word != "(" and key == "arguments":
+            return ()
+        start, mark, names = self.at - (key == "annotation"), self._mark(), set[str]()
+        found = tuple([one for _ in self._list() if (one := self._argument(names))])
+        self._note(key, start, mark)
+        return found
 
     def _argument(self, names: set[str]) -> Modifier | None:
         """One modifier; None for a connection that is taken away."""
-        prefixes = self._prefixes(ARGUMENT_PREFIXES)
+        start, mark, names_mark = self.at, self._mark(), len(self._names)
+        prefixes = self._prefixes(_ARGUMENT_PREFIXES)
         declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
         if self._accept("break"):
-            if not self._accept("connect"):
-                return Modifier(self._name())
-            self._expression()
-            return None
-        if declares and self.word in CLASS_STARTS:
+            if self._accept("connect"):
+                self._expression()
+                self._take_names(names_mark)
+                self._note(self._since(start), start, mark)
+                return None
+            name = self._name()
+            self._note(str(name), start, mark)
+            return Modifier(name)
+        if declares and self.word in _CLASS_STARTS:
             definition = self._class(names, prefixes)
-            return Modifier(definition.name, (), (), is_redeclared, definition.alias, self._constraint())
+            constraint = self._constraint()
+            self._note(str(definition.name), start, mark)
+            return Modifier(definition.name, (), (), is_redeclared, definition.alias, constraint)
         new_type: Extends | None = None
-        uses: list[Name] = []
         if declares:
-            self._prefixes(TYPE_PREFIXES)
-            new_type = Extends(self._name())
-            uses += self._subscripts()
+            new_type = Extends(self._type()[1])
+        at = self.at
         name = self._name()
+        self._note("name", at)
         if str(name) not in _REPEATABLE:
             self._once(names, str(name), f"sets `{name}` twice")
         if declares:
-            uses += self._subscripts()
-        arguments, values = self._modification()
+            self._sizes()
+        arguments = self._modification()
+        uses = self._take_names(names_mark)
         self._description()
         if declares:
             self._annotation()
-        return Modifier(name, arguments, (*uses, *values), is_redeclared, new_type, self._constraint())
+        constraint = self._constraint()
+        self._note(str(name), start, mark)
+        return Modifier(name, arguments, uses, is_redeclared, new_type, constraint)
 
     # --- equations and statements ---------------------------------------------------------------------------------
 
-    def _equation(self, seen: set[str] | None) -> list[Name]:
+    def _equation(self, seen: set[str] | None) -> None:
         """An equation, or a statement if `seen` is None: statements may be repeated."""
-        start, word, found = self.at, self.word, list[Name]()
+        start, mark, word = self.at, self._mark(), self.word
         if word == "annotation":
             self._annotation()
-            return []
-        if self._accept("if", "when", "for", "while"):
-            found = self._block(word, repeats=seen is None)
+            return
+        if self._accept(*_BLOCKS):
+            self._block(word, repeats=seen is None)
+            self._note("equation", start, mark)
         elif seen is None and self._accept("break", "return"):
             pass
         elif seen is not None and self._accept("connect"):
-            found = self._connect(seen)
+            self._connect(seen)
+            self._note("connect", start, mark)
         else:
             sign = ":=" if seen is None else "="
-            found = self._expression()
-            if self._accept(sign):
-                found += self._expression()
-            elif not (is_name(word) or word in _CALLED or word == ".") or self.tokens[self.at - 1].text != ")":
+            self._expression()
+            if self.word == sign:
+                self._note("left", start)
+                self._step()
+                self._expression()
+            elif not (is_name(word) or word in _CALLED or word == ".") or self.words[self.at - 1] != ")":
                 raise self._lack(f"`{sign}`")
+            self._note("equation", start, mark)
             if seen is not None:
                 text = self._since(start)
                 self._once(seen, text, f"has the equation `{_short(text)}` twice")
-        self._comment()
-        return found
+        if not self._skips_rest():
+            self._comment()
 
-    def _connect(self, seen: set[str]) -> list[Name]:
-        found, texts = list[Name](), list[str]()
+    def _connect(self, seen: set[str]) -> None:
+        texts = list[str]()
         for mark in ("(", ","):
             self._expect(mark)
             start = self.at
-            found += self._reference()
+            self._reference()
             texts.append(self._since(start))
+            self._note("end", start)
         self._expect(")")
         first, second = sorted(texts)
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
-        return found
 
-    def _block(self, kind: str, *, repeats: bool) -> list[Name]:
+    def _block(self, kind: str, *, repeats: bool) -> None:
         """The rest of an equation or statement that holds others, which may repeat each other."""
-        found, indices = list[Name](), set[str]()
+        start, mark = self.at - 1, len(self._names)
+        indices = set[str]()
         branch = kind
         while branch:
             if branch == "for":
-                indices, found = self._indices()
+                indices = self._indices()
             elif branch != "else":
-                found += self._expression()
+                self._expression()
+            if branch == kind:
+                self._note("header", start)
             if branch != "else":
                 self._expect("loop" if kind in ("for", "while") else "then")
             seen: set[str] | None = None if repeats else set()
             while self.word not in _BLOCK_ENDS:
-                found += self._each(self._equation, seen)
+                self._each(self._equation, seen)
             branch = self._accept(*_BRANCHES.get(kind, ())) if branch != "else" else ""
         if (self.word, self.following) != ("end", kind):
             raise self._lack(f"`end {kind}`")
-        self._step()
-        self._step()
-        return _without(indices, found)
-
-
-def _without(indices: Collection[str], names: Sequence[Name]) -> list[Name]:
-    """Return names but for those of indices."""
-    return [name for name in names if name.is_global or name.parts[0] not in indices]
+        self.at += 2
+        self._leave_out(indices, mark)
 
 
 def _short(text: str) -> str:

@@ -2,6 +2,7 @@
 
 Things have keys by which they are found in another version of the class: a component its name, a modifier its name, an
 equation what it says. Blanks and comments stand between the things, so they are part of the tree, but of no thing.
+Of an element or equation no more than its name is read, until somebody asks for its parts: most are never asked.
 """
 
 from __future__ import annotations
@@ -9,26 +10,15 @@ from __future__ import annotations
 import itertools
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from enum import Enum
 from functools import cached_property
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync.modelica.lexer import Token, is_name, lex
-from urdfsync.modelica.parser import (
-    ARGUMENT_PREFIXES,
-    CLASS_PREFIXES,
-    CLASS_STARTS,
-    CLASSES,
-    ELEMENT_PREFIXES,
-    SECTIONS,
-    TYPE_PREFIXES,
-    SyntaxParser,
-    read,
-)
-from urdfsync.modelica.syntax import Name
+from urdfsync.modelica.lexer import STATEMENT, Fault, is_name, lex, words_in
+from urdfsync.modelica.parser import SECTIONS, Parser
 
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
 """Annotations that say where something stands in a diagram, and what it looks like."""
@@ -37,8 +27,11 @@ _REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
 
 _INITIAL = "initial equation "
+_EQUATION = re.compile(rf"(?:{_INITIAL})?(?:equation|if|for|when) ")
+"""The beginning of the key of an equation that is no connection."""
 _PASSED = frozenset({"input", "output"})
 _OPEN, _CLOSED = frozenset("([{"), frozenset(")]}")
+_PUNCTUATION = _OPEN | _CLOSED | {",", ";"}
 _LONGEST_INTEGER = 20
 
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
@@ -48,6 +41,10 @@ _TAIL = frozenset({"external", "annotation"})
 
 Words: TypeAlias = tuple[str | float, ...]
 """What a text says: its tokens, numbers by their value, without blanks and comments. Integers stay integers."""
+
+
+class UnreadableError(Exception):
+    """An element or equation is no Modelica, or has two parts of one name."""
 
 
 class TreeKind(Enum):
@@ -65,70 +62,76 @@ class TreeKind(Enum):
     """Terms with `+` between them."""
 
 
-class Leaf(msgspec.Struct, frozen=True, eq=False, dict=True):
+_SEPARATORS = {TreeKind.LIST: ",", TreeKind.ARRAY: ",", TreeKind.SUM: "+"}
+
+
+class Leaf:
     """A text of which a change is no business of the parts in it: a number, a name, an expression, a statement."""
 
-    text: str
-    start: int
-    """Its place in the whole text, from 0."""
-    words: Words
+    def __init__(self, text: str, words: Words | None = None) -> None:
+        self.text = text
+        self._words = words
 
-    @property
-    def meaning(self) -> object:
-        """Equal for texts that say the same."""
-        return self.words
-
-    @property
-    def bare(self) -> object:
-        """Equal for texts that say the same, but for the layout of the diagram."""
-        return self.words
+    @cached_property
+    def words(self) -> Words:
+        """What it says; of a connection only its two ends, in alphabetical order."""
+        return words_of(self.text) if self._words is None else self._words
 
 
-class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
+class SyntaxTree:
     """A thing that consists of others."""
 
-    kind: TreeKind
-    parts: tuple[Part, ...]
-    start: int
-    opening: str = ""
-    closing: str = ""
-    """Blanks and comments before the closing bracket, and the bracket."""
-    is_function: bool = False
-    """Whether it is the body of a function: the order of its inputs and outputs counts."""
+    def __init__(
+        self,
+        kind: TreeKind,
+        parts: Sequence[Part],
+        opening: str = "",
+        closing: str = "",
+        *,
+        is_function: bool = False,
+    ) -> None:
+        """`closing` has the blanks and comments before the closing bracket, and the bracket.
+
+        `is_function` tells that it is the body of a function: the order of its inputs and outputs counts.
+        """
+        self.kind, self.opening, self.closing, self.is_function = kind, opening, closing, is_function
+        self._parts = parts
+
+    @property
+    def parts(self) -> Sequence[Part]:
+        """Its parts in the order of the text. Raises UnreadableError."""
+        return self._parts
+
+    def with_parts(self, parts: Sequence[Part]) -> SyntaxTree:
+        """Return the same tree with other parts."""
+        return SyntaxTree(self.kind, parts, self.opening, self.closing, is_function=self.is_function)
 
     @property
     def separator(self) -> str:
         """What stands between two parts."""
-        return {TreeKind.LIST: ",", TreeKind.ARRAY: ",", TreeKind.SUM: "+"}.get(self.kind, "")
+        return _SEPARATORS.get(self.kind, "")
 
     @cached_property
     def text(self) -> str:
         """The tree as it was read, every byte."""
-        last = len(self.parts) - 1
+        separators = [*(len(self.parts) - 1) * [self.separator], ""]
         inner = (
-            f"{part.before}{part.node.text}{part.after}{self.separator if number < last else ''}{part.remark}"
-            for number, part in enumerate(self.parts)
+            f"{part.before}{part.node.text}{part.after}{separator}{part.remark}"
+            for part, separator in zip(self.parts, separators, strict=False)
         )
         return "".join((self.opening, *inner, self.closing))
 
-    @cached_property
-    def meaning(self) -> object:
-        """Equal for trees that say the same in the same order."""
-        return self.kind, tuple((part.key, part.node.meaning) for part in self.parts)
+    def place_of(self, key: str) -> int:
+        """Return where the part with this key begins, from the beginning of the tree; 0 if it has none."""
+        return self._places.get(key, 0)
 
     @cached_property
-    def bare(self) -> object:
-        """Equal for trees that say the same, but for the order of declarations and the layout of the diagram."""
-        said = [
-            (part.key, section_name(self.sections[part.key]), part.node.bare)
-            for part in self.parts
-            if not (
-                (self.kind is TreeKind.LIST and part.key in LAYOUT)
-                or (part.key == "annotation" and is_empty(part.node))
-                or is_section(part.key)
-            )
-        ]
-        return self.kind, tuple(said if self.kind is TreeKind.ARRAY else sorted(said, key=lambda one: one[0]))
+    def _places(self) -> dict[str, int]:
+        places, end = dict[str, int](), len(self.opening)
+        for part in self.parts:
+            places[part.key] = end + len(part.before)
+            end = places[part.key] + len(part.node.text + part.after + self.separator + part.remark)
+        return places
 
     @cached_property
     def sections(self) -> dict[str, str]:
@@ -157,12 +160,34 @@ class SyntaxTree(msgspec.Struct, frozen=True, eq=False, dict=True):
     def _by_key(self) -> dict[str, Part]:
         return {part.key: part for part in self.parts}
 
+    def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
+        """Return its parts with their keys; without `layout`, no layout, no words of sections, and in no order."""
+        if layout:
+            return [(part.key, "", part.node) for part in self.parts]
+        said = [
+            (part.key, section_name(self.sections[part.key]), part.node)
+            for part in self.parts
+            if not (
+                (self.kind is TreeKind.LIST and part.key in LAYOUT)
+                or (part.key == "annotation" and is_empty(part.node))
+                or is_section(part.key)
+            )
+        ]
+        return said if self.kind is TreeKind.ARRAY else sorted(said, key=lambda one: one[:2])
+
+
+class Statement(SyntaxTree):
+    """An element or equation with its semicolon, which is read when its parts are asked for."""
+
+    def __init__(self, text: str, *, is_equation: bool) -> None:
+        super().__init__(TreeKind.SLOTS, ())
+        self.text = text
+        self._is_equation = is_equation
+
     @cached_property
-    def has_duplicate_keys(self) -> bool:
-        """Whether two things in it can't be told apart."""
-        return len(self._by_key) < len(self.parts) or any(
-            isinstance(part.node, SyntaxTree) and part.node.has_duplicate_keys for part in self.parts
-        )
+    def parts(self) -> Sequence[Part]:
+        """Its parts in the order of the text. Raises UnreadableError."""
+        return _TreeReader(self.text, {}).statement(is_equation=self._is_equation)
 
 
 Node: TypeAlias = Leaf | SyntaxTree
@@ -181,9 +206,28 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     """A comment behind it, and behind the separator if there is one, that ends the line."""
 
 
+def is_same(one: Node, other: Node, *, layout: bool = True) -> bool:
+    """Whether two things say the same; without `layout`, in any order of declarations and modifiers."""
+    if one is other or one.text == other.text:
+        return True
+    if isinstance(one, Leaf) or isinstance(other, Leaf):
+        return isinstance(one, Leaf) and isinstance(other, Leaf) and one.words == other.words
+    said, others = one.says(layout=layout), other.says(layout=layout)
+    return (
+        one.kind is other.kind
+        and [inner[:2] for inner in said] == [inner[:2] for inner in others]
+        and all(is_same(inner[2], its[2], layout=layout) for inner, its in zip(said, others, strict=True))
+    )
+
+
 def is_section(key: str) -> bool:
     """Whether a part of a body is the word that begins a section."""
     return key.startswith("section ")
+
+
+def is_equation(part: Part) -> bool:
+    """Whether a part of a body is an equation that is no connection."""
+    return _EQUATION.match(part.key) is not None
 
 
 def section_name(section: str) -> str:
@@ -198,47 +242,32 @@ def is_empty(node: Node) -> bool:
 
 def comments(text: str) -> list[str]:
     """Return the comments of a text."""
+    if "//" not in text and "/*" not in text:
+        return []
     tokens, _ = lex(text)
     places = [0, *(end for token in tokens for end in (token.start, token.start + len(token.text)))]
     gaps = (text[start:stop] for start, stop in zip(places[::2], places[1::2], strict=False))
     return [found for gap in gaps for found in re.findall(r"//[^\n\r]*|/\*.*?\*/", gap, re.DOTALL)]
 
 
-def read_tree(text: str) -> SyntaxTree | None:
-    """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name."""
-    reader = _TreeReader(text)
-    stored = read(reader)
-    if stored.faults or len(stored.classes) != 1:
-        return None
-    reader.at = 0  # again, with the same tokens
-    found = reader.file()
-    return None if found.has_duplicate_keys else found
-
-
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
     """Name equations by all that they say, in all versions of a body, if one of them has several for one variable."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
-    return tuple(
-        msgspec.structs.replace(tree, parts=tuple(_keyed(tree.parts, several))) if several else tree for tree in trees
-    )
+    return tuple(tree.with_parts(list(_keyed(tree.parts, several))) if several else tree for tree in trees)
 
 
 def _variable(part: Part) -> str:
     """What names an equation if it is the only one for its variable; empty for anything else."""
-    is_equation = isinstance(part.node, SyntaxTree) and part.node.find("equation")
-    return part.key.partition(" = ")[0] if is_equation else ""
+    return part.key.partition(" = ")[0] if is_equation(part) else ""
 
 
 def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
     for part in parts:
-        if (
-            _variable(part) in variables
-            and isinstance(part.node, SyntaxTree)
-            and isinstance(part.node.parts[0].node, Leaf)
-        ):
+        if _variable(part) in variables and isinstance(part.node, SyntaxTree):
             kind = _INITIAL if part.key.startswith(_INITIAL) else ""
-            part = msgspec.structs.replace(part, key=f"{kind}equation {_said(part.node.parts[0].node.words)}")
+            said = _said(words_of(part.node.parts[0].node.text))
+            part = msgspec.structs.replace(part, key=f"{kind}equation {said}")
         yield part
 
 
@@ -248,19 +277,16 @@ def as_sum(node: Node) -> Node:
         not isinstance(word, str) or not (is_name(word) or word == ".") for word in node.words
     ):
         return node
-    return SyntaxTree(TreeKind.SUM, _numbered([Part("", "", node)]), node.start)
+    return SyntaxTree(TreeKind.SUM, _numbered([Part("", "", node)]))
 
 
 def words_of(text: str) -> Words:
     """What a text says."""
-    tokens, _ = lex(text)
-    return _words(tokens[:-1])
+    return _words(words_in(text))
 
 
-def _words(tokens: Sequence[Token]) -> Words:
-    return tuple(
-        _number(token.text) if token.text[0].isdecimal() else token.text.replace("\r\n", "\n") for token in tokens
-    )
+def _words(tokens: Sequence[str]) -> Words:
+    return tuple(_number(token) if token[0].isdecimal() else token.replace("\r\n", "\n") for token in tokens)
 
 
 def _number(text: str) -> float:
@@ -293,334 +319,329 @@ def _drawn(words: Words) -> Words:
     return tuple(found)
 
 
-def _numbered(parts: Sequence[Part]) -> tuple[Part, ...]:
+def _numbered(parts: Sequence[Part]) -> list[Part]:
     """Items or terms with what they say as keys, but for where they are drawn; one may be there twice."""
     seen = Counter[str]()
     found = []
     for part in parts:
-        said = _said(_drawn(part.node.words) if isinstance(part.node, Leaf) else ())
+        said = _said(_drawn(words_of(part.node.text)))
         seen[said] += 1
         found.append(msgspec.structs.replace(part, key=f"{said} #{seen[said]}"))
-    return tuple(found)
+    return found
 
 
-class _TreeReader(SyntaxParser):
-    """Makes the tree of a text that the parser found right: it says how far each thing goes."""
+class Span(NamedTuple):
+    """A part of a text, by its tokens: from the one with the number `start` up to the one before `stop`."""
 
-    def __init__(self, text: str) -> None:
+    key: str
+    """Its role in what is around it, such as `type`, or the name of a modifier."""
+    start: int
+    stop: int
+    inner: Sequence[Span] = ()
+    body: SyntaxTree | None = None
+    """Of the body of a class, its elements and equations."""
+
+
+class KnownStatement(NamedTuple):
+    """An element or equation that a text before had, too."""
+
+    part: Part
+    names: Sequence[tuple[str, str]]
+    """What may be only once beside it, with the fault if it is there twice."""
+
+
+KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
+"""Elements and equations that are read already, by their section, and their text with the blanks before it."""
+
+
+def read_tree(text: str, known: KnownStatements | None = None) -> SyntaxTree | None:
+    """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name.
+
+    What is `known` is not read again, and what is read becomes known.
+    """
+    return _TreeReader(text, {} if known is None else known).file()
+
+
+def find_faults(text: str, known: KnownStatements) -> Sequence[Fault]:
+    """Return all that is wrong with a text, but for what is wrong inside of a known element or equation."""
+    return _TreeReader(text, known, reads_all=True).read().faults
+
+
+class _OpenBody:
+    """The body of a class, as far as it has been read."""
+
+    def __init__(self, mark: int, end: int, *, skips: bool) -> None:
+        self.skips = skips
+        """Whether only names of elements and equations are read."""
+        self.mark = mark
+        """How many spans there are before those of the element or equation that is being read."""
+        self.end = end
+        """Where the text ends that is in a part."""
+        self.parts: list[Part] = []
+        self.section = ""
+        """The words that began the section here, such as `initial equation`."""
+        self.sections = Counter[str]()
+        self.seen = set[str]()
+        """What may be only once beside the element or equation that is being read."""
+        self.names: list[tuple[str, str]] = []
+        """What this one adds to it."""
+
+    def add(self, part: Part, text: str, stop: int) -> None:
+        """Add a part that ends at this place in the text, and the comment behind it."""
+        found = _REMARK.match(text, stop)
+        remark = found[0].rstrip("\r") if found else ""
+        self.parts.append(msgspec.structs.replace(part, remark=remark) if remark else part)
+        self.end = stop + len(remark)
+
+
+class _TreeReader(Parser):
+    """Makes the tree of what the parser reads: it notes how far each part goes."""
+
+    def __init__(self, text: str, known: KnownStatements, *, reads_all: bool = False) -> None:
         super().__init__(text)
-        self._text = text
+        self._known, self._reads_all = known, reads_all
+        self._spans: list[Span] = []
+        self._body = _OpenBody(0, 0, skips=False)
+        """That of the innermost class around this place."""
         self._end = 0
         """Where the text ends that is in the tree."""
 
-    # --- parts ----------------------------------------------------------------------------------------------------
+    def file(self) -> SyntaxTree | None:
+        """Read the whole text; None if it is not one class that can be merged."""
+        try:
+            stored = self.read()
+            if stored.faults or len(stored.classes) != 1:
+                return None
+            parts = self._slots(self._spans)
+            return SyntaxTree(TreeKind.SLOTS, parts, closing=self.text[self._end :])
+        except UnreadableError:
+            return None
 
-    def _take(self) -> str:
-        """Go beyond one token, and return it."""
-        token = self.tokens[self.at]
-        self._step()
-        self._end = token.start + len(token.text)
-        return token.text
+    def statement(self, *, is_equation: bool) -> Sequence[Part]:
+        """Read one element or equation. Raises UnreadableError."""
+        self._each(self._equation if is_equation else self._element, set())
+        if self.faults or self.endless or self.word:
+            raise UnreadableError
+        return self._slots(self._spans)
 
-    def _blanks(self) -> str:
-        """What stands before the token that comes now."""
-        return self._text[self._end : self.tokens[self.at].start]
+    # --- what the parser notes --------------------------------------------------------------------------------------
 
-    def _leaf(self, key: str, start: int) -> Part:
-        """The tokens from the one with the number `start` up to here."""
-        tokens = self.tokens[start : self.at]
-        before, first, last = self._text[self._end : tokens[0].start], tokens[0].start, tokens[-1]
-        self._end = last.start + len(last.text)
-        return Part(key, before, Leaf(self._text[first : self._end], first, _words(tokens)))
+    def _mark(self) -> int:
+        return len(self._spans)
 
-    def _slot(self, key: str, read: Callable[[], object]) -> list[Part]:
-        """What a method of the parser reads, as a leaf; nothing if there is nothing."""
-        start = self.at
-        read()
-        return [self._leaf(key, start)] if self.at > start else []
+    def _note(self, key: str, start: int, mark: int | None = None) -> None:
+        inner = () if mark is None else tuple(self._spans[mark:])
+        if inner:
+            del self._spans[mark:]
+        if self.at > start:
+            self._spans.append(Span(key, start, self.at, inner))
 
-    def _separated(self, part: Part, separator: str) -> Part:
-        """A thing with the separator and the comment behind it, if they are there."""
+    def _composition(self) -> None:
+        around, mark = self._body, self._mark()
+        self._body = _OpenBody(mark, self._stop(self.at), skips=not self._reads_all)
+        super()._composition()
+        if not self._reads_all and not self.faults:
+            is_function = self.open[-1].kind.endswith("function")
+            (tree,) = key_by_whole_equation(SyntaxTree(TreeKind.BODY, self._body.parts, is_function=is_function))
+            self._spans.append(Span("body", self.at, self.at, (), _with_unique_keys(tree)))
+        self._body = around
+
+    def _next_word(self) -> str:
+        body = self._body
+        while self.at == len(self.words) and not body.section.endswith("algorithm"):
+            statement = STATEMENT.match(self.text, body.end)
+            known = statement and self._known.get((body.section, statement[0]))
+            if not statement or not known:
+                break
+            for key, reason in known.names:
+                if key in self._seen:
+                    line = self.line_at(body.end + len(known.part.before))
+                    self.faults.append(Fault(reason, line, is_repetition=True))
+                self._seen.add(key)
+            body.add(known.part, self.text, statement.end())
+            self.position = body.end
+        body.seen, body.names = self._seen, []
+        return self.word
+
+    def _once(self, seen: set[str], key: str, reason: str) -> None:
+        if seen is self._body.seen:
+            self._body.names.append((key, reason))
+        super()._once(seen, key, reason)
+
+    def _skips_rest(self) -> bool:
+        if not self._body.skips:
+            return False
+        depth, words = 0, self.words
+        for at in range(self.at, len(words)):
+            word = words[at]
+            if word not in _PUNCTUATION:
+                continue
+            if word == ";":  # unless it stands in a matrix
+                self.at = at if not depth else self.at
+                return not depth
+            if word == "," and not depth:  # several components in one declaration
+                return False
+            depth += (word in _OPEN) - (word in _CLOSED)
+        return False
+
+    def _note_statement(self, start: int) -> None:
+        body, words, text = self._body, self.words[start : self.at], self.text
+        first, stop = self.starts[start], self._stop(self.at)
+        before, said = text[body.end : first], text[first:stop]
+        if words[-1] in SECTIONS:
+            body.section = " ".join(words)
+            body.sections[body.section] += 1
+            part = Part(f"section {body.section} {body.sections[body.section]}", before, Leaf(said))
+        elif body.section.endswith("algorithm") and words[0] not in _TAIL:
+            previous = body.parts.pop()
+            if is_section(previous.key):
+                body.parts.append(previous)
+                part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(said))
+            else:  # all statements of a section are one part
+                said = f"{previous.node.text}{previous.remark}{before}{said}"
+                part = Part(previous.key, previous.before, Leaf(said))
+        elif self.faults or not body.skips:
+            part = Part("", before, Leaf(said))
+        else:
+            node = Statement(said, is_equation=body.section.endswith("equation") and words[0] not in _TAIL)
+            part = Part(self._key(self._spans[body.mark :]), before, node)
+            if words.index(";") == len(words) - 1:
+                self._known[body.section, before + said] = KnownStatement(part, body.names)
+        del self._spans[body.mark :]
+        body.add(part, text, stop)
+
+    def _key(self, spans: Sequence[Span]) -> str:
+        """Return what an element or equation is known by in other versions of the class."""
+        first = next(span for span in spans if span.key not in ("prefixes", "type"))
+        inner = self.words[first.start : first.stop]
+        if first.key == "import":
+            return f"import {inner[1]}" if "=" in inner[2:3] else _said(_words(inner))
+        if first.key == "word":
+            return f"extends {''.join(self.words[spans[1].start : spans[1].stop])}"
+        if first.key == "head":
+            return f"class {inner[-2] if inner[-1] == '=' else inner[-1]}"
+        if first.key in ("name", "components"):
+            names = [self.words[one.start] for one in first.inner or spans if one.key == "name"]
+            return f"component {', '.join(names)}"
+        if first.key == "connect":
+            return f"connect {' '.join(self._ends(first))}"
+        if first.key != "equation":
+            return first.key
+        kind = "initial equation " if self._body.section == "initial equation" else ""
+        ends = [span for span in first.inner if span.key in ("header", "left")]
+        if ends and ends[0].key == "header":
+            return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"
+        # an equation is named by a variable that stands alone on its left side
+        left = self.words[ends[0].start : ends[0].stop] if ends else []
+        is_alone = all(is_name(word) or word[0] in ".()[]" or word == "der" for word in left)
+        return f"{kind}equation {_said(_words(left if left and is_alone else inner))}"
+
+    def _ends(self, connection: Span) -> list[str]:
+        """The two connectors of a `connect(a, b)`, in alphabetical order."""
+        return sorted("".join(self.words[end.start : end.stop]) for end in connection.inner)
+
+    # --- the parts --------------------------------------------------------------------------------------------------
+
+    def _stop(self, at: int) -> int:
+        """Return where the token before the one with this number ends."""
+        return self.starts[at - 1] + len(self.words[at - 1])
+
+    def _blanks(self, at: int) -> str:
+        """Return what stands before a token, and go beyond it."""
+        before = self.text[self._end : self.starts[at]]
+        self._end = self.starts[at]
+        return before
+
+    def _said(self, stop: int) -> str:
+        """Return the text up to the token with this number, and go beyond it."""
+        text = self.text[self._end : self._stop(stop)]
+        self._end += len(text)
+        return text
+
+    def _slots(self, spans: Sequence[Span]) -> Sequence[Part]:
+        tree = SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans])
+        return _with_unique_keys(tree).parts
+
+    def _slot(self, span: Span) -> Part:
+        """Return a part of an element that has a role in it."""
+        if span.body:
+            self._end += len(span.body.text)
+            return Part("body", "", span.body)
+        before = self._blanks(span.start)
+        if span.key in ("value", "constraint"):
+            return Part(span.key, before, SyntaxTree(TreeKind.SLOTS, self._slots(span.inner)))
+        if span.key in ("arguments", "annotation"):
+            return Part(span.key, before, self._listed(span))
+        if span.key == "expression":
+            return Part(span.key, before, self._expressed(span))
+        words = tuple(self._ends(span)) if span.key == "connect" else None
+        return Part(span.key, before, Leaf(self._said(span.stop), words))
+
+    def _listed(self, span: Span) -> Node:
+        """Return modifiers in parentheses; `annotation` stands before them."""
+        begin, parts = self._end, list[Part]()
+        opening = self._said(span.start + 1 + (span.key == "annotation"))
+        for item in span.inner:
+            before = self._blanks(item.start)
+            is_whole = not item.inner or any(inner.key == "head" for inner in item.inner)
+            node = Leaf(self._said(item.stop)) if is_whole else SyntaxTree(TreeKind.SLOTS, self._slots(item.inner))
+            parts.append(self._separated(Part(item.key, before, node), item.stop, ","))
+        closing = self.text[self._end : self._stop(span.stop)]
+        self._end += len(closing)
+        if len({part.key for part in parts}) < len(parts):  # such as `choice`
+            return Leaf(self.text[begin : self._end])
+        return SyntaxTree(TreeKind.LIST, parts, opening, closing)
+
+    def _separated(self, part: Part, at: int, separator: str) -> Part:
+        """Return a part with the blanks before the separator, if that comes now, and the comment behind it."""
         after = ""
-        if self.word == separator:
-            after = self._blanks()
-            self._take()
-        return msgspec.structs.replace(part, after=after, remark=self._remark())
-
-    def _remark(self) -> str:
-        found = _REMARK.match(self._text, self._end)
+        if self.words[at] == separator:
+            after = self._blanks(at)
+            self._said(at + 1)
+        found = _REMARK.match(self.text, self._end)
         remark = found[0].rstrip("\r") if found else ""
         self._end += len(remark)
-        return remark
+        return msgspec.structs.replace(part, after=after, remark=remark)
 
-    def _slots(self, key: str, parts: Sequence[Part]) -> Part:
-        """A thing with the roles that were read; what stands before the first stands before the thing."""
-        first, *rest = parts
-        inner = msgspec.structs.replace(first, before="")
-        return Part(key, first.before, SyntaxTree(TreeKind.SLOTS, (inner, *rest), first.node.start))
+    def _expressed(self, span: Span) -> Node:
+        """Return an expression: a sum or an array of things that have names, or a leaf."""
+        depth, operators, items, terms = 0, set[str](), [span.start], [span.start]
+        for at in range(span.start, span.stop):
+            word = self.words[at]
+            depth += (word in _OPEN) - (word in _CLOSED)
+            if depth == 1 and word == ",":
+                items.append(at + 1)
+            elif depth == 1 and word == "for":
+                operators.add(word)
+            elif depth == 0 and not (is_name(word) or word in (".", ")", "]", "}")):
+                operators.add(word)
+                terms.append(at + 1)
+        if operators == {"+"} and terms[1] > span.start + 1:
+            return self._sequence(TreeKind.SUM, terms, span)
+        if self.words[span.start] == "{" and not operators and all(map(self._begins_with_name, items)):
+            return self._sequence(TreeKind.ARRAY, [span.start + 1, *items[1:]], span)
+        return Leaf(self._said(span.stop))
 
-    def _items(self, key: str, kind: TreeKind, read: Callable[[], Part]) -> Part:
-        """A list in brackets; `annotation` stands before its bracket."""
-        first, start, before = self.at, self.tokens[self.at].start, self._blanks()
-        end = self._end
-        while self._take() not in ("(", "{"):
-            pass
-        opening = self._text[start : self._end]
-        parts: list[Part] = []
-        while self.word not in (")", "}"):
-            parts.append(self._separated(read(), ","))
-        closing = self._blanks() + self._take()
-        if kind is TreeKind.LIST and len({part.key for part in parts}) < len(parts):  # such as `choice`
-            self._end = end
-            return self._leaf(key, first)
-        items = _numbered(parts) if kind is TreeKind.ARRAY else tuple(parts)
-        return Part(key, before, SyntaxTree(kind, items, start, opening, closing))
+    def _begins_with_name(self, at: int) -> bool:
+        word = self.words[at]
+        return is_name(word) or (word == "{" and is_name(self.words[at + 1]))
 
-    # --- expressions ----------------------------------------------------------------------------------------------
-
-    def _value(self) -> list[Part]:
-        if self.word not in ("=", ":="):
-            return []
-        sign = self._slot("sign", self._step)
-        return [self._slots("value", [*sign, self._whole_expression("expression")])]
-
-    def _whole_expression(self, key: str) -> Part:
-        """An expression: a sum or an array of things that have names, or a leaf."""
-        start = self.at
-        if self._accept("break"):
-            return self._leaf(key, start)
-        self._expression()
-        stop, self.at = self.at, start
-        depth, operators, items = 0, set[str](), [start]
-        for number, token in enumerate(self.tokens[start:stop], start=start):
-            depth += (token.text in ("(", "[", "{")) - (token.text in (")", "]", "}"))
-            if token.text == "," and depth == 1:
-                items.append(number + 1)
-            elif token.text == "for" and depth == 1:
-                operators.add("for")
-            elif depth == 0 and not (is_name(token.text) or token.text in (".", ")", "]", "}")):
-                operators.add(token.text)
-        if operators == {"+"} and self.word != "+":
-            return self._sum(key, stop)
-        if self.word == "{" and not operators and all(map(self._begins_with_name, items)):
-            return self._items(key, TreeKind.ARRAY, self._array_item)
-        self.at = stop
-        return self._leaf(key, start)
-
-    def _begins_with_name(self, number: int) -> bool:
-        return is_name(self.tokens[number].text) or (
-            self.tokens[number].text == "{" and is_name(self.tokens[number + 1].text)
-        )
-
-    def _array_item(self) -> Part:
-        start = self.at
-        self._expression()
-        return self._leaf("", start)
-
-    def _sum(self, key: str, stop: int) -> Part:
-        place, before, parts = self.tokens[self.at].start, self._blanks(), list[Part]()
-        self._end = place
-        while self.at < stop:
-            start, depth = self.at, 0
-            while self.at < stop and (depth or self.word != "+"):
-                depth += (self.word in ("(", "[", "{")) - (self.word in (")", "]", "}"))
-                self._step()
-            part = self._leaf("", start)
-            parts.append(self._separated(part, "+") if self.at < stop else part)
-        return Part(key, before, SyntaxTree(TreeKind.SUM, _numbered(parts), place))
-
-    # --- modifiers ------------------------------------------------------------------------------------------------
-
-    def _modifiers(self) -> list[Part]:
-        return [self._items("arguments", TreeKind.LIST, self._modifier)] if self.word == "(" else []
-
-    def _note(self) -> list[Part]:
-        """A description, an annotation, both or none."""
-        found = self._slot("description", self._description)
-        return (
-            [*found, self._items("annotation", TreeKind.LIST, self._modifier)] if self.word == "annotation" else found
-        )
-
-    def _modifier(self) -> Part:
-        start, end = self.at, self._end
-        parts = self._slot("prefixes", lambda: self._prefixes(ARGUMENT_PREFIXES))
-        declares = not {token.text for token in self.tokens[start : self.at]}.isdisjoint({"redeclare", "replaceable"})
-        if self.word == "break" or (declares and self.word in CLASS_STARTS):
-            self.at, self._end = start, end
-            found = self._argument(set())
-            return self._leaf(str(found.name) if found else _said(_words(self.tokens[start : self.at])), start)
-        if declares:
-            parts += self._slot("type", self._kind)
-        name = Name((), 0)
-
-        def read_name() -> None:
-            nonlocal name
-            name = self._name()
-
-        parts += self._slot("name", read_name)
-        if declares:
-            parts += self._slot("sizes", self._subscripts)
-        parts += [*self._modifiers(), *self._value(), *self._note(), *self._limits()]
-        return self._slots(str(name), parts)
-
-    def _kind(self) -> None:
-        """Prefixes of a type, and the type."""
-        self._prefixes(TYPE_PREFIXES)
-        self._name()
-        self._subscripts()
-
-    def _limits(self) -> list[Part]:
-        """A class after `constrainedby`, and the notes behind it."""
-        if self.word != "constrainedby":
-            return []
-        word = self._slot("word", self._step)
-        return [self._slots("constraint", [*word, *self._slot("type", self._name), *self._modifiers()]), *self._note()]
-
-    # --- classes --------------------------------------------------------------------------------------------------
-
-    def file(self) -> SyntaxTree:
-        """The whole text."""
-        parts: list[Part] = []
-        if self.word == "within":
-            parts += self._slot("within", lambda: self._each(self._within))
-        prefixes = self._slot("prefixes", lambda: self._accept("final"))
-        parts += [*prefixes, *self._class_parts(), *self._slot(";", self._step)]
-        return SyntaxTree(TreeKind.SLOTS, tuple(parts), 0, "", self._text[self._end :])
-
-    def _class_parts(self) -> list[Part]:
-        start = self.at
-        self._prefixes(CLASS_PREFIXES)
-        kind = self._accept(*CLASSES)
-        if kind == "operator":
-            kind = self._accept("record", "function")
-        is_extension = bool(self._accept("extends"))
-        self.name = self._identifier()
-        if not is_extension and self._accept("="):
-            return [self._leaf("head", start), *self._short_parts()]
-        head = [self._leaf("head", start), *(self._modifiers() if is_extension else ())]
-        head += self._slot("description", self._description)
-        name, body = self.name, self._body(is_function=kind == "function")
-        end = self.at
-        self._step()
-        self._step()
-        self.name = name
-        return [*head, body, self._leaf("end", end)]
-
-    def _short_parts(self) -> list[Part]:
-        """What stands behind the equals sign of a short class."""
-        if self.word not in ("enumeration", "der"):
-            return [*self._slot("type", self._kind), *self._modifiers(), *self._note()]
-        start = self.at
-        self._step()
-        depth = 1
-        self._step()
-        while depth:
-            depth += (self.word == "(") - (self.word == ")")
-            self._step()
-        return [self._leaf("definition", start), *self._note()]
-
-    def _body(self, *, is_function: bool) -> Part:
-        place, section, count = self._end, "public", Counter[str]()
-        parts: list[Part] = []
-        while self.word not in ("end", ""):
-            if self._begins_section():
-                start = self.at
-                self._accept("initial")
-                self._step()
-                section = _said(_words(self.tokens[start : self.at]))
-                count[section] += 1
-                part = self._leaf(f"section {section} {count[section]}", start)
-            elif self.word == "annotation":
-                part = self._slots("annotation", [*self._note(), *self._slot(";", self._step)])
-            elif section in ("public", "protected") or self.word == "external":
-                part = self._declaration()
-            elif section.endswith("algorithm"):
-                start = self.at
-                while self.word not in ("end", "", "annotation") and not self._begins_section():
-                    self._each(self._equation, None)
-                part = self._leaf(f"statements of {section} {count[section]}", start)
-            else:
-                part = self._equation_part(section)
-            parts.append(msgspec.structs.replace(part, remark=self._remark()))
-        (tree,) = key_by_whole_equation(SyntaxTree(TreeKind.BODY, tuple(parts), place, is_function=is_function))
-        return Part("body", "", tree)
-
-    def _begins_section(self) -> bool:
-        return self.word in SECTIONS or (self.word == "initial" and self.following in ("equation", "algorithm"))
-
-    def _declaration(self) -> Part:
-        start = self.at
-        if self._accept("import"):
-            alias = f"import {self.word}" if self.following == "=" else ""
-            self._import()
-            key, parts = alias or _said(_words(self.tokens[start : self.at])), [self._leaf("import", start)]
-        elif self._accept("external"):
-            self._external()
-            key, parts = "external", [self._leaf("external", start)]
-        elif self._accept("extends"):
-            parts = [self._leaf("word", start), *self._slot("type", self._name)]
-            key = f"extends {''.join(map(str, _words(self.tokens[start + 1 : self.at])))}"
-            parts += [*self._modifiers(), *self._note()]
-        else:
-            parts = self._slot("prefixes", lambda: self._prefixes(ELEMENT_PREFIXES))
-            if self.word in CLASS_STARTS:
-                parts += [*self._class_parts(), *self._limits()]
-                key = f"class {self.name}"
-            else:
-                key, more = self._component()
-                parts += more
-        return self._slots(key, [*parts, *self._slot(";", self._step)])
-
-    def _component(self) -> tuple[str, list[Part]]:
-        start, end = self.at, self._end
-        parts = self._slot("type", self._kind)
-        name = self.word
-        parts += [*self._slot("name", self._step), *self._slot("sizes", self._subscripts)]
-        parts += [*self._modifiers(), *self._value()]
-        if self.word == "if":
-            parts += self._slot("condition", lambda: (self._step(), self._expression()))
-        parts += self._note()
-        if self.word == ",":  # several components of one declaration stand or fall together
-            self.at, self._end = start, end
-            found = self._components(set(), set())
-            return f"component {', '.join(str(one.name) for one in found)}", [self._leaf("components", start)]
-        return f"component {name}", [*parts, *self._limits()]
-
-    def _equation_part(self, section: str) -> Part:
-        start, word = self.at, self.word
-        kind = "" if section == "equation" else f"{section} "
-        if word == "connect":
-            self._step()
-            self._connect(set())
-            leaf = self._leaf("connect", start)
-            ends = sorted(_connected(self.tokens[start : self.at]))
-            key = f"connect {' '.join(ends)}"
-            node = Leaf(leaf.node.text, leaf.node.start, tuple(ends))
-            parts = [msgspec.structs.replace(leaf, node=node)]
-        elif word in ("if", "when", "for"):
-            self._equation(set())
-            header = next(number for number in range(start, self.at) if self.tokens[number].text in ("then", "loop"))
-            key, parts = _said(_words(self.tokens[start:header])), [self._leaf("equation", start)]
-        else:
-            self._expression()
-            left = self.tokens[start : self.at]
-            if self._accept("="):
-                self._expression()
-            # an equation is named by a variable that stands alone on its left side
-            is_alone = all(is_name(one.text) or one.text[0] in ".()[]" or one.text == "der" for one in left)
-            named = left if is_alone and self.at > start + len(left) else self.tokens[start : self.at]
-            key, parts = f"equation {_said(_words(named))}", [self._leaf("equation", start)]
-        return self._slots(f"{kind}{key}", [*parts, *self._note(), *self._slot(";", self._step)])
+    def _sequence(self, kind: TreeKind, starts: Sequence[int], span: Span) -> SyntaxTree:
+        """Return a sum or an array, of which each item begins at one of these tokens."""
+        parts, has_bracket = list[Part](), kind is TreeKind.ARRAY
+        opening = self._said(span.start + 1) if has_bracket else ""
+        separators = [*(start - 1 for start in starts[1:]), span.stop - has_bracket]
+        for start, stop in zip(starts, separators, strict=True):
+            part = Part("", self._blanks(start), Leaf(self._said(stop)))
+            is_last = stop == separators[-1] and not has_bracket
+            parts.append(part if is_last else self._separated(part, stop, "," if has_bracket else "+"))
+        closing = self.text[self._end : self._stop(span.stop)] if has_bracket else ""
+        self._end += len(closing)
+        return SyntaxTree(kind, _numbered(parts), opening, closing)
 
 
-def _connected(tokens: Sequence[Token]) -> Iterator[str]:
-    """The two connectors of a `connect(a, b)`."""
-    depth, said = 0, ""
-    for token in tokens[2:-1]:
-        depth += (token.text == "[") - (token.text == "]")
-        if token.text == "," and not depth:
-            yield said
-            said = ""
-        else:
-            said += token.text
-    yield said
+def _with_unique_keys(tree: SyntaxTree) -> SyntaxTree:
+    """Return a tree in which each part has a key of its own. Raises UnreadableError."""
+    if len({part.key for part in tree.parts}) < len(tree.parts):
+        raise UnreadableError
+    return tree
