@@ -496,10 +496,11 @@ def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -
 
 
 def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
-    for name in ("..mo", ".base.mo", "x"):
-        (merged / ".urdfsync/replaced/ladder" / name).write_text("model X end X;")
-    edit(MODEL, "Real mine = 1", "Real mine = 2")
-    execute("build")
+    file = merged / ".urdfsync/replaced/ladder.json"
+    for text in ("", "x", "[]", '{"../x.mo": {"before": "x"}}', "\ud800", "[" * 100_000):
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text, errors="surrogatepass")
+        execute("build")
 
 
 # What is saved meanwhile

@@ -21,18 +21,17 @@ from urdfsync.engine.actions import DISPUTED, Action, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
-    DesiredFile,
+    File,
     OnDisk,
     decide,
     files_after,
     hold,
     keep_needed,
     pending_choices,
-    remembered_choices,
-    renewed_files,
+    valid_choices,
 )
 from urdfsync.modelica.literals import numbers_only
-from urdfsync.state.record import Choice, FileRecord
+from urdfsync.state.record import Choice, FileRecord, UsersChoice
 
 NAMES = ("Arm", "Base", "Cap")
 MAIN, PACKAGE = "Main.mo", "package.mo"
@@ -51,18 +50,18 @@ class Part:
         return f"part {self.name}"
 
 
-def package(parts: Collection[Part]) -> dict[str, DesiredFile]:
+def package(parts: Collection[Part]) -> dict[str, File]:
     """The files of a model, by path."""
     files = {}
     for name, law, number in map(dataclasses.astuple, parts):
         owner, record = f"part {name}", f"{name}Parameters"
         text = f"model {name}\n\n  {record} p;\n\nequation\n\n  {law};\n\nend {name};\n"
-        files[f"{name}.mo"] = DesiredFile(Role.MODEL, owner, text)
+        files[f"{name}.mo"] = File(Role.MODEL, owner, generated=text)
         text = f"record {record}\n\n  Real {law[0]} = {number};\n\nend {record};\n"
-        files[f"{record}.mo"] = DesiredFile(Role.RECORD, owner, text)
+        files[f"{record}.mo"] = File(Role.RECORD, owner, generated=text)
     used = "".join(f"  {name} {name.lower()};\n\n" for name in sorted(part.name for part in parts))
-    files[MAIN] = DesiredFile(Role.MODEL, "robot", f"model Main\n\n{used}end Main;\n")
-    files[PACKAGE] = DesiredFile(Role.PACKAGE, "robot", "package P\nend P;\n")
+    files[MAIN] = File(Role.MODEL, "robot", generated=f"model Main\n\n{used}end Main;\n")
+    files[PACKAGE] = File(Role.PACKAGE, "robot", generated="package P\nend P;\n")
     return files
 
 
@@ -88,7 +87,7 @@ class Project:
         self.parts: dict[int, Part] = {}
         self.files: dict[str, str] = {}
         self.recorded: dict[str, FileRecord] = {}
-        self.pending: dict[tuple[str, str], Choice] = {}
+        self.pending: dict[str, UsersChoice] = {}
         self.merging = False
         self._complete: dict[int, Part] = {}
         """The model of the last complete build."""
@@ -111,35 +110,38 @@ class Project:
                 del self.files[action.path]
         for action in actions:
             if action.writes and action.kind is not Kind.DELETE:
-                self.files[action.path] = merged.get(action.path, wanted[action.path].hash)
-        if any(action.held or action.kind is Kind.CONFLICT for action in actions):
-            self.recorded |= renewed_files(actions)
-            self.pending = pending_choices(actions)
-        else:
-            self.recorded = files_after(actions, self.recorded)
-            self._complete, self.pending = dict(self.parts), {}
+                self.files[action.path] = merged.get(action.path) or wanted[action.path].generated or ""
+        is_complete = not any(action.held or action.kind is Kind.CONFLICT for action in actions)
+        self.recorded = files_after(actions, self.recorded, is_complete=is_complete)
+        self.pending = {} if is_complete else pending_choices(actions, merged)
+        if is_complete:
+            self._complete = dict(self.parts)
         return actions
 
     def _decide(
-        self, wanted: Mapping[str, DesiredFile], choices: Mapping[str, Choice]
+        self, wanted: Mapping[str, File], choices: Mapping[str, Choice]
     ) -> tuple[tuple[Action, ...], dict[str, str]]:
         """The actions, and the texts that are merged; see `decide`."""
-        found = {path: self._found(path) for path in wanted.keys() | self.recorded.keys()}
         last = package(self._complete.values())
-        known = {
-            path: (last[path].role, last[path].owner) if path in last else (Role.RECORD, "") for path in self.recorded
-        }
-        planned = decide(self.recorded, wanted, found, self.moves(), known)
+        files = {}
+        for path in wanted.keys() | self.recorded.keys():
+            file = wanted.get(path) or last.get(path) or File(Role.RECORD, "")
+            generated = file.generated if path in wanted else None
+            record = self.recorded.get(path, FileRecord())
+            files[path] = File(file.role, file.owner, record, self._found(path), generated)
+        planned = decide(files, self.moves())
         conflicts = {a.path: self._conflict(a) for a in planned if a.reason in DISPUTED}
-        choices = {**remembered_choices(self.pending, planned), **choices}
-        resolved, merged = resolve(planned, conflicts, choices, self.merging)
+        sides = {one.path: one.sides for one in planned}
+        now = {path: UsersChoice(choice, sides[path]) for path, choice in choices.items() if path in sides}
+        made = {**valid_choices(self.pending, planned, is_pending=True), **now}
+        resolved, merged = resolve(planned, conflicts, made, self.merging)
         actions = keep_needed(
             [msgspec.structs.replace(action, result=merged.get(action.path)) for action in resolved],
             lambda path, gone: any(file not in gone and file != path for file in self.files),
             (),
         )
         records = [a for a in actions if a.reason in (Reason.UPDATE, Reason.MERGE) and a.role is Role.RECORD]
-        texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].hash) for a in records}
+        texts = {a.path: (self.files[a.path], merged.get(a.path) or wanted[a.path].generated or "") for a in records}
         numbers = {path for path, (old, new) in texts.items() if numbers_only(old, new)}
         return hold(actions, numbers, self.moves().values(), moves=False), merged
 

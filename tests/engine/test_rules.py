@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -14,14 +15,13 @@ from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
     ClassFolder,
-    DesiredFile,
-    OnDisk,
+    File,
     decide,
     decide_file,
     files_after,
-    remembered_choices,
+    valid_choices,
 )
-from urdfsync.state.record import Choice, FileRecord, sides_hash
+from urdfsync.state.record import Choice, FileRecord, UsersChoice, sides_hash
 
 
 @pytest.mark.parametrize(
@@ -60,25 +60,26 @@ paths = st.sampled_from("abcde")
 
 
 @st.composite
-def situations(
-    draw: st.DrawFn,
-) -> tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, OnDisk], dict[str, str]]:
+def situations(draw: st.DrawFn) -> tuple[dict[str, File], dict[str, str]]:
     """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
     recorded = {path: FileRecord(tuple(hashes)) for path, hashes in draw(st.dictionaries(paths, bases)).items()}
-    hashes = st.sampled_from("uvw12")
-    wanted = {path: DesiredFile(Role.MODEL, "", hash_) for path, hash_ in draw(st.dictionaries(paths, hashes)).items()}
+    wanted = draw(st.dictionaries(paths, st.sampled_from("uvw12")))
     found = draw(st.dictionaries(paths, hands))
     origins = draw(st.permutations(sorted(recorded)))
     pairs = zip(draw(st.permutations(sorted(wanted))), origins, strict=False)
-    return recorded, wanted, found, {new: old for new, old in pairs if new != old and draw(st.booleans())}
+    files = {
+        path: File(Role.MODEL, "", recorded.get(path, FileRecord()), found.get(path), wanted.get(path))
+        for path in recorded.keys() | wanted.keys()
+    }
+    return files, {new: old for new, old in pairs if new != old and draw(st.booleans())}
 
 
 @given(situations())
 def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
-    situation: tuple[dict[str, FileRecord], dict[str, DesiredFile], dict[str, str | None], Mapping[str, str]],
+    situation: tuple[dict[str, File], Mapping[str, str]],
 ) -> None:
-    recorded, _, found, _ = situation
-    actions = decide(*situation, dict.fromkeys(recorded, (Role.MODEL, "")))
+    files, moves = situation
+    actions = decide(files, moves)
     kinds = {action.path: action.reason for action in actions}
     assert len(kinds) == len(actions)
     moved = [action.origin for action in actions if action.reason is Reason.MOVE]
@@ -86,15 +87,14 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
     for action in actions:
         if action.reason is Reason.MOVE:
             assert kinds[action.origin or ""] in (Reason.MOVED_AWAY, Reason.CREATE, Reason.MOVE)
-            assert action.mine == found[action.origin or ""] != action.base
+            assert action.mine == files[action.origin or ""].on_disk != action.base
         if action.reason is Reason.MOVED_AWAY:
             assert action.path in moved
-        mine = found.get(action.path)
-        bases = recorded[action.path].hashes if action.path in recorded else ()
+        mine, bases = files[action.path].on_disk, files[action.path].record.hashes
         if action.reason is Reason.DELETE:
             assert bases == (mine,)
         if action.writes and mine not in (None, *bases, action.generated):
-            others = {one for old in recorded.values() for one in old.hashes}
+            others = {one for file in files.values() for one in file.record.hashes}
             assert action.path in moved or (action.reason is Reason.UPDATE and mine in others), (
                 "moved by hand, unedited"
             )
@@ -104,10 +104,12 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
 
 def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place."""
-    recorded = {f"{name}.mo": FileRecord((name,)) for name in "AB"}
-    wanted = {f"{name}.mo": DesiredFile(Role.MODEL, f"part {name}", f"new {name}") for name in "BC"}
-    found = {"A.mo": "mine", "B.mo": "B"}
-    actions = decide(recorded, wanted, found, {"B.mo": "A.mo", "C.mo": "B.mo"}, {"A.mo": (Role.MODEL, "part A")})
+    files = {
+        "A.mo": File(Role.MODEL, "part A", FileRecord(("A",)), "mine"),
+        "B.mo": File(Role.MODEL, "part B", FileRecord(("B",)), "B", "new B"),
+        "C.mo": File(Role.MODEL, "part C", generated="new C"),
+    }
+    actions = decide(files, {"B.mo": "A.mo", "C.mo": "B.mo"})
     assert {action.path: (action.reason, action.origin, action.base) for action in actions} == {
         "A.mo": (Reason.MOVED_AWAY, None, "A"),
         "B.mo": (Reason.MOVE, "A.mo", "A"),
@@ -127,21 +129,19 @@ def test_places_that_are_handed_on() -> None:
     ],
 )
 def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str | None, kind: Reason) -> None:
-    recorded = {"A.mo": FileRecord(("ours", "theirs"))}
-    wanted = {"A.mo": DesiredFile(Role.MODEL, "", generated)} if generated else {}
-    actions = decide(recorded, wanted, {"A.mo": mine}, {}, {"A.mo": (Role.MODEL, "")})
+    file = File(Role.MODEL, record=FileRecord(("ours", "theirs")), on_disk=mine, generated=generated)
+    actions = decide({"A.mo": file}, {})
     assert [action.reason for action in actions] == [kind]
-    (left,) = files_after(actions, recorded).values()
-    assert not left.is_ambiguous
-    again = decide({"A.mo": left}, wanted, {"A.mo": mine}, {}, {"A.mo": (Role.MODEL, "")})
+    (record,) = files_after(actions, {"A.mo": file.record}, is_complete=True).values()
+    assert not record.is_ambiguous
+    again = decide({"A.mo": msgspec.structs.replace(file, record=record)}, {})
     assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted the next time"
 
 
-def test_what_the_user_keeps_goes_before_any_hash() -> None:
-    recorded = {"A.mo": FileRecord(("mine",), is_users=True)}
-    known = {"A.mo": (Role.MODEL, "")}
-    assert decide(recorded, {}, {"A.mo": "mine"}, {}, known) == ()
-    (action,) = decide(recorded, {"A.mo": DesiredFile(Role.MODEL, "", "new")}, {"A.mo": "mine"}, {}, known)
+def test_what_the_user_keeps_overrides_hashes() -> None:
+    file = File(Role.MODEL, record=FileRecord(("mine",), is_users=True), on_disk="mine")
+    assert decide({"A.mo": file}, {}) == ()
+    (action,) = decide({"A.mo": msgspec.structs.replace(file, generated="new")}, {})
     assert action.reason is Reason.UNOWNED
 
 
@@ -162,7 +162,7 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
     origin = "old.txt" if kind is Reason.MOVE else None
     action = Action("a.txt", kind, Role.MODEL, "robot", base, generated, origin, mine=mine)
     conflict = find_conflict(action, [] if base is None else [base], mine, generated)
-    choices = {action.path: choice} if choice else {}
+    choices = {action.path: UsersChoice(choice, action.sides)} if choice else {}
     (result,), texts = resolve([action], {action.path: conflict}, choices, merging)
     text = texts.get(action.path)
     merged = conflict.merged(choice)
@@ -177,8 +177,8 @@ def test_no_text_of_the_users_gives_way_unless_he_says_so(
 
 def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
     """A stranger's state could have a file replaced by that."""
-    pending = {("a.mo", sides_hash("mine", "new")): Choice.TAKE}
+    pending = {"a.mo": UsersChoice(Choice.TAKE, sides_hash("mine", "new"))}
     actions = [
         Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Reason.KEEP, Reason.CONFLICT)
     ]
-    assert [remembered_choices(pending, [action]) for action in actions] == [{}, {"a.mo": Choice.TAKE}]
+    assert [valid_choices(pending, [action], is_pending=True) for action in actions] == [{}, pending]

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import edit, kinds, rename, run
+from support.networks import edit, rename, run
 
-from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit
 from urdfsync.state import file_operations
 
@@ -90,16 +89,6 @@ def test_a_first_build_keeps_what_somebody_puts_in_its_way(
     execute("build", code=Exit.CONFLICT)
     assert (project / R1).read_text() == MINE
     assert "80" in (project / R2).read_text()
-
-
-def test_what_went_before_the_save_was_seen_is_told(project: Path, save_in_between: SaveInBetween) -> None:
-    source = project / "ladder.json"
-    run()
-    set_ohms(source, 70)
-    rename("R2", "R3")
-    save_in_between(lambda: None)
-    told = kinds(run())
-    assert (told[R2], told[R1]) == (Reason.DELETE, Reason.CONFLICT)
 
 
 def test_what_is_kept_since_its_place_is_taken_is_told(project: Path, save_in_between: SaveInBetween) -> None:

@@ -1,4 +1,4 @@
-"""The folder of the last build: nothing in it is deleted or moved but what can be generated here."""
+"""The folder of the last build: no text in it is deleted but what is recorded and stored."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, configure, edit
+from support.networks import MANIFEST, configure, edit, own_model
 from support.replay import contents
 
 from urdfsync.files import digest
@@ -41,14 +41,13 @@ def move(project: Path, package: str = "Filter") -> None:
 
 @pytest.fixture
 def hostile(execute: Execute, project: Path) -> Path:
-    """A clone whose record says that a package of the user's is where the robot was; its texts are in the bases."""
+    """A clone whose record says that a package of the user's is where the robot was."""
     execute("build")
     for name, content in OWN.items():
         (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
         (project / "modelica/Mine" / name).write_bytes(content)
-    files = {f"modelica/Mine/{name}": FileRecord((digest(OWN[name]),)) for name in ("Pump.mo", "Resources/table.csv")}
-    rewrite(project / MANIFEST, package="Mine", folder="modelica/Mine", files=files)
-    store(project, OWN["Pump.mo"].decode())
+    record = FileRecord((digest(OWN["Pump.mo"]),))
+    rewrite(project / MANIFEST, package="Mine", folder="modelica/Mine", files={"modelica/Mine/Pump.mo": record})
     shutil.rmtree(project / "modelica/Ladder")
     return project
 
@@ -69,14 +68,18 @@ def test_a_strangers_manifest_deletes_nothing_of_the_users(
     assert contents(hostile / "modelica/Mine") == OWN
 
 
-def test_a_strangers_manifest_moves_no_edits(execute: Execute, hostile: Path) -> None:
-    mine = hostile / "modelica/Mine/Ladder.mo"
-    mine.write_text("within Mine;\nmodel Ladder\nend Ladder;\n")
-    written = FileRecord((digest(b"what urdfsync wrote"),))
-    store(hostile, "what urdfsync wrote")
-    rewrite(hostile / MANIFEST, files={"modelica/Mine/Ladder.mo": written})
+def test_a_text_that_is_recorded_and_stored_is_deleted(execute: Execute, hostile: Path) -> None:
+    store(hostile, OWN["Pump.mo"].decode())
     execute("build")
-    assert mine.read_text() == "within Mine;\nmodel Ladder\nend Ladder;\n"
+    assert "Pump.mo" not in contents(hostile / "modelica/Mine")
+
+
+def test_a_package_moves_together_with_new_templates(execute: Execute, project: Path) -> None:
+    execute("build")
+    own_model("  Real heat;")
+    move(project)
+    execute("build")
+    assert not (project / "modelica/Ladder").exists()
 
 
 def test_what_stays_is_told_once(hostile: Path, execute: Execute) -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import
-from urdfsync.state.record import Choice, FileRecord, Generator, Open, Record
+from urdfsync.state.record import Choice, FileRecord, Generator, Open, Record, UsersChoice
 from urdfsync.state.statefile import dumps, loads
 
 A, B = "a" * 64, "b" * 64
@@ -25,7 +25,7 @@ ARM = Record(
     imports={"tip.stl": (Import("Resources/tip.stl", A, B, 2, {"hull": [[0.0, 1.0]]}),)},
     files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,)), "modelica/Plant/Arm/Mine.mo": FileRecord((), is_users=True)},
 )
-OPEN = Open({("Arm.mo", B): Choice.MERGE}, {"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})
+OPEN = Open({"Arm.mo": UsersChoice(Choice.MERGE, B)}, {"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})
 TEXT = dumps(ARM)
 
 names = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)

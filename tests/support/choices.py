@@ -8,7 +8,7 @@ from typing import Any
 from urdfsync.config import Config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, UsersChoice
 
 
 def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **request: Any) -> BuildOptions:
@@ -17,5 +17,5 @@ def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **re
         return BuildOptions(**request)
     looked = build(loaded, loaded.robots, BuildOptions(**{**request, "dry": True}))
     sides = {action.path: action.sides for result in looked for action in result.actions}
-    made = {(path, sides[path]): choice for path, choice in choices.items() if path in sides}
+    made = {path: UsersChoice(choice, sides[path]) for path, choice in choices.items() if path in sides}
     return BuildOptions(choices=made, **request)

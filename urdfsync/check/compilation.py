@@ -30,6 +30,7 @@ from urdfsync.check.process import Limits
 from urdfsync.check.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, agrees, listed
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment
+from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.output.phrases import counted
 from urdfsync.workers import tell
@@ -92,8 +93,8 @@ class Compilation:
         package, probe = self._package, experiment.probe
         run = Simulation(probe.stop, probe.step)
         move = [CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")]
-        is_same = experiment.content == package.rendering.content
-        completed = package.generated if is_same else package.rendering.package(experiment.content)
+        is_same = experiment.content == package.generation.inputs.source.content
+        completed = package.generated if is_same else generated_texts(package.generation, experiment.content)
         jobs: dict[str, _Job] = {"completed": (completed, move)}
         if package.edits:
             jobs["edited"] = package.files.texts, move

@@ -18,8 +18,9 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Bench
 from urdfsync.engine.build import build
+from urdfsync.engine.generation import Generation, generate_robot, generated_texts
+from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.rendering import Rendering
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import files_that_use, has_word, text_of
@@ -74,7 +75,7 @@ class RobotPackage(msgspec.Struct):
     """The package of one robot as it is now."""
 
     robot: RobotConfig
-    rendering: Rendering
+    generation: Generation
     bench: Bench | None
     """How it is simulated; None if the domain does not say."""
     errors: tuple[Diagnostic, ...]
@@ -108,19 +109,20 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     (built,) = build(config, [robot], options)
     if built.failed:
         raise UrdfsyncError(*built.diagnostics)
-    rendering = Rendering(config, robot, options)
-    domain, snapshot = rendering.domain, rendering.snapshot
+    generation = generate_robot(inspect(config, robot, options))
+    domain, snapshot = generation.inputs.domain, generation.now.snapshot
     errors = [one for one in built.diagnostics if one.severity is Severity.ERROR]
-    on_disk, generated = package_texts(robot.folder), rendering.package(rendering.content)
+    on_disk, generated = package_texts(robot.folder), generated_texts(generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     models = tuple(domain.models(snapshot, robot.target, robot.options))
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
     keys = (key for action in built.actions for key in (action.path, action.origin) if key)
+    owners = {path: artifact.owner for path, artifact in generation.package.artifacts.items()}
     return RobotPackage(
         robot=robot,
-        rendering=rendering,
+        generation=generation,
         bench=domain.bench(snapshot, robot.target, robot.options),
         errors=tuple(dict.fromkeys(one for one in errors if not one.file.endswith(".mo"))),
         on_disk=on_disk,
@@ -128,7 +130,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         conflicting=bool(built.conflicts),
         generated=generated,
         written=frozenset(Path(os.path.relpath(config.root / key, robot.folder)).as_posix() for key in keys),
-        files=PackageTexts(robot.target.package, robot.folder, texts, rendering.owners, edited),
+        files=PackageTexts(robot.target.package, robot.folder, texts, owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,

@@ -63,19 +63,20 @@ def _check(
     config: Config, package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits, folder: Path
 ) -> None:
     """Check a package as far as this machine can; all that is found goes into the result."""
-    robot, rendering = package.robot, package.rendering
+    robot, inputs = package.robot, package.generation.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     result.freedoms = package.bench.freedoms if package.bench else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.errors)
-    result.add(map(rendering.source.locate, rendering.domain.cross_check(rendering.content, shown(robot.source))))
+    found = inputs.domain.cross_check(inputs.source.content, shown(robot.source))
+    result.add(map(inputs.source.locate, found))
     faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
     result.add(faults)
     if any(one.severity is Severity.ERROR for one in faults):
         result.gaps = ("nothing was compiled, since files have errors",)
         return
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
-    uses = [name for name, _ in rendering.domain.uses(robot.options)]
+    uses = [name for name, _ in inputs.domain.uses(robot.options)]
     needed = find_libraries(config, robot, contents, uses)
     names = check_names(package, needed.standard)
     result.add([*names.package, *names.users])
@@ -118,7 +119,8 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
         return None
     tell(f"{robot.name}: asking the reference")
     try:
-        arguments = robot.domain, package.rendering.content, shown(robot.source), robot.target, robot.options
+        content = package.generation.inputs.source.content
+        arguments = robot.domain, content, shown(robot.source), robot.target, robot.options
         (experiment,) = process.run(_experiments, *arguments, limits=limits)
     except UrdfsyncError as error:
         result.add(error.diagnostics)

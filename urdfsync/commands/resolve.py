@@ -9,6 +9,8 @@ import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
+import msgspec
+
 from urdfsync import config
 from urdfsync.commands import arguments, editor
 from urdfsync.commands.build import build_and_check
@@ -25,7 +27,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import find_conflicts
 from urdfsync.output.console import Console, first_lines
 from urdfsync.output.results import file_line, show_result, show_results
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, UsersChoice
 
 _LINES = 20
 """So many files are listed at most, without --verbose."""
@@ -99,13 +101,14 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
-    choices = {(action.path, action.sides): choice for _, action in targets.values()}
+    choices = {action.path: UsersChoice(choice, action.sides) for _, action in targets.values()}
     files: dict[str, Path] = {}
     if choice is Choice.EDIT:  # this plan has the texts of files that wait after another choice, too
         again = build(configuration, robots, arguments.request(args, console, dry=True, choices=choices))
         files = _edit([texts for result in again for texts in result.conflict_texts if texts.path in targets])
-    edited = {(path, targets[path][1].sides): file.read_bytes().decode() for path, file in files.items()}
-    request = arguments.request(args, console, dry=args.dry_run, choices=choices, edited=edited)
+    for path, file in files.items():
+        choices[path] = msgspec.structs.replace(choices[path], text=file.read_bytes().decode())
+    request = arguments.request(args, console, dry=args.dry_run, choices=choices)
     results = show_results(console, build_and_check(configuration, robots, request))
     accepted, problems = _compare(targets, results, choice)
     remaining = {path: file for path, file in files.items() if args.dry_run or path not in accepted}

@@ -26,7 +26,8 @@ from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.inputs import NO_MODEL, inspect
+from urdfsync.engine.inputs import inspect
+from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
 from urdfsync.engine.result import Exit, Result
@@ -120,8 +121,8 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     if result.failed:
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
-    last, found = inputs.last, result.changes
-    missing = "" if last else "the record of the last build is lost" if inputs.record else "never built"
+    last, found = inputs.last.version, result.changes
+    missing = "" if last else "the record of the last build is lost" if inputs.last.is_recorded else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and found is not None and (found.changes or found.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
@@ -238,14 +239,15 @@ def _read(
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
-    recorded = imports.Recorded({key: (one,) for key, one in known.imports.items()}, known.contents.get)
-    imported = imports.bring_in(
+    recorded = imports.RecordedImports({key: (one,) for key, one in known.imports.items()}, known.contents.get, {})
+    imported = imports.import_files(
         domain,
         dependencies,
         recorded,
         text.name,
-        again=False,
-        progress=lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+        lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+        is_anew=False,
+        has_moved=False,
     )
     found = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
     return Version(snapshot, imported.imports), imported, found

@@ -1,4 +1,4 @@
-"""What a build does with each file of a robot, and why."""
+"""Actions: a build writes, deletes or leaves each file of a robot, for one reason."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfsync.state.record import Choice, sides_hash
 
 
 class Kind(enum.StrEnum):
-    """What happens to a file."""
+    """An effect on a file."""
 
     WRITE = "write"
     DELETE = "delete"
@@ -41,68 +41,67 @@ class FileStatus(enum.StrEnum):
 class Reason(enum.Enum):
     """Why something happens to a file. What happens, and all words about it, follow."""
 
-    # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
-    # Then what a dry run says of n such files, and what a build does: in this order, where it says anything.
+    # Kind, status (None where there is no file any more), text: the end of a sentence about the path.
+    # Then what a dry run says of n such files, and a build if it says something else: in this order.
     UPDATE = (
-        ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed"),
-        ("{n} file{s} to write", "{n} file{s} written"),
+        *(Kind.WRITE, FileStatus.STALE, "its generated text changed"),
+        *("{n} file{s} to write", "{n} file{s} written"),
     )
-    CREATE = ("create", Kind.WRITE, FileStatus.STALE, "new"), ("", "")
+    CREATE = Kind.WRITE, FileStatus.STALE, "new"
     RESTORE = (
-        ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it"),
-        ("{n} to restore", "{n} restored because you deleted {them}"),
+        *(Kind.WRITE, FileStatus.MISSING, "you deleted it"),
+        *("{n} to restore", "{n} restored because you deleted {them}"),
     )
-    DELETE = ("delete", Kind.DELETE, FileStatus.STALE, "no longer generated"), ("{n} to delete", "{n} deleted")
+    DELETE = Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
     ADOPT = (
-        ("adopt", Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text"),
-        ("{n} already equal to the generated text",) * 2,
+        *(Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text"),
+        "{n} already equal to the generated text",
     )
     MERGE = (
-        ("merge", Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged"),
-        ("{n} to merge with your edits", "{n} merged with your edits"),
+        *(Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged"),
+        *("{n} to merge with your edits", "{n} merged with your edits"),
     )
     UNDO = (
-        ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build"),
-        ("{n} to give back as you had {them}", "{n} given back as you had {them}"),
+        *(Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build"),
+        *("{n} to give back as you had {them}", "{n} given back as you had {them}"),
     )
     MOVE = (
-        ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here"),
-        ("{n} to move with your edits", "{n} moved with your edits"),
+        *(Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here"),
+        *("{n} to move with your edits", "{n} moved with your edits"),
     )
     INCLUDED = (
-        ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new"),
-        ("{n} that you edited already {have} what is new",) * 2,
+        *(Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new"),
+        "{n} that you edited already {have} what is new",
     )
     KEEP = (
-        ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it"),
-        ("{n} kept because you edited {them}",) * 2,
+        *(Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it"),
+        "{n} kept because you edited {them}",
     )
     ORPHAN = (
-        ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept"),
-        ("{n} no longer generated but kept because you edited {them}",) * 2,
+        *(Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept"),
+        "{n} no longer generated but kept because you edited {them}",
     )
     NEEDED = (
-        ("needed", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept"),
-        ("{n} no longer generated but kept because your files need {them}",) * 2,
+        *(Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept"),
+        "{n} no longer generated but kept because your files need {them}",
     )
     CONFLICT = (
-        ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too"),
-        ("{n} conflict{s}",) * 2,
+        *(Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too"),
+        "{n} conflict{s}",
     )
-    UNOWNED = (
-        ("unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"),
-        ("", ""),
-    )
-    UNCHANGED = ("unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"), ("", "")
-    MOVED_AWAY = (
-        ("moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"),
-        ("", ""),
-    )
-    FORGET = ("forget", Kind.LEAVE, None, "no longer generated, and already gone"), ("", "")
+    UNOWNED = Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
+    UNCHANGED = Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
+    MOVED_AWAY = Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
+    FORGET = Kind.LEAVE, None, "no longer generated, and already gone"
 
-    def __init__(self, row: tuple[str, Kind, FileStatus | None, str], phrases: tuple[str, str]) -> None:
-        self.word, self.kind, self.status, self.text = row
-        self.to_do, self.done = phrases
+    def __init__(self, kind: Kind, status: FileStatus | None, text: str, to_do: str = "", done: str = "") -> None:
+        self.kind, self.status, self.text = kind, status, text
+        self.to_do, self.done = to_do, done or to_do
+
+    @property
+    def word(self) -> str:
+        """Its name in JSON."""
+        return self.name.lower().replace("_", "-")
 
     def __deepcopy__(self, _memo: object) -> Self:
         return self
@@ -117,7 +116,7 @@ USERS = frozenset(
 
 
 class Action(msgspec.Struct, frozen=True):
-    """What happens to one file, and the hashes that the decision rests on; `path` is as in the record."""
+    """The decision about one file, and the hashes that it rests on; `path` is the file's key."""
 
     path: str
     reason: Reason
@@ -138,7 +137,7 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def kind(self) -> Kind:
-        """What happens to the file, once it waits for nothing."""
+        """The effect on the file, once it waits for nothing."""
         return self.reason.kind
 
     @property
@@ -153,7 +152,7 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def waits_for(self) -> str:
-        """What it waits for, if it does, as a clause."""
+        """The reason why it waits, as a clause; empty if it does not."""
         if not self.held:
             return ""
         waits = "resolved, waits until the other" if self.choice else "waits until the"

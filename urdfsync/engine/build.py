@@ -17,7 +17,6 @@ from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, StateError, UrdfsyncError
-from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
 
 
 WAITING = "waiting for"
-"""What progress says while another process builds, before the name of that one."""
+"""Words of progress while another process builds, before the name of that one."""
 _ATTEMPTS = 5
 """Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
 
@@ -106,7 +105,7 @@ class _Builder:
 
     def _plan_and_write(self, robot: RobotConfig) -> Plan:
         """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
-        saved, first = robot.folder, None
+        saved = robot.folder
         for _ in range(_ATTEMPTS):
             self._recover()
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
@@ -114,17 +113,16 @@ class _Builder:
                 if self._is_current(plan):
                     return plan
                 continue
-            told = _joined(first, plan) if first else plan
             if plan.is_noop and not plan.writes and not self._transactions.is_pending():
-                return told
+                return plan
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
-            not_done = self._write(robot, plan)
-            if not not_done:
-                return told
-            saved, first = not_done[0], told
+            overtaken = self._write(robot, plan)
+            if not overtaken:
+                return plan
+            saved = overtaken[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
@@ -145,7 +143,7 @@ class _Builder:
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}
-        return Store(self._config.root).is_unchanged(plan.witness, targets)
+        return Store(self._config.root).is_unchanged(plan.state, targets)
 
     def _recover(self) -> None:
         """Wait for a build that is writing; finish what a killed build left."""
@@ -163,22 +161,3 @@ class _Builder:
 
     def _wait(self) -> None:
         self._options.progress(f"{WAITING} {self._lock.holder()}, which is building", 0, 1)
-
-
-def _joined(first: Plan, second: Plan) -> Plan:
-    """Return what was done by two plans of one robot, of which somebody's save overtook the first.
-
-    What the first one wrote and the second one finds in order is told as it was done; what was saved is told anew.
-    """
-    known = {action.path for action in second.actions}
-    done = {action.path: action for action in first.actions if action.writes}
-    in_order = (Reason.UNCHANGED, Reason.ADOPT, Reason.INCLUDED, Reason.FORGET)
-    actions = [done.get(one.path, one) if one.reason in in_order else one for one in second.actions]
-    deleted = [one for path, one in done.items() if path not in known and one.kind is Kind.DELETE]
-    return msgspec.structs.replace(
-        second,
-        actions=Actions([*actions, *deleted]),
-        diagnostics=tuple(dict.fromkeys((*first.diagnostics, *second.diagnostics))),
-        changes=second.changes or first.changes,
-        writes=(*first.writes, *second.writes),
-    )

@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.package_files import text_hash
-from urdfsync.state.record import Choice
+from urdfsync.state.record import Choice, UsersChoice
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
@@ -41,15 +41,13 @@ class Conflict(msgspec.Struct, frozen=True):
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     kept: str = ""
     """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
-    edited: str | None = None
-    """What the user has made of both sides."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
 
-    def merged(self, choice: Choice | None) -> str | None:
-        """Return the merged text that a choice asks for; None if there is none."""
+    def merged(self, choice: Choice | None, edited: str | None = None) -> str | None:
+        """Return the merged text that a choice asks for; None if there is none. `edited` is the user's own."""
         if choice is Choice.EDIT:
-            return self.edited
+            return edited
         if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
             return self.merge.text if self.merge else None
         return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
@@ -94,7 +92,7 @@ def find_conflict(
 
 
 def resolve(
-    actions: Iterable[Action], conflicts: Mapping[str, Conflict], choices: Mapping[str, Choice], merging: bool
+    actions: Iterable[Action], conflicts: Mapping[str, Conflict], choices: Mapping[str, UsersChoice], merging: bool
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Decide on every file that both sides changed, and on orphans that the user decided about.
 
@@ -116,29 +114,30 @@ def resolve(
 
 
 def _outcome(
-    action: Action, conflict: Conflict | None, choice: Choice | None, merging: bool
+    action: Action, conflict: Conflict | None, chosen: UsersChoice | None, merging: bool
 ) -> tuple[Reason, Choice | None, str | None]:
     """Return what happens to a file, the choice that counts, and the text that it gets if that is not the generated."""
-    merged = conflict.merged(choice) if conflict else None
+    choice = chosen.choice if chosen else None
+    merged = conflict.merged(choice, chosen.text if chosen else None) if conflict else None
     if conflict and choice is Choice.EDIT and merged == conflict.mine:
         choice, merged = Choice.KEEP, None
     if action.reason is Reason.ORPHAN:
-        if choice is Choice.TAKE and action.mine is not None:
+        if choice is Choice.TAKE and action.is_on_disk:
             return Reason.DELETE, choice, None
         return (Reason.FORGET, choice, None) if choice is Choice.KEEP else (Reason.ORPHAN, None, None)
     if action.reason is Reason.MOVE and conflict:
         text = None if choice is Choice.TAKE else conflict.kept if choice is Choice.KEEP else merged
         return Reason.CONFLICT if text is None and choice is not Choice.TAKE else Reason.MOVE, choice, text
-    if action.reason is Reason.KEEP and choice is Choice.TAKE and action.is_on_disk:
-        return Reason.UPDATE, choice, None
-    if action.kind is not Kind.CONFLICT:
+    if action.reason is not Reason.KEEP and action.kind is not Kind.CONFLICT:
         return action.reason, action.choice, None
+    if choice is Choice.TAKE and action.is_on_disk:
+        return Reason.UPDATE, choice, None
+    if action.reason is Reason.KEEP:
+        return Reason.KEEP, action.choice, None
     if conflict and merged == conflict.mine:  # by a preference for the user's side, which has to be remembered
         return (Reason.KEEP, choice, None) if choice in PREFERENCES else (Reason.INCLUDED, None, None)
     if choice is Choice.KEEP:
         return Reason.KEEP, choice, None
-    if choice is Choice.TAKE and action.is_on_disk:
-        return Reason.UPDATE, choice, None
     if merged is not None and (choice in BOTH_SIDES or merging):
         return Reason.MERGE, choice, merged
     return action.reason, choice, None

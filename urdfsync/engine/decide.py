@@ -1,4 +1,4 @@
-"""The decision about one robot's package: reads its files, applies the rules, and resolves conflicts."""
+"""The decision about one robot's package: looks at its files, applies the rules, and resolves conflicts."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
@@ -15,20 +14,19 @@ from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import decide, hold, keep_needed, remembered_choices, valid_choices
+from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, hold, keep_needed, valid_choices
 from urdfsync.engine.undo import apply_undo
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import Choice
+from urdfsync.state.record import UsersChoice, role_of
 
-_GONE = frozenset({Reason.DELETE, Reason.MOVED_AWAY, Reason.ORPHAN, Reason.NEEDED, Reason.FORGET})
-"""Actions on files that are not generated any more."""
 _MARKER = r"(?m)^(?:<{7,}|>{7,}) "
-"""A merge marker of git; a line of equal signs alone may be an ornament."""
+"""A merge marker of git. `=======` alone is also a rule of a comment."""
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -37,14 +35,18 @@ class Decision(msgspec.Struct, frozen=True):
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
-    conflicts: tuple[Conflict, ...] = ()
-    """The texts of the files in conflict."""
-    moved: Mapping[str, Conflict] = {}
-    """The texts of edited files that move with their elements, by key."""
+    disputed: Mapping[str, Conflict] = {}
+    """The texts of files that both sides changed, and of edited ones that move, by key."""
     shared: tuple[SharedFile, ...] = ()
-    """What to do with files around the package."""
+    """Changes of files around the package."""
     misfits: tuple[Misfit, ...] = ()
-    """What means nothing in the user's files."""
+    """Names in the user's files that mean nothing, and texts that are no Modelica."""
+
+    @property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """The texts of the files in conflict."""
+        keys = [action.path for action in self.actions if action.kind is Kind.CONFLICT]
+        return tuple(self.disputed[key] for key in keys if key in self.disputed)
 
     @property
     def is_complete(self) -> bool:
@@ -57,59 +59,76 @@ def decide_package(generation: Generation) -> Decision:
 
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
-    inputs, files = generation.inputs, generation.inputs.files
-    recorded, desired, known = inputs.recorded_files, generation.desired_files(), generation.recorded_roles()
-    roles = {key: role for key, (role, _) in known.items()} | {key: one.role for key, one in desired.items()}
-    users = {key for key, one in recorded.items() if one.is_users} - desired.keys()
-    on_disk = {key: files.on_disk(key, role) for key, role in roles.items() if key not in users}
-    actions = _leave_strangers(generation, decide(recorded, desired, on_disk, generation.moves, known))
-    if inputs.options.adopts:
-        actions = tuple(_as_edit(action) if action.reason is Reason.UNOWNED else action for action in actions)
+    inputs, files, last = generation.inputs, generation.inputs.files, generation.inputs.last
+    actions = tuple(_as_can_be(inputs, action) for action in decide(_find_files(generation), generation.moves))
     chosen = valid_choices(inputs.options.choices, actions)
-    actions, undone = apply_undo(generation, actions, chosen)
+    actions, undone = apply_undo(inputs, actions, chosen)
 
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = renamed(generation) if disputed else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
-    pending = inputs.record.open.choices if inputs.record and inputs.record.open else {}
-    keys = {path: path if path in recorded else inputs.key(path) for path, _ in pending}
-    remembered = remembered_choices({(keys[path], sides): one for (path, sides), one in pending.items()}, actions)
-    choices = {**remembered, **chosen}
-    conflicts = _without_misfits(generation, actions, conflicts, choices)
+    pending = last.record.open.choices if last.record.open else {}
+    # what is in a former folder has its key there
+    pending = {path if path in last.files else inputs.folder.key(path): choice for path, choice in pending.items()}
+    choices = {**valid_choices(pending, actions, is_pending=True), **chosen}
+    conflicts, choices = _without_misfits(generation, actions, conflicts, choices)
     actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     merged |= undone
     actions = _keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
-    _refuse_markers(inputs, actions, orders.keys())
+    _refuse_markers(files, actions, orders.keys())
     has_conflicts = any(action.kind is Kind.CONFLICT for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
-    return Decision(
-        held,
-        {**orders, **merged},
-        tuple(
-            conflicts[action.path] for action in actions if action.kind is Kind.CONFLICT and action.path in conflicts
-        ),
-        {
-            action.path: conflicts[action.path]
-            for action in actions
-            if action.reason is Reason.MOVE and action.path in conflicts
-        },
-        tuple(file for file in shared if files.key(file.path) not in waiting),
-        tuple(find_misfits(generation, held, merged)),
-    )
+    shared = [file for file in shared if files.key(file.path) not in waiting]
+    misfits = find_misfits(generation, held, merged)
+    return Decision(held, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
 
 
-def _as_edit(action: Action) -> Action:
-    """Keep a file that urdfsync did not write as an edit of the generated one."""
-    return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
+def _find_files(generation: Generation) -> dict[str, File]:
+    """Return every file that is recorded or generated, as it is on disk, by key."""
+    inputs, last = generation.inputs, generation.inputs.last
+    found = dict[str, File]()
+
+    def add(key: str, role: Role, owner: str, generated: str | None) -> None:
+        record = last.files.get(key, NEVER_WRITTEN)
+        # the user's own file is not looked at
+        on_disk = None if generated is None and record.is_users else inputs.files.on_disk(key, role)
+        found[key] = File(role, owner, record, on_disk, generated)
+
+    for path, artifact in generation.package.artifacts.items():
+        add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
+    for name, entry in generation.imported.imports.items():
+        add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
+    before = last.package.artifacts if last.package else {}
+    for key in last.files.keys() - found.keys():
+        path = last.folder.path(key)
+        add(
+            key,
+            before[path].role if path in before else role_of(path),
+            before[path].owner if path in before else "",
+            None,
+        )
+    return found
+
+
+def _as_can_be(inputs: Inputs, action: Action) -> Action:
+    """Delete no text that could not be given back; let `adopt` take files that are there for edits."""
+    if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
+        return msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    if action.reason is Reason.UNOWNED and inputs.options.adopts:
+        return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
+    return action
 
 
 def renamed(generation: Generation) -> Mapping[str, str]:
     """Return new names by the old ones, of all that has got another one since the last complete build."""
-    if not _takes_names_away(generation):
+    changes = generation.changes
+    # no name is gone if only numbers changed
+    is_structural = changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
+    if not generation.inputs.last.files or not is_structural:
         return {}
     from urdfsync.engine.package_names import renamed_names
 
@@ -118,90 +137,56 @@ def renamed(generation: Generation) -> Mapping[str, str]:
 
 def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
-    key, files = action.origin or action.path, generation.inputs.files
-    mine, generated = files.text(key), generation.content(action.path).decode()
-    record = generation.inputs.recorded_files.get(key)
+    key, files, last = action.origin or action.path, generation.inputs.files, generation.inputs.last
+    path = generation.inputs.folder.path(action.path)
+    mine, generated = files.text(key), generation.package.content(path).decode()
+    record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    bases = [base for one in hashes if one and (base := generation.inputs.base(one)) is not None]
-    if mine is not None:
-        found = find_conflict(action, bases, mine, generated, names)
-        package = ".".join((generation.inputs.robot.target.package, *class_parts(generation.inputs.path(action.path))))
-        kept = with_within(found.kept, package) if action.origin and action.path.endswith(".mo") else found.kept
-        return msgspec.structs.replace(found, kept=kept, edited=_edited_text(generation.inputs, action))
-    package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
-    reason, base = "you made a folder of the class", bases[0] if bases else None
-    texts = base, package, generated, None
-    return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
-
-
-def _edited_text(inputs: Inputs, action: Action) -> str | None:
-    """Return what the user has made of both sides of a file, as they are: now, or while the file waited."""
-    if (action.path, action.sides) in inputs.options.choices:
-        return inputs.options.edited.get((action.path, action.sides))
-    waiting = inputs.record.open.edited if inputs.record and inputs.record.open else {}
-    return waiting.get(inputs.path(action.path))
-
-
-def _leave_strangers(generation: Generation, actions: Iterable[Action]) -> tuple[Action, ...]:
-    """Delete in a folder that the package had before only what can be generated here, and leave all else.
-
-    The record may be a stranger's, who has put the hashes of the user's own files into it.
-    """
-    inputs, now = generation.inputs, generation.imported.imports.values()
-    if not inputs.has_moved:
-        return tuple(actions)
-    imported = {one.target_hash for one in now}
-
-    def is_ours(action: Action) -> bool:
-        path = inputs.old_path(action.path)
-        if action.role is Role.IMPORT:
-            return action.mine in imported
-        return generation.is_rendered(path, (action.base or "",))
-
-    return tuple(
-        msgspec.structs.replace(action, reason=Reason.ORPHAN)
-        if action.kind is Kind.DELETE and action.path.startswith(f"{inputs.old_folder}/") and not is_ours(action)
-        else action
-        for action in actions
-    )
-
-
-def _takes_names_away(generation: Generation) -> bool:
-    """Whether a name may be gone since the last complete build: not if only numbers changed."""
-    changes = generation.changes
-    return bool(generation.inputs.recorded_files) and (
-        changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
-    )
+    bases = [base for sha256 in hashes if (base := last.base(sha256)) is not None]
+    if mine is None:
+        package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
+        texts = bases[0] if bases else None, package, generated, None
+        reason = "you made a folder of the class"
+        return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
+    found = find_conflict(action, bases, mine, generated, names)
+    if action.origin and action.path.endswith(".mo"):
+        package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
+        found = msgspec.structs.replace(found, kept=with_within(found.kept, package))
+    return found
 
 
 def _without_misfits(
     generation: Generation,
     actions: Sequence[Action],
     conflicts: dict[str, Conflict],
-    choices: Mapping[str, Choice],
-) -> dict[str, Conflict]:
-    """Return the conflicts without the merges that would bring in what means nothing.
+    choices: dict[str, UsersChoice],
+) -> tuple[dict[str, Conflict], dict[str, UsersChoice]]:
+    """Return the conflicts without the merges that would bring in what means nothing, and choices without such texts.
 
     All merges that are possible are taken for that.
     """
     planned, merged = resolve(actions, conflicts, choices, merging=True)
     if not merged:
-        return conflicts
+        return conflicts, choices
     package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
     new = package.misfits(merged.keys())
     if not new:
-        return conflicts
+        return conflicts, choices
     now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
     old = {(one.key, one.fault) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
-    sound = dict(conflicts)
+    sound, valid = dict(conflicts), dict(choices)
     for key, conflict in conflicts.items():
         misfits = [one for one in new if one.key == key and (conflict.origin or key, one.fault) not in old]
-        if misfits and conflict.merged(choices.get(key)) == merged.get(key) != conflict.mine:
+        choice = choices.get(key)
+        text = conflict.merged(choice.choice, choice.text) if choice else conflict.merged(None)
+        if misfits and text == merged.get(key) != conflict.mine:
             finding = misfits[0].finding
             merge = conflict.merge.rejected if conflict.merge else None
             reason = f"in the merge, {finding.message} (line {finding.line})"
-            sound[key] = msgspec.structs.replace(conflict, merge=merge, edited=None, rejected=reason)
-    return sound
+            sound[key] = msgspec.structs.replace(conflict, merge=merge, rejected=reason)
+            if choice and choice.text is not None:
+                del valid[key]
+    return sound, valid
 
 
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
@@ -224,7 +209,8 @@ def _renumbered(
         if action.role is not Role.RECORD or action.origin is not None:
             continue
         if action.reason in (Reason.UPDATE, Reason.MERGE):
-            text = merged.get(action.path) or generation.content(action.path).decode()
+            generated = generation.package.content(generation.inputs.folder.path(action.path))
+            text = merged.get(action.path) or generated.decode()
             if numbers_only(files.text(action.path) or "", text):
                 found.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
@@ -236,9 +222,9 @@ def _renumbered(
     return frozenset(found)
 
 
-def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Iterable[str]) -> None:
+def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
-    files, found = inputs.files, []
+    found = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         text = files.text(key)
@@ -251,52 +237,59 @@ def _refuse_markers(inputs: Inputs, actions: Iterable[Action], orders: Iterable[
         raise OutputError(*found)
 
 
-def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, tuple[str, ...]]:
+def _recorded_orders(inputs: Inputs) -> dict[str, tuple[str, ...]]:
+    """Return the lines of each `package.order` that follow from the last complete build, by key.
+
+    Without its model they are those of the recorded files: their order is lost then.
+    """
+    last, found = inputs.last, dict[str, tuple[str, ...]]()
+    if last.record.snapshot is None and not last.record.is_united:
+        return found
+    if last.package:
+        found = {last.folder.key(path): names for path, names in last.package.orders.items()}
+    else:
+        for key in last.files:
+            folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+            if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
+                order = f"{folder}/package.order"
+                found[order] = (*found.get(order, ()), name)
+    if "." in last.target.package:
+        above, _, name = last.folder.rpartition("/")
+        found[f"{above}/package.order" if above else "package.order"] = (name,)
+    return {key: names for key, names in found.items() if inputs.files.is_inside(key)}
+
+
+def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, list[str]]:
     """Return the lines of `package.order` files that urdfsync may remove: not those of classes that stay.
 
     The line of a class that is deleted goes with it, whoever wrote it.
     """
     lines = {key: list(names) for key, names in owned.items()}
-    staying = set()
     for action in actions:
         folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or (action.reason in _GONE and action.handed_to_user):
-            staying.add((f"{folder}/package.order", name))
-        elif action.reason in _GONE and f"{folder}/package.order" in lines:
-            lines[f"{folder}/package.order"].append(name)
-    return {key: tuple(name for name in names if (key, name) not in staying) for key, names in lines.items()}
+        names = lines.get(f"{folder}/package.order")
+        if names is None or action.generated is not None:
+            continue
+        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or action.handed_to_user:
+            names[:] = [one for one in names if one != name]
+        elif action.reason is not Reason.UNDO:
+            names.append(name)
+    return lines
 
 
-def _lines_of_gone_classes(
-    inputs: Inputs, actions: Iterable[Action], lines: Mapping[str, tuple[str, ...]]
-) -> dict[str, tuple[str, ...]]:
-    """Return the removable lines; in and above a former folder only those whose classes are gone, or go now."""
-    deleted, inside, found = {one.path for one in actions if one.kind is Kind.DELETE}, f"{inputs.folder}/", {}
-    for key, names in lines.items():
-        folder = key.removesuffix("package.order")
-        files = {name: (f"{folder}{name}.mo", f"{folder}{name}/package.mo") for name in names}
-        standing = {
-            name
-            for name, keys in files.items()
-            if any(one not in deleted and is_file(inputs.files.path(one)) for one in keys)
-        }
-        found[key] = names if key.startswith(inside) else tuple(name for name in names if name not in standing)
-    return found
-
-
-def _users_classes(inputs: Inputs, order: str, names: Collection[str]) -> list[str]:
+def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> list[str]:
     """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
     folder = order.removesuffix("package.order")
-    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in inputs.files.classes(folder))
+    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
     found = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
     return sorted(name for name in found.difference(names) if is_identifier(name))
 
 
 def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
     """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
-    files = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
+    paths = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
     folder = order.removesuffix("package.order")
-    names = (path.removeprefix(folder).removesuffix(".mo") for path in files if path.startswith(folder))
+    names = (path.removeprefix(folder).removesuffix(".mo") for path in paths if path.startswith(folder))
     return [name for name in names if is_identifier(name)]
 
 
@@ -307,32 +300,33 @@ def _decide_orders(
 
     Also what to do with the files around the package, that of the last build included.
     """
-    inputs, files = generation.inputs, generation.inputs.files
-    recorded, desired = generation.recorded_orders(), generation.desired_orders()
+    inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
+    recorded = _recorded_orders(inputs)
+    desired = {inputs.folder.key(path): names for path, names in generation.package.orders.items()}
+    if robot.folder.parent != robot.output and inputs.parents.listed:
+        desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     removable = _removable_lines(recorded, actions)
-    if inputs.has_moved:
-        removable = _lines_of_gone_classes(inputs, actions, removable)
-    inside = (f"{inputs.folder}/", f"{inputs.old_folder}/")
+    inside = (inputs.folder.key(""), inputs.last.folder.key(""))
     found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         if inputs.options.adopts and old is None:
-            names = (*names, *_users_classes(inputs, key, names))
+            names = (*names, *_users_classes(files, key, names))
         names = (*names, *_returning_classes(actions, key))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
-            kind = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
+            reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:
-            kind = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
-        found.append(Action(key, kind, Role.ORDER, "package"))
+            reason = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
+        found.append(Action(key, reason, Role.ORDER, "package"))
         if not key.startswith(inside):
-            shared.append(SharedFile(files.path(key), None, names, owned))
-    for one in inputs.parents.shared:
-        key = files.key(one.path)
-        if one.content is not None:
+            shared.append(SharedFile(files.path(key), None, names, tuple(owned)))
+    for file in inputs.parents.shared:
+        key = files.key(file.path)
+        if file.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
             found.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
-        elif (old := files.text(key)) != merge_order(old, one.names):
-            kind = Reason.CREATE if old is None else Reason.UPDATE
-            found.append(Action(key, kind, Role.ORDER, "parent package"))
+        elif (old := files.text(key)) != merge_order(old, file.names):
+            reason = Reason.CREATE if old is None else Reason.UPDATE
+            found.append(Action(key, reason, Role.ORDER, "parent package"))
     return found, texts, [*shared, *inputs.parents.shared]

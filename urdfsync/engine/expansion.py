@@ -44,7 +44,7 @@ _HINTS = {
 
 
 class Inputs:
-    """What one source is made of: where these files are, and how the state calls them."""
+    """The files that one source is made of: their places, and their names in the state."""
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
         self.root, self.source, self.package_paths = root, source, tuple(package_paths)
@@ -205,16 +205,3 @@ def run_command(config: Config, robot: RobotConfig) -> None:
         message = f"robot `{robot.name}`: the command `{shlex.join(robot.command)}` failed: {reason}"
         place, hint = (shown(config.file), robot.lines.get("command", 0)), "correct it, then build again"
         raise SourceError(Diagnostic(Severity.ERROR, "command", message, *place, hint=hint))
-
-
-def warnings(known: Expansion, source: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
-    """Return what xacro said of a source, and the arguments that it does not have; they are given at `place`."""
-    found = []
-    for name in known.unused:
-        message = f"{f'robot `{robot}`: ' if robot else ''}the source has no argument `{name}`"
-        found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
-    for said in known.warnings:
-        severity = Severity.WARNING if said.startswith(("warning: ", "error: ")) else Severity.NOTE
-        message = said.removeprefix("warning: ").removeprefix("error: ")
-        found.append(Diagnostic(severity, "xacro-said", message, shown(source)))
-    return tuple(found)

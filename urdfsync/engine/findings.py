@@ -46,8 +46,8 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         found.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
-    if generation.changes is not None and inputs.last is not None and generation.changes.changes:
-        for path, one in inputs.domain.find_doubtful(inputs.last, generation.now, generation.changes.renames):
+    if generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
+        for path, one in inputs.domain.find_doubtful(inputs.last.version, generation.now, generation.changes.renames):
             line = generation.lines.get(path, 0)
             found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
@@ -63,7 +63,7 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
     """
     inputs, places = generation.inputs, dict[tuple[object, ...], list[Misfit]]()
     outside = {one.file for one in misfits if not one.key}
-    folders = {inputs.folder.rpartition("/")[2], inputs.old_folder.rpartition("/")[2]}
+    folders = {inputs.folder.rpartition("/")[2], inputs.last.folder.rpartition("/")[2]}
     users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
     for one in misfits:
         if one.key or one.file in users:
@@ -89,12 +89,12 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning if something stays in the folder that a package had in the last build."""
-    files, old, new = inputs.files, inputs.files.path(inputs.old_folder), inputs.files.path(inputs.folder)
+    files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.held for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.kind is Kind.DELETE}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
-    is_inside = files.is_inside(f"{inputs.old_folder}/package.mo")
+    is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]
     if not rest:
@@ -118,7 +118,7 @@ def _first(names: Sequence[str], most: int) -> str:
 def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
     """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
     inputs, changes = generation.inputs, generation.changes
-    complete, robot = inputs.last, inputs.robot
+    complete, robot = inputs.last.version, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
     found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
@@ -139,7 +139,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
     One if it waits for conflicts, and one for each file that the user keeps.
     """
-    if inputs.last is None or inputs.record is None or inputs.record.generator.revision >= inputs.domain.fits_since:
+    if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
         return
     conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind is Kind.CONFLICT]
     if conflicts and any(action.held for action in actions):
@@ -147,7 +147,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
         message = f"an older urdfsync wrote this package: it does not fit the library {LIBRARY} of this version"
         hint = f"it fits the library again once {named} is resolved: urdfsync resolve {command}"
-        folder = shown(inputs.files.path(inputs.old_folder))
+        folder = shown(inputs.files.path(inputs.last.folder))
         yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
     for action in actions:
         if action.reason is Reason.KEEP and action.choice is Choice.KEEP:

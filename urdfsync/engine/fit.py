@@ -125,7 +125,7 @@ class Package(Mapping[str, bytes]):
     def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
         """Return the files of the package after the build, by their paths below it."""
         inputs, files, found = self._inputs, self._inputs.files, dict[str, _File]()
-        inside, classes, keys = inputs.key(""), set[str](), set[str]()
+        inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
         for action in self._actions:
             key = action.path
             if action.role in (Role.ORDER, Role.IMPORT) or not (key.endswith(".mo") and key.startswith(inside)):
@@ -135,20 +135,20 @@ class Package(Mapping[str, bytes]):
             file = _File(key, is_expected=action.generated is not None)
             if not action.held and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
-                found[inputs.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
+                found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
             elif is_open and action.kind is Kind.CONFLICT:
-                found[inputs.path(key)] = file._replace(text="")
+                found[inputs.folder.path(key)] = file._replace(text="")
             elif action.held or action.reason in _ON_DISK:
                 is_forgotten = action.reason is Reason.FORGET and not action.handed_to_user
                 if (sha256 := files.hash(key, action.role)) and not is_forgotten:
-                    record = inputs.recorded_files.get(key)
+                    record = inputs.last.files.get(key)
                     is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
-                    found[inputs.path(key)] = file._replace(is_edited=is_edited)
+                    found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
             elif action.kind is not Kind.DELETE:
-                found[inputs.path(key)] = file._replace(is_generated=True)
+                found[inputs.folder.path(key)] = file._replace(is_generated=True)
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = _as_file(key) in classes
-            found[inputs.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
+            found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
         return found
 
     def _files_around(self, former_names: Collection[str]) -> dict[Path, bytes]:
@@ -157,7 +157,7 @@ class Package(Mapping[str, bytes]):
         found = {**inputs.users_files.mentioning, **files_that_use(inputs.users_files.all, former_names)}
         if inputs.has_moved:
             keys = {action.path for action in self._actions}
-            rest = files.classes(inputs.old_folder) - keys - inputs.recorded_files.keys()
+            rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
             found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
         return {path: self._contents.get(path, content) for path, content in found.items()}
 
@@ -166,7 +166,7 @@ class Package(Mapping[str, bytes]):
         if path not in self._read_contents:
             file, files = self._files[path], self._inputs.files
             if file.is_generated:
-                content = self._generation.content(file.key)
+                content = self._generation.package.content(path)
                 self._generated.add(content)
             else:
                 content = encode(files.any_text(file.key) if file.text is None else file.text)
@@ -195,7 +195,7 @@ class Package(Mapping[str, bytes]):
 
     def _path_below(self, file: Path) -> str:
         """Return the path of a file below the package; empty if it is elsewhere."""
-        key, inside = self._inputs.files.key(file), self._inputs.key("")
+        key, inside = self._inputs.files.key(file), self._inputs.folder.key("")
         return key.removeprefix(inside) if key.startswith(inside) else ""
 
     def class_name(self, path: str) -> ClassName:
@@ -208,7 +208,7 @@ class Package(Mapping[str, bytes]):
         """Return all classes, to resolve names in."""
         inputs, target = self._inputs, self._inputs.robot.target
         parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None}
-        former = inputs.old_target.package if inputs.old_target.package != target.package else ""
+        former = inputs.last.target.package if inputs.last.target.package != target.package else ""
         folder, around = inputs.files.path(inputs.folder), {**self.around, **parents}
         return StoredClasses(target.package, folder, self, around, self._find, self._read, former)
 
@@ -286,7 +286,7 @@ class Package(Mapping[str, bytes]):
 
     def _missing_classes(self) -> set[str]:
         """Return the names of classes that generated texts mention, and that are not there."""
-        recorded = map(self._inputs.path, self._inputs.recorded_files)
+        recorded = map(self._inputs.folder.path, self._inputs.last.files)
         paths = {*recorded} if self._is_waiting else self._generation.package.artifacts.keys()
         known = set(map(_as_file, self))
         return {class_of(path) for path in paths - known - self._files.keys() if path.endswith(".mo")}
@@ -296,9 +296,9 @@ class Package(Mapping[str, bytes]):
         inputs, place = self._inputs, path if path in self._generation.package.artifacts else _as_file(path)
         if not self._is_waiting:
             is_generated = place in self._generation.package.artifacts
-            return self._generation.content(inputs.key(place)).decode() if is_generated else None
-        record = inputs.recorded_files.get(inputs.key(place))
-        return inputs.base(record.hashes[0]) if record and len(record.hashes) == 1 else None
+            return self._generation.package.content(place).decode() if is_generated else None
+        record = inputs.last.files.get(inputs.folder.key(place))
+        return inputs.last.base(record.hashes[0]) if record and len(record.hashes) == 1 else None
 
     def _is_lost(self, name: str) -> bool:
         """Whether a text that is replaced or deleted declares a name, and the one in its place does not."""
@@ -309,7 +309,7 @@ class Package(Mapping[str, bytes]):
         old = self._inputs.files.any_text(key) if key.endswith(".mo") else ""
         if name not in old or name not in declared_names([old]):
             return False
-        path = self._inputs.path(action.path)
+        path = self._inputs.folder.path(action.path)
         return path not in self or name not in declared_names([text_of(self[path])])
 
     def _look(self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None) -> list[Misfit]:
@@ -380,7 +380,7 @@ class Package(Mapping[str, bytes]):
     def _hint(self, use: Unresolved) -> str:
         """Return what to do about a name that means nothing."""
         inputs, target = self._inputs, self._inputs.robot.target
-        if use.part == inputs.old_target.package != target.package and target.name not in use.known:
+        if use.part == inputs.last.target.package != target.package and target.name not in use.known:
             return f"use `{target.package}` instead"
         if name := self.new_name(use):
             return f"use `{name}` instead"

@@ -1,11 +1,8 @@
-"""One robot generated from its source as it is now: model, imported files, and the texts of its package.
-
-Of the package of the last complete build, texts whose template and data are still the same need not be rendered.
-"""
+"""One robot generated from its source as it is now: model, imported files, and the texts of its package."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 
 import msgspec
@@ -13,19 +10,18 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ElementKey, Role, Version
+from urdfsync.domain import ElementKey, Lookup, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
-from urdfsync.engine.inputs import NO_MODEL, Inputs
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.renames import check_declared, find_renames_since
-from urdfsync.engine.rules import DesiredFile
 from urdfsync.files import shown
-from urdfsync.state.record import role_of
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
-    """What one build generates; files are named by their keys."""
+    """The model and the package of one build, and their differences from the last complete build."""
 
     inputs: Inputs
     now: Version
@@ -36,89 +32,6 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
-    changed: frozenset[str]
-    """Paths below the package whose text may differ from that of the last complete build."""
-
-    def _recorded_hash(self, path: str) -> str | None:
-        """Return the recorded hash of a text that is as in the last complete build."""
-        record = self.inputs.recorded_files.get(self.inputs.old_key(path))
-        if path in self.changed or record is None or len(record.hashes) != 1:
-            return None
-        return record.generated
-
-    def hash(self, path: str) -> str:
-        """Return the hash of what would be written, by the path below the package."""
-        return self._recorded_hash(path) or self.package.hash(path)
-
-    def content(self, key: str) -> bytes:
-        """Return what would be written."""
-        path = self.inputs.path(key)
-        recorded = self._recorded_hash(path)
-        known = None if recorded is None else self.inputs.base(recorded)
-        return self.package.content(path) if known is None else known.encode()
-
-    def is_rendered(self, path: str, hashes: Collection[str]) -> bool:
-        """Whether one of these hashes is that of a text which the recorded models give at a path of the last build.
-
-        That proves that urdfsync wrote it. Hashes in the record, and texts in the bases, may be a stranger's.
-        """
-        packages = (package for package in self._recorded_packages if package and path in package.artifacts)
-        return any(package.hash(path) in hashes for package in packages)
-
-    @cached_property
-    def _recorded_packages(self) -> tuple[Package | None, ...]:
-        """The packages of the last complete build, and of the model last seen, by which later builds renewed files."""
-        record = self.inputs.record
-        seen = self.inputs.recorded_package(record.open.seen) if record and record.open else None
-        return self.inputs.last_package, seen
-
-    def desired_files(self) -> dict[str, DesiredFile]:
-        """Return every file that the package should have, by key."""
-        found = {
-            self.inputs.key(path): DesiredFile(artifact.role, artifact.owner, self.hash(path))
-            for path, artifact in self.package.artifacts.items()
-        }
-        for name, entry in self.imported.imports.items():
-            found[self.inputs.key(entry.target)] = DesiredFile(Role.IMPORT, name, entry.target_hash)
-        return found
-
-    def recorded_roles(self) -> dict[str, tuple[Role, str]]:
-        """Return role and owner of each recorded file, by key."""
-        found, last = {}, self.inputs.last_package
-        for key in self.inputs.recorded_files:
-            path = self.inputs.old_path(key)
-            artifact = last.artifacts.get(path) if last else None
-            found[key] = (artifact.role, artifact.owner) if artifact else (role_of(path), "")
-        return found
-
-    def desired_orders(self) -> dict[str, tuple[str, ...]]:
-        """Return urdfsync's lines of each `package.order`, the parent's included, by key."""
-        inputs, folder = self.inputs, self.inputs.robot.folder
-        orders = {inputs.key(path): names for path, names in self.package.orders.items()}
-        if folder.parent != inputs.robot.output and inputs.parents.listed:
-            orders[inputs.files.key(folder.parent / "package.order")] = (folder.name,)
-        return orders
-
-    def recorded_orders(self) -> dict[str, tuple[str, ...]]:
-        """Return the lines of each `package.order` that follow from the last complete build, by key.
-
-        Without its model they are those of the recorded files: their order is lost then.
-        """
-        inputs, found = self.inputs, dict[str, tuple[str, ...]]()
-        if inputs.record is None or (inputs.record.snapshot is None and not inputs.record.is_united):
-            return found
-        if inputs.last_package:
-            found = {inputs.old_key(path): names for path, names in inputs.last_package.orders.items()}
-        else:
-            for key in inputs.recorded_files:
-                folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-                if f"{folder}/".startswith(inputs.old_key("")) and key.endswith(".mo"):
-                    order = f"{folder}/package.order"
-                    found[order] = (*found.get(order, ()), name)
-        if "." in inputs.old_target.package:
-            above, _, name = inputs.old_folder.rpartition("/")
-            found[f"{above}/package.order" if above else "package.order"] = (name,)
-        return {key: names for key, names in found.items() if inputs.files.is_inside(key)}
 
     @cached_property
     def renames(self) -> Mapping[ElementKey, str]:
@@ -131,44 +44,46 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return self._find_renames({}) if self.inputs.robot.renamed else self.renames
 
     def _find_renames(self, declared: Mapping[str, str]) -> Mapping[ElementKey, str]:
-        inputs = self.inputs
-        if inputs.last is None or inputs.record is None:
+        last, domain = self.inputs.last, self.inputs.domain
+        if last.version is None:
             return {}
-        last, open_ = inputs.last.snapshot, inputs.record.open
         try:
-            return find_renames_since(inputs.domain, last, open_, self.now.snapshot, declared)
+            return find_renames_since(domain, last.version.snapshot, last.record.open, self.now.snapshot, declared)
         except NO_MODEL:
             return {}
 
     @cached_property
     def changes(self) -> Changes | None:
-        """What changed since the last complete build; None if that is not known, and for a robot that is removed."""
-        inputs = self.inputs
-        if inputs.last is None or inputs.options.removes:
+        """Changes since the last complete build; None if that is not known, and for a robot that is removed."""
+        last, robot = self.inputs.last, self.inputs.robot
+        if last.version is None or self.inputs.options.removes:
             return None
         try:
-            found = changes.compare(inputs.last, self.now, inputs.domain, inputs.robot.options, self.renames)
+            found = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
         except NO_MODEL:
             return None
-        if inputs.has_same_generator:
+        if self.inputs.has_same_generator:
             return found
-        return msgspec.structs.replace(found, generator=True, options=inputs.changed_options())
+        options: list[str] = []
+        if last.options is not None and last.record.generator == self.inputs.generator and last.target == robot.target:
+            names = robot.options.__struct_fields__
+            options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
+        return msgspec.structs.replace(found, generator=True, options=tuple(options))
 
     @cached_property
     def moves(self) -> dict[str, str]:
         """New and old key of text files whose element was renamed, or whose package moved."""
-        inputs, last = self.inputs, self.inputs.last_package
-        hashes = {inputs.old_path(key): one.hashes for key, one in inputs.recorded_files.items() if not one.is_users}
-        texts = set(hashes)
-        if inputs.has_moved:  # the record may be a stranger's, and the folder the user's
-            texts = {path for path in texts if self.is_rendered(path, hashes[path])}
-        before = {path: (a.owner, a.template) for path, a in last.artifacts.items() if path in texts} if last else {}
-        now = {path: (a.owner, a.template) for path, a in self.package.artifacts.items()}
+        inputs, last = self.inputs, self.inputs.last
+        texts = {last.folder.path(key) for key, file in last.files.items() if not file.is_users}
+        recorded = last.package.artifacts if last.package else {}
+        before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
+        now = {path: (file.owner, file.template) for path, file in self.package.artifacts.items()}
         if before == now and not inputs.has_moved:
             return {}
         renamed = changes.moved_files(before, now, self.renames)
-        pairs = ((inputs.key(renamed.get(path, path)), inputs.old_key(path)) for path in texts)
-        return {new: old for new, old in pairs if new != old and inputs.path(new) in now}
+        pairs = ((renamed.get(path, path), path) for path in texts)
+        keys = ((inputs.folder.key(new), last.folder.key(old)) for new, old in pairs if new in now)
+        return {new: old for new, old in keys if new != old}
 
 
 def generate_robot(inputs: Inputs) -> Generation:
@@ -176,38 +91,59 @@ def generate_robot(inputs: Inputs) -> Generation:
 
     Raises SourceError, ConfigError or OutputError for whatever is wrong.
     """
-    domain, robot, options = inputs.domain, inputs.robot, inputs.options
-    if options.removes:
-        nothing = Package((), inputs.templates, robot.target.package)
-        return Generation(inputs, inputs.last or Version({}), {}, (), Imported(), nothing, frozenset())
-    snapshot, reading = source.read(domain, robot.options, inputs.source.content, shown(robot.source))
-    found = (
+    if inputs.options.removes:
+        nothing = Package((), inputs.templates, inputs.robot.target.package)
+        return Generation(inputs, inputs.last.version or Version({}), {}, (), Imported(), nothing)
+    with inputs.source.locating():
+        return _generate(inputs)
+
+
+def _generate(inputs: Inputs) -> Generation:
+    domain, robot, options, last = inputs.domain, inputs.robot, inputs.options, inputs.last
+    file = shown(robot.source)
+    snapshot, reading = source.read(domain, robot.options, inputs.source.content, file)
+    found = [
         *inputs.source.diagnostics,
         *reading.diagnostics,
         *source.check_options(inputs.config, robot, domain, snapshot),
         *check_declared(inputs, snapshot),
-    )
-    dependencies = inputs.dependencies(snapshot, reading.lines)
-    imported = imports.bring_in(
+    ]
+    lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
+    dependencies = imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
+    imported = imports.import_files(
         domain,
         dependencies,
-        inputs.recorded_imports,
-        shown(robot.source),
-        options.full or inputs.has_moved,  # no copy of a former folder serves: it may be the user's
+        last.imports,
+        file,
         lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+        is_anew=options.full,
+        has_moved=inputs.has_moved,
     )
     lines = {one.key: one.line for one in dependencies}
-    found += (
-        *imported.diagnostics,
-        *(
-            msgspec.structs.replace(one, file=shown(robot.source), line=lines.get(key, 0))
-            for key, one in domain.import_findings(imported.imports)
-        ),
-    )
-    now = Version(snapshot, imported.imports)
+    found += imported.diagnostics
+    for key, finding in domain.import_findings(imported.imports):
+        found.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
-    changed, record = frozenset(package.artifacts), inputs.record
-    is_known = record is not None and record.open is None and not record.is_united and not inputs.written
-    if is_known and inputs.last_package and inputs.has_same_generator and not options.full:
-        changed = package.changed_since(inputs.last_package)
-    return Generation(inputs, now, reading.lines, tuple(found), imported, package, changed)
+    is_complete = not (last.record.open or last.record.is_united or last.written)
+    if is_complete and last.package and inputs.has_same_generator and not options.full:
+        # texts whose template and data are as in the last complete build need not be rendered
+        files = {last.folder.path(key): record for key, record in last.files.items()}
+        hashes = {
+            path: files[path].generated
+            for path in package.artifacts.keys() - package.changed_since(last.package)
+            if path in files and len(files[path].hashes) == 1
+        }
+        package.set_hashes(hashes, last.base)
+    return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(found), imported, package)
+
+
+def generated_texts(generation: Generation, content: bytes | None = None) -> Mapping[str, bytes]:
+    """Return the Modelica files of the package by path; `content` is an amended copy of the source, None for itself."""
+    inputs, package = generation.inputs, generation.package
+    if content is not None and content != inputs.source.content:
+        snapshot, _ = source.read(inputs.domain, inputs.robot.options, content, shown(inputs.robot.source))
+        imported = generation.imported.imports
+        options, templates = inputs.robot.options, inputs.templates
+        package = generate(inputs.domain, snapshot, imported, inputs.robot.target, options, templates)
+    orders = {path: "".join(f"{name}\n" for name in names).encode() for path, names in package.orders.items()}
+    return {path: package.content(path) for path in package.artifacts} | orders

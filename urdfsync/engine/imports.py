@@ -6,7 +6,7 @@ import contextlib
 import os
 import re
 import stat
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -17,6 +17,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
 from urdfsync.files import digest
+from urdfsync.state.record import FileRecord
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
@@ -31,7 +32,7 @@ _HINTS = {
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder that holds that to `package_paths`",
     "": "add the folder that holds it to `package_paths`",
 }
-"""What to do about a file that is not found, by how its URI begins; the first one counts."""
+"""Advice about a file that is not found, by how its URI begins; the first one counts."""
 
 
 class RecordedFile(msgspec.Struct, frozen=True):
@@ -52,55 +53,59 @@ class RecordedFile(msgspec.Struct, frozen=True):
         return self.hash == self.entry.target_hash
 
 
-class Recorded(msgspec.Struct, frozen=True):
-    """What is known of the imports of the last build, and how their copies in the package are read."""
+class RecordedImports:
+    """The imports of the last build, and their copies in the package."""
 
-    imports: Mapping[str, tuple[Import, ...]]
-    """Several for one file if git has united two states, or if it was renewed since: the one of its copy counts."""
-    copy: Callable[[str], bytes | None]
-    """Content of an imported file, by its target."""
-    bases: Mapping[str, Collection[str]] = {}
-    """Hashes of what was written last, by target."""
-    moved: bool = False
-    """Whether the package has another folder now."""
+    def __init__(
+        self,
+        imports: Mapping[str, tuple[Import, ...]],
+        copy: Callable[[str], bytes | None],
+        records: Mapping[str, FileRecord],
+    ) -> None:
+        """`copy` returns the content of a target. `records` are by target.
 
-    def find(self, key: str) -> tuple[Import, bytes | None, str]:
-        """Return what is recorded of an imported file, its copy in the package, and the copy's hash."""
-        copy, sha256 = None, ""
-        for one in self.imports[key]:
-            copy = self.copy(one.target)
-            sha256 = "" if copy is None else digest(copy)
-            if sha256 == one.target_hash:
-                return one, copy, sha256
-        return self.imports[key][0], copy, sha256
+        There are several imports for one file if git has united two states, or if it was renewed since.
+        """
+        self._imports, self._copy, self._records = imports, copy, records
 
-    def files(self, dependency: Dependency) -> list[RecordedFile]:
+    def entry(self, key: str) -> Import:
+        """Return what is recorded of an imported file; of several, the one of its copy."""
+        return self._imports[key][0] if len(self._imports[key]) == 1 else self._find(key, "").entry
+
+    def _find(self, key: str, target: str) -> RecordedFile:
+        found = list[RecordedFile]()
+        for entry in self._imports[key]:
+            copy = self._copy(entry.target)
+            found.append(RecordedFile(key, target, entry, copy, "" if copy is None else digest(copy)))
+        return next((file for file in found if file.is_intact), found[0])
+
+    def find(self, dependency: Dependency) -> list[RecordedFile]:
         """Return the files that a dependency became, its own first; none if it was not imported."""
         found = list[RecordedFile]()
         key, target = dependency.key, dependency.target
-        while key in self.imports:
-            entry, copy, sha256 = self.find(key)
-            found.append(RecordedFile(key, target, entry, copy, sha256))
+        while key in self._imports:
+            found.append(self._find(key, target))
             key, target = further_key(dependency.key, len(found)), _further_target(dependency.target, len(found))
         return found
 
+    def is_written(self, file: RecordedFile) -> bool:
+        """Return whether a build has written the copy, be it not the last one."""
+        record = self._records.get(file.entry.target)
+        return record is not None and file.hash in record.hashes
+
 
 class Imported(msgspec.Struct):
-    """What is in the package now: imports, the bytes that are at hand (by target), and what there is to say."""
+    """The imports of the package now, the bytes of those that are at hand (by target), and findings."""
 
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
 
-    def add(self, key: str, entry: Import, content: bytes | None = None) -> None:
-        """Add an import. `content` is what is to be written; None if the copy in the package serves."""
+    def add(self, key: str, entry: Import, content: bytes | None) -> None:
+        """Add an import; `content` is None if it is not at hand."""
         self.imports[key] = entry
         if content is not None:
             self.contents[entry.target] = content
-
-    def add_copy(self, file: RecordedFile, entry: Import, moved: bool) -> None:
-        """Add an import whose copy serves; it goes to another place if that, or the package, has `moved`."""
-        self.add(file.key, entry, file.copy if moved or file.entry.target != file.target else None)
 
 
 def _further_target(target: str, number: int) -> str:
@@ -112,18 +117,20 @@ def _plural(noun: str) -> str:
     return f"{noun}es" if noun.endswith(("s", "sh", "ch", "x")) else f"{noun}s"
 
 
-def bring_in(
+def import_files(
     domain: Domain,
     dependencies: Sequence[Dependency],
-    recorded: Recorded,
+    recorded: RecordedImports,
     source: str,
-    again: bool,
     progress: Callable[[int, int], None],
+    *,
+    is_anew: bool,
+    has_moved: bool,
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion of the last build serves again if it has the same input, unless `again`. What can't be found or read is
-    left out, or its recorded copy serves.
+    A conversion of the last build serves again if it has the same input, unless all `is_anew` or the package
+    `has_moved`. What can't be found or read is left out, or its recorded copy serves.
     Raises StateError if a copy must serve of which the recorded facts are lost.
     """
     result = Imported()
@@ -131,17 +138,19 @@ def bring_in(
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
         progress(count, len(dependencies))
-        key, noun = dependency.key, dependency.noun
-        trouble, is_read = _import(domain, dependency, recorded, source, again, result)
-        if dependency.guessed and is_read:
+        noun = dependency.noun
+        content = _find(dependency)
+        if dependency.guessed and isinstance(content, tuple):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
-        if trouble is None:
-            continue
-        trouble = _keep_copy(dependency, recorded, result, trouble)
-        # one warning for all files of a package, whose hint is the same
-        own = key if trouble.code.startswith(f"{noun}-unreadable") else ""
-        failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
+        # no copy of a former folder serves: it may be the user's
+        before = [] if is_anew or has_moved else recorded.find(dependency)
+        trouble = _import(domain, dependency, content, before, source, result)
+        if trouble is not None:
+            trouble = _keep_copy(dependency, recorded, has_moved, result, trouble)
+            # one warning for all files of a package, whose hint is the same
+            own = dependency.key if trouble.code.startswith(f"{noun}-unreadable") else ""
+            failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
     for troubles in failed.values():
         first = min((trouble for _, trouble in troubles), key=lambda trouble: trouble.line)
         if len(troubles) > 1:
@@ -159,45 +168,49 @@ def bring_in(
 
 
 def _import(
-    domain: Domain, dependency: Dependency, recorded: Recorded, source: str, again: bool, result: Imported
-) -> tuple[Diagnostic | None, bool]:
-    """Add one import to the result; else return what is wrong. Also whether its source could be read."""
-    target, noun, found = dependency.target, dependency.noun, _find(dependency)
+    domain: Domain,
+    dependency: Dependency,
+    content: tuple[Path, bytes] | OSError | None,
+    before: Sequence[RecordedFile],
+    source: str,
+    result: Imported,
+) -> Diagnostic | None:
+    """Add one import to the result, or return what is wrong; `before` has files of the last build that may serve."""
 
     def unreadable(message: str, hint: str) -> Diagnostic:
-        return Diagnostic(Severity.WARNING, f"{noun}-unreadable", message, source, dependency.line, hint=hint)
+        return Diagnostic(
+            Severity.WARNING, f"{dependency.noun}-unreadable", message, source, dependency.line, hint=hint
+        )
 
-    if found is None:
-        return _not_found([dependency], source, dependency.line), False
-    if isinstance(found, OSError):
-        message = f"{_named([dependency])} can't be read: {found.strerror}"
-        return unreadable(message, f"replace it by a {noun} that can be read"), False
-    path, content = found
-    others = _read_mentioned(domain, dependency, path, content)
-    sha256 = digest(b"".join((content, *others.values())))
-    files = recorded.files(dependency)
-    if files and not again and (files[0].entry.source_hash, files[0].entry.converter) == (sha256, domain.converter):
-        facts = _needed(dependency, files[0].entry)
-        if facts is not None and all(file.is_intact for file in files):
-            for file in files:
-                own_facts = facts if file is files[0] else file.entry.facts
+    if content is None:
+        return _not_found([dependency], source, dependency.line)
+    if isinstance(content, OSError):
+        message = f"{_named([dependency])} can't be read: {content.strerror}"
+        return unreadable(message, f"replace it by a {dependency.noun} that can be read")
+    path, text = content
+    others = _read_mentioned(domain, dependency, path, text)
+    sha256 = digest(b"".join((text, *others.values())))
+    if before and (before[0].entry.source_hash, before[0].entry.converter) == (sha256, domain.converter):
+        facts = _needed(dependency, before[0].entry)
+        if facts is not None and all(file.is_intact for file in before):
+            for file in before:
+                own_facts = facts if file is before[0] else file.entry.facts
                 entry = msgspec.structs.replace(file.entry, target=file.target, facts=own_facts)
-                result.add_copy(file, entry, recorded.moved)
-            return None, True
-    if content.startswith(_POINTER):
+                result.add(file.key, entry, file.copy)
+            return None
+    if text.startswith(_POINTER):
         message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
-        return unreadable(message, "get the file itself with `git lfs pull`"), True
+        return unreadable(message, "get the file itself with `git lfs pull`")
     try:
-        conversion = domain.convert(dependency, path, content, others)
+        conversion = domain.convert(dependency, path, text, others)
     except SourceError as error:
-        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint), True
+        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
     for number, one in enumerate((conversion, *conversion.more)):
-        key, place = dependency.key, target
-        if number:
-            key, place = further_key(key, number), _further_target(target, number)
+        key = further_key(dependency.key, number) if number else dependency.key
+        place = _further_target(dependency.target, number) if number else dependency.target
         entry = Import(place, sha256, digest(one.content), domain.converter, one.facts, () if number else (*others,))
         result.add(key, entry, one.content)
-    return None, True
+    return None
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
@@ -228,7 +241,7 @@ def _named(dependencies: Sequence[Dependency]) -> str:
 
 
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
-    """What to say of files that have the same noun and are missing for the same reason."""
+    """Return a warning of files that have the same noun and are missing for the same reason."""
     first, what = dependencies[0], _named(dependencies)
     beginning, match = next(
         (beginning, match)
@@ -239,12 +252,14 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", f"{what} not found", source, line, hint=hint)
 
 
-def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, trouble: Diagnostic) -> Diagnostic:
+def _keep_copy(
+    dependency: Dependency, recorded: RecordedImports, has_moved: bool, result: Imported, trouble: Diagnostic
+) -> Diagnostic:
     """Let the copy serve that an earlier build made, if there is one.
 
     `trouble` says what is wrong with the source. Returns it with what follows from it.
     """
-    files = recorded.files(dependency)
+    files = recorded.find(dependency)
     if not files or any(file.copy is None for file in files):
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
     facts = _needed(dependency, files[0].entry)
@@ -253,16 +268,18 @@ def _keep_copy(dependency: Dependency, recorded: Recorded, result: Imported, tro
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
     for file in files:
-        record = file.entry
-        written = file.hash if file.hash in recorded.bases.get(record.target, ()) else record.target_hash
-        converter = record.converter if written == record.target_hash else None  # an older copy, which was put back
-        if recorded.moved or record.target != file.target:
-            written = file.hash
-        own_facts = facts if file is files[0] else record.facts
+        entry = file.entry
+        # an older copy, which was put back, was not made from the recorded source
+        is_older = not file.is_intact and recorded.is_written(file)
+        is_placed_anew = has_moved or entry.target != file.target
         entry = msgspec.structs.replace(
-            record, target=file.target, target_hash=written, converter=converter, facts=own_facts
+            entry,
+            target=file.target,
+            target_hash=file.hash if is_older or is_placed_anew else entry.target_hash,
+            converter=None if is_older else entry.converter,
+            facts=facts if file is files[0] else entry.facts,
         )
-        result.add_copy(file, entry, recorded.moved)
+        result.add(file.key, entry, file.copy if file.hash == entry.target_hash else None)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 

@@ -35,9 +35,11 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     not: he is told the new name. What a file that he keeps mentions stays whatever it is, and so does what is mentioned
     or shown by what stays.
     """
-    inputs, files, before = generation.inputs, generation.inputs.files, generation.inputs.last_package
+    inputs, files, before = generation.inputs, generation.inputs.files, generation.inputs.last.package
     leaving = {one.path: one for one in actions if one.reason is Reason.DELETE}
-    texts = inputs.users_classes([one for one in actions if one.reason in USERS], actions, merged)
+    edited = {action.path for action in actions if action.reason in USERS}
+    own = files.classes(inputs.folder) - {action.path for action in actions if not action.handed_to_user}
+    texts = {key: merged.get(key) or files.any_text(key) for key in sorted(edited | own)}
     all_words = {word for text in texts.values() for word in code_words(text)}
     all_words |= {word for content in inputs.users_files.mentioning.values() for word in code_words(text_of(content))}
     kept = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
@@ -45,7 +47,7 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     left = set(generation.moves.values())
     used = set()
     for path, action in leaving.items():
-        was_needed = before is not None and inputs.old_path(path) not in before.artifacts
+        was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts
         is_record = action.role is Role.RECORD and path not in left
         if class_of(path) in (all_words if is_record or was_needed else kept_words) and path.endswith(".mo"):
             used.add(path)
@@ -57,7 +59,9 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
             path
             for path in leaving.keys() - found
             if (
-                class_of(path) in words if path.endswith(".mo") else any(inputs.old_path(path) in one for one in needed)
+                class_of(path) in words
+                if path.endswith(".mo")
+                else any(inputs.last.folder.path(path) in one for one in needed)
             )
         }
         found |= used

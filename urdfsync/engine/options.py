@@ -8,8 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.state.expansion import Expansion
-from urdfsync.state.record import Choice
+from urdfsync.state.record import UsersChoice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Called with a step of the work, how much of it is done, and of how much."""
@@ -30,8 +29,6 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write to outputs outside of the configuration's folder, too."""
     expands: bool = True
     """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
-    expansions: dict[str, Expansion] = msgspec.field(default_factory=dict)
-    """Sources that this command, or the daemon, has expanded, by robot: for a second plan of the same."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False
@@ -42,10 +39,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Where to look for packages after the configured folders."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
-    choices: Mapping[tuple[str, str], Choice] = msgspec.field(default_factory=dict)
-    """The user's decisions about files, by their keys and by `Action.sides`: each holds for the texts that he saw."""
-    edited: Mapping[tuple[str, str], str] = msgspec.field(default_factory=dict)
-    """What the user has made of files in conflict, by their keys and by `Action.sides`."""
+    choices: Mapping[str, UsersChoice] = msgspec.field(default_factory=dict)
+    """The user's decisions about files, by their keys."""
     jobs: int | None = None
     """Processes that may work at once; None for one per core."""
     executor: str = ""

@@ -15,6 +15,20 @@ from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
 from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 
+class Folder(str):
+    """The key of a package's folder. Files are named by their keys, or by their paths below it."""
+
+    __slots__ = ()
+
+    def key(self, path: str) -> str:
+        """Return the key of a file by its path."""
+        return f"{self}/{path}"
+
+    def path(self, key: str) -> str:
+        """Return the path of a file by its key; the key of one that is elsewhere."""
+        return key.removeprefix(f"{self}/")
+
+
 class FileState(NamedTuple):
     """A file at the moment of reading."""
 

@@ -14,11 +14,11 @@ from urdfsync.modelica.syntax import declared
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
     """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
     inputs = generation.inputs
-    if inputs.last is None:
+    if inputs.last.version is None:
         return {}
-    old = inputs.domain.names(inputs.last.snapshot, inputs.old_target)
+    old = inputs.domain.names(inputs.last.version.snapshot, inputs.last.target)
     new = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
-    found = {inputs.old_target.name: inputs.robot.target.name}
+    found = {inputs.last.target.name: inputs.robot.target.name}
     for kind, identifiers in old.items():
         for name, identifier in identifiers.items():
             now = generation.renames.get((kind.removesuffix("s"), name), name)
@@ -34,21 +34,21 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     inputs, renamed = generation.inputs, renamed_identifiers(generation)
     if not renamed:
         return {}
-    keys = [key for key, record in inputs.recorded_files.items() if record.hashes and key.endswith(".mo")]
-    tops = (key for key in keys if "/" not in inputs.old_path(key))
-    texts = (inputs.base(inputs.recorded_files[key].generated) or "" for key in tops)
+    keys = [key for key, record in inputs.last.files.items() if record.hashes and key.endswith(".mo")]
+    tops = (key for key in keys if "/" not in inputs.last.folder.path(key))
+    texts = (inputs.last.base(inputs.last.files[key].generated) or "" for key in tops)
     known, declared_before = known_names(generation), declared_names(texts)
     old = (declared_before | frozenset(map(class_of, keys))) - known
     # the same name is the class of a link, and of a joint: only names of parts are those of one element alone
     left = {name: new for name, new in renamed.items() if name in declared_before & known and new in known}
-    left = {name: new for name, new in left.items() if name in renamed.values() and name != inputs.old_target.name}
+    left = {name: new for name, new in left.items() if name in renamed.values() and name != inputs.last.target.name}
     return left | {name: new for name in sorted(old) if (new := new_name(name, renamed, known))}
 
 
 def known_names(generation: Generation) -> frozenset[str]:
     """Return the names of all generated classes, and of what those at the top of the package declare."""
     paths = generation.package.artifacts
-    tops = (generation.content(generation.inputs.key(path)).decode() for path in paths if "/" not in path)
+    tops = (generation.package.content(path).decode() for path in paths if "/" not in path)
     return frozenset(map(class_of, paths)) | declared_names(tops)
 
 

@@ -49,7 +49,7 @@ class SharedFile(msgspec.Struct, frozen=True):
 
 
 class Parents(msgspec.Struct, frozen=True):
-    """What of the packages above a robot's has to be written."""
+    """Files of the packages above a robot's that have to be written."""
 
     shared: tuple[SharedFile, ...] = ()
     """Packages that do not exist yet, and order files above the parent's that have to name these."""

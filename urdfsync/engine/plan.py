@@ -20,9 +20,8 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
-        return Plan(Actions(), inputs.store.witness(), stale=inputs.source.stale, is_noop=True)
-    with inputs.source.locating():
-        generation = generate_robot(inputs)
+        return Plan(Actions(), inputs.store.hashes(), stale=inputs.source.stale, is_noop=True)
+    generation = generate_robot(inputs)
     decision = decide_package(generation)
     plan = stage(generation, decision, find_all(generation, decision))
     if options.full or options.draw or not plan.is_noop:

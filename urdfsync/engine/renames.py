@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, ElementKey, Snapshot, Target, displaced
-from urdfsync.engine.inputs import NO_MODEL, Inputs
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
 from urdfsync.state.record import Open
@@ -60,9 +61,9 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
     if not robot.renamed:
         return
     before, after = set[ElementKey](), set(_elements(inputs.domain, now))
-    if inputs.last:
+    if inputs.last.version:
         with contextlib.suppress(*NO_MODEL):
-            before.update(_elements(inputs.domain, inputs.last.snapshot))
+            before.update(_elements(inputs.domain, inputs.last.version.snapshot))
     for old, new in robot.renamed.items():
         stays = sorted(kind for kind, name in after if name == old)
         kinds = sorted(kind for kind, name in after if name == new and kind not in stays)

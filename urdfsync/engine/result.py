@@ -1,4 +1,4 @@
-"""What a command did, for `output` to show and for the exit code."""
+"""Results of commands, for `output` to show and for the exit code."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Exit(enum.IntEnum):
 
 
 class Checked(enum.StrEnum):
-    """What the check after a build says of the package that is on disk."""
+    """Verdict of the check after a build on the package on disk."""
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
@@ -38,7 +38,7 @@ class Checked(enum.StrEnum):
 
 
 class Result(msgspec.Struct, frozen=True):
-    """What a build did with one robot, or would do."""
+    """Result of a build, or of a dry run, for one robot."""
 
     robot: str
     package: str
@@ -59,16 +59,16 @@ class Result(msgspec.Struct, frozen=True):
     writes: bool = False
     """The build has written files or the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
-    """What has changed since the source was expanded, if it was not expanded now: the rest goes by the old text."""
+    """Files that have changed since the source was expanded, if the old text was used."""
     is_broken: bool = False
     """A file of the package that the user edited does not fit it, or is no Modelica."""
     drawing: Path | None = None
     changes: Changes | None = None
-    """What changed in the model since the last build that wrote; None if nothing did, or nothing is known of it."""
+    """Changes of the model since the last build that wrote; None if there are none, or they are not known."""
     conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
-    """What a check of the package said; None if there was none. What it found is among the diagnostics."""
+    """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
 
     @property
     def conflicts(self) -> list[Action]:

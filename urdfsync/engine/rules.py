@@ -1,4 +1,4 @@
-"""What to do with each file: decided from its recorded base, what is on disk, and what would be written now.
+"""The decision about each file: from its recorded base, the file on disk, and the generated text.
 
 *Base* is the generated text that the file on disk last took into account, *mine* is on disk, *generated* would be
 written. All are compared by hashes, never by times. Everything here is pure.
@@ -14,15 +14,7 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Kind, Reason
-from urdfsync.state.record import Choice, FileRecord
-
-
-class DesiredFile(msgspec.Struct, frozen=True):
-    """A file that the package should have."""
-
-    role: Role
-    owner: str
-    hash: str
+from urdfsync.state.record import Choice, FileRecord, UsersChoice
 
 
 class ClassFolder(enum.Enum):
@@ -38,7 +30,29 @@ CLASS_FOLDER = ClassFolder.CLASS_FOLDER
 OnDisk: TypeAlias = str | ClassFolder | None
 """Hash of what is at a path; None for nothing."""
 
-_NEVER_WRITTEN = FileRecord()
+NEVER_WRITTEN = FileRecord()
+
+
+class File(msgspec.Struct, frozen=True):
+    """One file of a package as a build finds it."""
+
+    role: Role
+    owner: str = ""
+    """Element that it belongs to, in the domain's words."""
+    record: FileRecord = NEVER_WRITTEN
+    on_disk: OnDisk = None
+    generated: str | None = None
+    """Hash of what would be written; None if nothing would."""
+
+    @property
+    def is_free(self) -> bool:
+        """Whether nothing of the user's is at its path: no file, or one that urdfsync wrote there."""
+        return self.on_disk is None or self.on_disk in self.record.hashes
+
+    @property
+    def is_edited(self) -> bool:
+        """Whether the user changed a file that urdfsync wrote."""
+        return isinstance(self.on_disk, str) and bool(self.record.hashes) and self.on_disk not in self.record.hashes
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
@@ -58,70 +72,50 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
     return Reason.KEEP if generated == base else Reason.CONFLICT
 
 
-def decide(
-    recorded: Mapping[str, FileRecord],
-    desired: Mapping[str, DesiredFile],
-    on_disk: Mapping[str, OnDisk],
-    moves: Mapping[str, str],
-    known: Mapping[str, tuple[Role, str]],
-) -> tuple[Action, ...]:
-    """Decide on every file of a robot; `on_disk` has the hashes of the files that are there, or CLASS_FOLDER.
+def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action, ...]:
+    """Decide on every file of a robot, by path.
 
     `moves` has new and old path of files whose element was renamed. A file that the user edited goes to its new path
-    (MOVE, and LEAVE at the old one), unless something else of the user's is there. `known` has role and owner of
-    recorded files.
+    (MOVE, and MOVED_AWAY at the old one), unless something else of the user's is there.
     """
-    edited = _edited_moves(recorded, on_disk, moves)
-    left = set(edited.values())
+    edited = _edited_moves(files, moves)
+    origins = set(edited.values())
     actions = []
-    for path in sorted(recorded.keys() | desired.keys()):
-        record, target = recorded.get(path, _NEVER_WRITTEN), desired.get(path)
-        mine, generated = on_disk.get(path), target.hash if target else None
-        base, origin = record.base(mine, generated), None
-        old = moves.get(path) if target else None
-        there = on_disk.get(old) if old else None
-        old_base = recorded[old].base(there, generated) if old else None
+    for path, file in sorted(files.items()):
+        mine, generated, origin = file.on_disk, file.generated, None
+        base = file.record.base(mine, generated)
+        old = moves.get(path) if generated is not None else None
+        old_mine = files[old].on_disk if old else None
+        old_base = files[old].record.base(old_mine, generated) if old else None
         if old and path in edited:
-            reason, origin, base, mine = Reason.MOVE, old, old_base, there
-        elif old and old_base and there == old_base and mine != generated and _is_free(record, mine):
+            reason, origin, base, mine = Reason.MOVE, old, old_base, old_mine
+        elif old and old_base and old_mine == old_base and mine != generated and file.is_free:
             reason, origin, base = Reason.CREATE if mine is None else Reason.UPDATE, old, old_base
-        elif path in left and target is None:
+        elif path in origins and generated is None:
             reason, mine = Reason.MOVED_AWAY, None
         else:
-            if path in left:
+            if path in origins:
                 base, mine = None, None
-            elif old_base and there is None and isinstance(mine, str) and path not in recorded:
+            elif old_base and old_mine is None and isinstance(mine, str) and file.record == NEVER_WRITTEN:
                 base = old_base  # the user moved the file there by hand
             reason = decide_file(base, mine, generated)
-            if reason is Reason.DELETE and record.is_ambiguous:
+            if reason is Reason.DELETE and file.record.is_ambiguous:
                 reason = Reason.ORPHAN
-        if reason is Reason.FORGET and (record.is_users or not record.hashes):
+        if reason is Reason.FORGET and (file.record.is_users or not file.record.hashes):
             continue  # it was never written, and is not wanted any more; or it is the user's
-        role, owner = (target.role, target.owner) if target else known[path]
         on_disk_hash = mine if isinstance(mine, str) else None
-        actions.append(Action(path, reason, role, owner, base, generated, origin, mine=on_disk_hash))
+        actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
 
 
-def _edited_moves(
-    recorded: Mapping[str, FileRecord], on_disk: Mapping[str, OnDisk], moves: Mapping[str, str]
-) -> dict[str, str]:
+def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[str, str]:
     """Return new and old path of the edited files that move with their elements."""
-    edited = {
-        new: old
-        for new, old in moves.items()
-        if isinstance(mine := on_disk.get(old), str) and recorded[old].hashes and mine not in recorded[old].hashes
-    }
-    taken = {path for path in moves if not _is_free(recorded.get(path, _NEVER_WRITTEN), on_disk.get(path))}
+    edited = {new: old for new, old in moves.items() if files[old].is_edited}
+    taken = {path for path in moves if not files[path].is_free}
     # an edited file that can't move blocks the one that would take its place, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
         edited = {new: old for new, old in edited.items() if new not in blocked}
     return edited
-
-
-def _is_free(record: FileRecord, mine: OnDisk) -> bool:
-    """Whether nothing of the user's is at a path: no file, or one that urdfsync wrote there."""
-    return mine is None or mine in record.hashes
 
 
 def keep_needed(
@@ -174,49 +168,46 @@ def hold(
     return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
 
 
-def files_after(actions: Iterable[Action], recorded: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
-    """Return the records of a package's files after a build that did all of its actions."""
-    found = {path: one for path, one in recorded.items() if one.is_users}
+def files_after(
+    actions: Iterable[Action], recorded: Mapping[str, FileRecord], *, is_complete: bool
+) -> dict[str, FileRecord]:
+    """Return the records of a package's files after a build.
+
+    One that is complete has done all of its actions. Else the files count that are as generated now; what is recorded
+    of all others stays that of the last complete build.
+    """
+    found = {path: record for path, record in recorded.items() if record.is_users or not is_complete}
     for action in actions:
-        if action.role is Role.ORDER:
+        is_generated = action.reason in (Reason.UNCHANGED, Reason.ADOPT) or action.writes
+        if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
-        if action.reason in (Reason.ORPHAN, Reason.NEEDED):
+        if action.generated is not None:
+            found[action.path] = FileRecord((action.generated,))
+        elif action.handed_to_user:
+            found[action.path] = FileRecord(is_users=True)
+        elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED):
             hashes = recorded[action.path].hashes
             # one is left of an ambiguous base: not that of the file, or the next build would delete it
             found[action.path] = FileRecord((next((one for one in hashes if one != action.mine), hashes[0]),))
-        elif action.handed_to_user:
-            found[action.path] = FileRecord(is_users=True)
-        elif action.generated is not None:
-            found[action.path] = FileRecord((action.generated,))
     return found
 
 
-def renewed_files(actions: Iterable[Action]) -> dict[str, FileRecord]:
-    """Return the records of the files that are as generated after a build that left others waiting."""
+def pending_choices(actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, UsersChoice]:
+    """Return the user's choices that wait, by path; `texts` has what he made of both sides of a file."""
+    waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
     return {
-        action.path: FileRecord((action.generated,))
-        for action in actions
-        if action.role is not Role.ORDER
-        and action.generated is not None
-        and (action.reason in (Reason.UNCHANGED, Reason.ADOPT) or (action.writes and action.kind is not Kind.DELETE))
+        one.path: UsersChoice(one.choice, one.sides, texts.get(one.path) if one.choice is Choice.EDIT else None)
+        for one in waiting
+        if one.choice
     }
 
 
-def pending_choices(actions: Iterable[Action]) -> dict[tuple[str, str], Choice]:
-    """Return the user's choices that wait, by path and by the two texts that they were made on."""
-    waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
-    return {(one.path, one.sides): one.choice for one in waiting if one.choice}
+def valid_choices(
+    choices: Mapping[str, UsersChoice], actions: Iterable[Action], *, is_pending: bool = False
+) -> dict[str, UsersChoice]:
+    """Return the choices of which both texts are still those that they were made on, by path.
 
-
-def remembered_choices(pending: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the pending choices that still hold, by path: neither side has changed since.
-
-    An edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's.
+    An edited file that nothing is new for waits for nothing: a pending choice about it is not urdfsync's.
     """
-    found = valid_choices(pending, (one for one in actions if one.reason is not Reason.KEEP))
-    return {path: choice for path, choice in found.items() if choice is not Choice.UNDO}
-
-
-def valid_choices(choices: Mapping[tuple[str, str], Choice], actions: Iterable[Action]) -> dict[str, Choice]:
-    """Return the choices of which both texts are still those that they were made on, by path."""
-    return {one.path: choices[one.path, one.sides] for one in actions if (one.path, one.sides) in choices}
+    concerned = (one for one in actions if one.path in choices and not (is_pending and one.reason is Reason.KEEP))
+    return {one.path: choices[one.path] for one in concerned if choices[one.path].sides == one.sides}

@@ -59,7 +59,7 @@ class Source(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...] = ()
     expansion: Expansion | None = None
     stale: tuple[str, ...] = ()
-    """What has changed since the source was expanded, if it was not expanded again."""
+    """Files that have changed since the source was expanded, if it was not expanded again."""
 
     @property
     def is_missing(self) -> bool:
@@ -97,10 +97,8 @@ class Source(msgspec.Struct, frozen=True):
             raise type(error)(*map(self.locate, error.diagnostics)) from None
 
 
-def read_source(
-    config: Config, robot: RobotConfig, store: Store, options: BuildOptions, former: str | None = None
-) -> Source:
-    """Read the robot's source, which xacro or a command may have to make first; `former` is its name in the state.
+def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
+    """Read the robot's source, which xacro or a command may have to make first; `name` is its other name in the state.
 
     Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
     that is not trusted.
@@ -112,25 +110,22 @@ def read_source(
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
-    recorded, known, stale = store.load_expansion(former or robot.name), None, NEVER
-    for one in filter(None, (recorded, options.expansions.get(robot.name))):
-        if not (stale := inputs.find_changes(robot, one)):
-            known = one
-            break
-    if robot.command and not is_file(robot.source):
-        known, stale = None, stale or (robot.source.name,)
+    made = store.load_expansion(name or robot.name)
+    stale = inputs.find_changes(robot, made) if made else NEVER
+    is_there = is_file(robot.source)
+    if robot.command and not is_there:
+        stale = stale or (robot.source.name,)
     # a dry run writes nothing, and a command writes the source
-    if options.expands and not (robot.command and options.dry) and (known is None or options.full):
-        known, stale = _expand(config, robot, inputs, options), ()
-    made, content = known or recorded, b""
-    if robot.command and (options.expands or is_file(robot.source)):
-        content = _read(config, robot)
-    elif made is not None:
-        content = made.text.encode()
+    if options.expands and not (robot.command and options.dry) and (stale or options.full):
+        made, stale = _expand(config, robot, inputs, options), ()
+    if robot.command:
+        content = _read(config, robot) if options.expands or is_there else b""
+    else:
+        content = made.text.encode() if made else b""
     if made is None:
         return Source(content, shown(robot.source), stale=stale)
     place = shown(config.file), robot.lines.get("arguments", 0)
-    told = expansion.warnings(made, robot.source, place, robot.name)
+    told = _warnings(made, robot.source, place, f"robot `{robot.name}`: ")
     return Source(content, shown(robot.source), inputs.places(made), told, made, stale)
 
 
@@ -139,17 +134,15 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
     from urdfsync.engine import expansion
 
     if not robot.command:
-        known = expansion.expand(inputs, robot.arguments or {})
-        known = msgspec.structs.replace(known, source=robot.source_text)
+        made = msgspec.structs.replace(expansion.expand(inputs, robot.arguments or {}), source=robot.source_text)
     elif options.trusted or (untrusted := find_untrusted_command(config, robot)) is None:
-        known = inputs.look(robot, Expansion())
+        made = inputs.look(robot, Expansion())
         expansion.run_command(config, robot)
     else:
         raise ConfigError(untrusted)
-    options.expansions[robot.name] = known
-    if inputs.find_changes(robot, known):
+    if inputs.find_changes(robot, made):
         mark_incomplete()  # somebody saved meanwhile
-    return known
+    return made
 
 
 def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
@@ -163,11 +156,24 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
         return Source(content, shown(file))
     from urdfsync.engine import expansion
 
-    place = file.absolute()
-    inputs = expansion.Inputs(place.parent, place, package_paths)
-    known = expansion.expand(inputs, arguments)
-    told = expansion.warnings(known, file, (shown(file), 0))
-    return Source(known.text.encode(), shown(file), inputs.places(known), told, known)
+    inputs = expansion.Inputs(file.absolute().parent, file.absolute(), package_paths)
+    made = expansion.expand(inputs, arguments)
+    told = _warnings(made, file, (shown(file), 0))
+    return Source(made.text.encode(), shown(file), inputs.places(made), told, made)
+
+
+def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
+    """Return what xacro said of a source, and the arguments that it does not have; they are given at `place`."""
+    found = []
+    for name in made.unused:
+        message = f"{robot}the source has no argument `{name}`"
+        found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
+    for text in made.warnings:
+        kind, _, message = text.partition(": ")
+        is_warning = kind in ("warning", "error")
+        severity = Severity.WARNING if is_warning else Severity.NOTE
+        found.append(Diagnostic(severity, "xacro-said", message if is_warning else text, shown(file)))
+    return tuple(found)
 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:
@@ -224,7 +230,7 @@ def _check_templates(folder: Path) -> None:
 
 
 def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
-    """What the domain says of the robot's options, now that there is a model, at their lines in the configuration.
+    """Return the domain's findings about the robot's options for this model, at their lines in the configuration.
 
     Raises ConfigError with every option that does not suit the model.
     """

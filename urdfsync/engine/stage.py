@@ -1,4 +1,4 @@
-"""What one build of a robot writes: files, conflict files, bases, and the record as the last one."""
+"""The plan of one robot with all its writes: files, conflict files, bases, and the record as the last one."""
 
 from __future__ import annotations
 
@@ -15,32 +15,32 @@ from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import option_values
+from urdfsync.engine.last_build import option_values
 from urdfsync.engine.package_files import encode, text_hash
 from urdfsync.engine.parents import SharedFile
-from urdfsync.engine.rules import files_after, pending_choices, renewed_files
+from urdfsync.engine.rules import files_after, pending_choices
 from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
-from urdfsync.state import replaced
+from urdfsync.state import bases, expansion, replaced, statefile
 from urdfsync.state.bases import DIGITS
-from urdfsync.state.record import Choice, FileRecord, Open, Record
+from urdfsync.state.record import FileRecord, Open, Record
 from urdfsync.state.replaced import Replaced
-from urdfsync.state.store import CONFLICTS, REPLACED, Witness
+from urdfsync.state.store import StateHashes
 from urdfsync.state.transaction import FileChange
 
 
 class Plan(msgspec.Struct, frozen=True):
-    """What one build of a robot does."""
+    """All that one build of a robot does and says."""
 
     actions: Actions
-    witness: Witness
+    state: StateHashes
     """Hashes of the recorded state that the plan rests on."""
     conflicts: tuple[Conflict, ...] = ()
     shared: tuple[SharedFile, ...] = ()
-    """What to do with files around the package."""
+    """Changes of files around the package."""
     diagnostics: tuple[Diagnostic, ...] = ()
     changes: Changes | None = None
-    """What is new in the model."""
+    """Changes of the model."""
     writes: tuple[FileChange, ...] = ()
     """The files to write but for the shared ones, the record last."""
     is_noop: bool = False
@@ -50,82 +50,105 @@ class Plan(msgspec.Struct, frozen=True):
     is_broken: bool = False
     """Whether a file of the package that the user edited does not fit it, or is no Modelica."""
     stale: tuple[str, ...] = ()
-    """What has changed since the source was expanded, which it was not again."""
+    """Files that have changed since the source was expanded, if it was not expanded again."""
     drawing: Path | None = None
     """Path of the main model's diagram."""
 
 
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
     """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
-    inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
-    store, former, news = inputs.store, inputs.former_name, generation.changes
-    if news and not (news.changes or news.generator):
-        news = None
-    plan = Plan(decision.actions, store.witness(), decision.conflicts, decision.shared, diagnostics, news)
-    is_broken = any(one.is_broken for one in decision.misfits)
-    plan = msgspec.structs.replace(plan, stale=inputs.source.stale, is_broken=is_broken)
-    record = _record(generation, decision)
-    files_changed = _file_changes(generation, decision, record.files if record else {})
-    versions = (conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts)
-    aside = {path: encode(text) for version in versions for path, text in version}
-    changes = store.fill(CONFLICTS, robot.name, aside, former)
-    before = put_aside(generation, decision.actions, decision.texts, decision.moved) if record else {}
-    changes += store.fill(REPLACED, robot.name, replaced.contents(before), former)
+    inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
+    record = None if inputs.options.removes else _record(generation, decision)
+    aside = put_aside(inputs, decision.actions, decision.texts, decision.disputed) if record else {}
+    changes = _file_changes(generation, decision, record.files if record else {})
+    is_writing = any(action.writes for action in decision.actions)
 
     drawing = None
     if inputs.options.draw:
         imports = generation.imported.imports
         picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
         if picture is not None:
-            drawing, more = store.drawing(robot.name, picture)
-            changes += more
+            drawing = store.drawing(robot.name)
+            changes += store.save(drawing, picture.encode())
 
-    state = _base_changes(generation, decision, record, before)
-    if record and not inputs.source.stale:
-        state += store.save_expansion(robot.name, inputs.source.expansion)
-    state += store.changes(robot.name, record, former)
-    changes = [*files_changed, *changes, *state]
-    above = {files.path(inputs.old_folder).parent, store.folder}
+    state = store.remove(inputs.last.name) if record is None or inputs.former_name else []
+    if record is None:
+        state += store.remove(robot.name) if inputs.former_name else []
+    else:
+        versions = [conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts]
+        changes += store.save_conflicts(
+            robot.name, {path: encode(text) for version in versions for path, text in version}
+        )
+        changes += store.save(store.replaced_file(robot.name), replaced.dumps(aside))
+        expanded = inputs.source.expansion
+        if not inputs.source.stale:
+            state += store.save(store.expansion(robot.name), expansion.dumps(expanded) if expanded else None)
+        recorded = store.save(store.path(robot.name), statefile.dumps(record).encode())
+        state += _base_changes(generation, decision, record, aside, is_writing=is_writing or bool(state or recorded))
+        state += recorded
+    changes += state
+    above = {inputs.files.path(inputs.last.folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
-    emptied = [one for one in folders if not above.isdisjoint(one.parents)]
-    return msgspec.structs.replace(
-        plan,
-        witness=store.witness(),  # again: more of the recorded state has been read since
+    emptied = [folder for folder in folders if not above.isdisjoint(folder.parents)]
+    news = generation.changes
+    return Plan(
+        decision.actions,
+        store.hashes(),
+        decision.conflicts,
+        decision.shared,
+        diagnostics,
+        changes=news if news and (news.changes or news.generator) else None,
         writes=tuple(changes),
-        is_noop=not state and not any(action.writes for action in decision.actions),
+        is_noop=not (state or is_writing),
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
+        is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        stale=inputs.source.stale,
         drawing=drawing,
     )
 
 
-def _record(generation: Generation, decision: Decision) -> Record | None:
-    """Return the record after a build; None for a robot that is removed."""
-    if generation.inputs.options.removes:
-        return None
+def _record(generation: Generation, decision: Decision) -> Record:
+    """Return the record after a build."""
+    inputs, old, news = generation.inputs, generation.inputs.last.record, generation.changes
+    imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
-        return _open_record(generation, decision)
-    record = _complete_record(generation, decision)
-    old = generation.inputs.record
-    return old if old is not None and _serves(old, record, generation) else record
+        # the model stays that of the last complete build; what is renewed counts, but in a former folder
+        files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
+        files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
+        renewed = {
+            key: (*old.imports.get(key, ()), entry)
+            for key, entry in imports.items()
+            if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
+            and entry not in old.imports.get(key, ())
+        }
+        choices = pending_choices(decision.actions, decision.texts)
+        choices = {inputs.folder.path(key): choice for key, choice in choices.items()}
+        open_ = Open(choices, generation.now.snapshot, generation.recognised_renames)
+        return msgspec.structs.replace(old, files=files, imports={**old.imports, **renewed}, open=open_)
+    recorded = inputs.last.files.items()
+    kept = {key: file for key, file in recorded if not file.is_users or is_file(inputs.files.path(key))}
+    files = files_after(decision.actions, kept, is_complete=True)
+    new = Record(
+        package=inputs.robot.target.package,
+        class_=inputs.robot.target.name,
+        folder=str(inputs.folder),
+        generator=inputs.generator,
+        options=option_values(inputs.robot.options),
+        snapshot=generation.now.snapshot,
+        imports={key: (entry,) for key, entry in imports.items()},
+        files={key: file for key, file in files.items() if key.startswith(inside)},
+    )
+    if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
+        return new
+    # not worth a commit is what no file of the package says: extensions that nothing models, options without effect
+    silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    return old if silent == old else new
 
 
-def _serves(old: Record, new: Record, generation: Generation) -> bool:
-    """Return whether all later decisions are the same with the record that is there.
-
-    What no file of the package says is not worth a commit: extensions that nothing models, options without effect.
-    """
-    changes = generation.changes
-    if old.open or old.is_united or old.snapshot is None or changes is None:
-        return False
-    is_said = any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in changes.changes)
-    like_old = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
-    return not is_said and like_old == old
-
-
-def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[str, FileRecord]) -> list[FileChange]:
+def _file_changes(generation: Generation, decision: Decision, records: Mapping[str, FileRecord]) -> list[FileChange]:
     """Return the changes of the package's files, but for those in which other robots may have a part.
 
-    `recorded` are the records of the files afterwards.
+    `records` are those of the files afterwards.
     """
     files, found = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
@@ -134,8 +157,8 @@ def _file_changes(generation: Generation, decision: Decision, recorded: Mapping[
             content = None if action.kind is Kind.DELETE else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            old, file = state.sha256 if state else None, recorded.get(action.path)
-            found.append(FileChange(files.path(action.path), content, old, is_moved, file))
+            old, record = state.sha256 if state else None, records.get(action.path)
+            found.append(FileChange(files.path(action.path), content, old, is_moved, record))
     return found
 
 
@@ -143,98 +166,46 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
     key, files = action.path, generation.inputs.files
     if key in decision.texts:
         return encode(decision.texts[key])
+    path = generation.inputs.folder.path(key)
     if action.role is Role.IMPORT:
-        content = generation.imported.contents.get(generation.inputs.path(key))
+        content = generation.imported.contents.get(path)
         if content is None:
             message, file = "it can't be written: the file that it is imported from is missing", shown(files.path(key))
             hint = "restore that file, or the imported copy"
             raise OutputError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint))
         return content
-    generated = generation.content(key)
-    state = files.state(key)
+    generated, state = generation.package.content(path), files.state(key)
     mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
     return generated.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else generated
 
 
-def _complete_record(generation: Generation, decision: Decision) -> Record:
-    """Return the record of a build after which nothing is open."""
-    inputs = generation.inputs
-    inside = inputs.key("")
-    old = {
-        key: one for key, one in inputs.recorded_files.items() if not one.is_users or is_file(inputs.files.path(key))
-    }
-    files = files_after(decision.actions, old)
-    return Record(
-        package=inputs.robot.target.package,
-        class_=inputs.robot.target.name,
-        folder=inputs.folder,
-        generator=inputs.generator,
-        options=option_values(inputs.robot.options),
-        snapshot=generation.now.snapshot,
-        imports={key: (one,) for key, one in generation.imported.imports.items()},
-        files={key: one for key, one in files.items() if key.startswith(inside)},
-    )
-
-
-def _open_record(generation: Generation, decision: Decision) -> Record:
-    """Return the record of the last complete build, with the bases that this build has renewed, and what is open."""
-    inputs, inside = generation.inputs, generation.inputs.key("")
-    record = inputs.record or Record(
-        package=inputs.robot.target.package,
-        class_=inputs.robot.target.name,
-        folder=inputs.folder,
-        generator=inputs.generator,
-        options=option_values(inputs.robot.options),
-    )
-    renewed = {} if inputs.has_moved else renewed_files(decision.actions)
-    renewed = {key: one for key, one in renewed.items() if key.startswith(inside) and record.files.get(key) != one}
-    files = {**record.files, **renewed}
-    known = record.open.imports if record.open else {}
-    imports = {
-        key: one
-        for key, one in generation.imported.imports.items()
-        if files.get(inputs.key(one.target)) == FileRecord((one.target_hash,)) and record.imports.get(key) != (one,)
-    }
-    choices = {(inputs.path(key), sides): one for (key, sides), one in pending_choices(decision.actions).items()}
-    edited = {
-        inputs.path(one.path): decision.texts[one.path]
-        for one in decision.actions
-        if one.held and one.choice is Choice.EDIT and one.path in decision.texts
-    }
-    seen = generation.now.snapshot
-    open_ = Open(choices, seen, generation.recognised_renames, edited, {**known, **imports})
-    return msgspec.structs.replace(record, files=files, open=open_)
-
-
 def _base_changes(
-    generation: Generation, decision: Decision, record: Record | None, aside: Mapping[str, Replaced]
+    generation: Generation, decision: Decision, record: Record, aside: Mapping[str, Replaced], *, is_writing: bool
 ) -> list[FileChange]:
     """Return how the texts that the record mentions get to the bases, and how old ones go.
 
-    Looked at are the files of bases for new hashes, and those that are not there; all in a full build, and where git
-    has united states. Once no state mentions a text, neither the record before nor the one after, it goes when its file
-    is written; that alone is no reason to write it.
+    A text that is missing or damaged is written if it is generated now. One that no state mentions any more, neither
+    the record before nor the one after, goes with a complete build that writes something: alone it is no reason.
     """
-    inputs, store, name = generation.inputs, generation.inputs.store, generation.inputs.robot.name
-    if record is None:
-        names = {name, inputs.last_name}
-        return [one for robot in names for digit in DIGITS for one in store.save_bases(robot, digit, None)]
-    before = [*(inputs.record.files if inputs.record else {}).values(), *inputs.written.values()]
+    inputs, last = generation.inputs, generation.inputs.last
+    before = [*last.record.files.values(), *last.written.values()]
     old = {sha256 for file in before if file for sha256 in file.hashes}
     new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
-    is_whole = inputs.options.full or inputs.former_name or inputs.record is None or inputs.record.is_united
-    renewed = {sha256[0] for sha256 in new.keys() - old} | store.missing_bases(name)
     needed = {*old, *new, *(text_hash(one.base) for one in aside.values() if one.is_users and one.base)}
+    stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
+    missing = dict[str, str]()
+    for sha256, key in new.items():
+        path = inputs.folder.path(key)
+        is_text = path in generation.package.artifacts and sha256 not in (stored[sha256[0]] or ())
+        if is_text and generation.package.hash(path) == sha256:
+            missing[sha256] = generation.package.content(path).decode()
+    cleans = decision.is_complete and (is_writing or bool(missing))
+    # git may have united lines, which have an order
+    is_whole = inputs.options.full or inputs.former_name or last.record.is_united
     found = list[FileChange]()
-    for digit in DIGITS if is_whole else sorted(renewed):
-        texts = dict(store.bases(inputs.last_name, digit))
-        for sha256 in [one for one in new if one[0] == digit and one not in texts]:
-            path = inputs.path(new[sha256])
-            if path in generation.package.artifacts and generation.package.hash(path) == sha256:
-                texts[sha256] = generation.package.content(path).decode()
-        if decision.is_complete and store.save_bases(name, digit, texts):
-            texts = {sha256: text for sha256, text in texts.items() if sha256 in needed}
-        found += store.save_bases(name, digit, texts)
-        if inputs.former_name:
-            found += store.save_bases(inputs.former_name, digit, None)
+    for digit, texts in stored.items():
+        after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in needed}
+        after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
+        if is_whole or texts is None or after.keys() != texts.keys():
+            found += inputs.store.save(inputs.store.base_file(inputs.robot.name, digit), bases.dumps(after))
     return found

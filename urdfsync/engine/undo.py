@@ -1,4 +1,4 @@
-"""What the last build wrote over, to be given back to the user.
+"""Texts that the last build wrote over, to be given back to the user.
 
 It is put aside in the state folder and stays there until the next build that writes. What the user had before a merge
 stays as long as the merged file is not saved. What was merged stays as long as the file that was given back is not
@@ -14,9 +14,9 @@ import msgspec
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import BOTH_SIDES, Conflict
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import text_hash
-from urdfsync.state.record import Choice, role_of, sides_hash
+from urdfsync.state.record import Choice, UsersChoice, role_of, sides_hash
 from urdfsync.state.replaced import Replaced
 
 _MANY = 100
@@ -24,101 +24,100 @@ _MANY = 100
 
 
 def apply_undo(
-    generation: Generation, actions: Iterable[Action], choices: Mapping[str, Choice]
+    inputs: Inputs, actions: Iterable[Action], choices: Mapping[str, UsersChoice]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Undo merges where the user chose that, or open them again for another merge.
 
     Returns the actions, and the texts of what is undone by path.
     """
-    inputs, actions, found = generation.inputs, tuple(actions), tuple[Action, ...]()
+    found = list[Action]()
     for action in actions:
-        choice = choices.get(action.path)
+        choice = choices[action.path].choice if action.path in choices else None
         if choice is Choice.UNDO:
-            action = _undone(generation, action)
+            action = _undo(inputs, action)
         elif choice in BOTH_SIDES and action.reason is Reason.KEEP:
-            action = _reopened(generation, action)
-        found += (action,)
-    found += tuple(_find_deleted(generation, {action.path for action in actions}))
-    return found, {
-        one.path: inputs.replaced[inputs.path(one.path)].before for one in found if one.reason is Reason.UNDO
-    }
+            action = _reopen(inputs, action)
+        found.append(action)
+    found += _find_deleted(inputs, {action.path for action in found})
+    paths = {one.path: inputs.folder.path(one.path) for one in found if one.reason is Reason.UNDO}
+    return tuple(found), {key: inputs.last.replaced[path].before for key, path in paths.items()}
 
 
-def _undone(generation: Generation, action: Action) -> Action:
+def _undo(inputs: Inputs, action: Action) -> Action:
     """Give back what the user had, if the file is still what was written over it."""
-    one = generation.inputs.replaced.get(generation.inputs.path(action.path))
-    if one is None or not action.mine or action.role is Role.IMPORT:
+    aside = inputs.last.replaced.get(inputs.folder.path(action.path))
+    if aside is None or not action.mine or action.role is Role.IMPORT:
         return action
-    after = action.generated if one.after is None else text_hash(one.after)
-    if not one.is_users or action.mine != after or action.base != action.generated:
+    after = action.generated if aside.after is None else text_hash(aside.after)
+    if not aside.is_users or action.mine != after or action.base != action.generated:
         return action
-    result = text_hash(one.before)
-    return msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO, result=result)
+    return msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO, result=text_hash(aside.before))
 
 
-def _reopened(generation: Generation, action: Action) -> Action:
+def _reopen(inputs: Inputs, action: Action) -> Action:
     """Let a file that is kept conflict as it did before, if it still is what was written or given back.
 
     Undoing takes the generated text for its base, so that builds keep it. The base of the merge is put aside.
     """
-    inputs = generation.inputs
-    one = inputs.replaced.get(inputs.path(action.path))
-    if one is None or not (one.is_users and one.base) or inputs.files.text(action.path) != one.after:
+    aside = inputs.last.replaced.get(inputs.folder.path(action.path))
+    if aside is None or not (aside.is_users and aside.base) or inputs.files.text(action.path) != aside.after:
         return action
-    return msgspec.structs.replace(action, reason=Reason.CONFLICT, base=text_hash(one.base))
+    return msgspec.structs.replace(action, reason=Reason.CONFLICT, base=text_hash(aside.base))
 
 
-def _find_deleted(generation: Generation, known: Collection[str]) -> Iterator[Action]:
-    """Yield the actions that give back files of the user's which a build has deleted: they are his own then."""
-    inputs, no_file = generation.inputs, sides_hash(None, None)
-    for (key, sides), choice in inputs.options.choices.items():
-        path = inputs.path(key)
-        if choice is not Choice.UNDO or sides != no_file or key in known or path not in inputs.replaced:
-            continue
-        role = role_of(path)
-        if inputs.files.on_disk(key, role) is None:
-            result = text_hash(inputs.replaced[path].before)
-            yield Action(key, Reason.UNDO, role, choice=choice, result=result)
+def _find_deleted(inputs: Inputs, actions: Collection[str]) -> Iterator[Action]:
+    """Yield the actions that give back files of the user's which a build has deleted: they are his own then.
+
+    `actions` are the keys of those that there are.
+    """
+    no_file = sides_hash(None, None)
+    for key, chosen in inputs.options.choices.items():
+        aside = inputs.last.replaced.get(inputs.folder.path(key)) if chosen.choice is Choice.UNDO else None
+        role = role_of(inputs.folder.path(key))
+        if aside and chosen.sides == no_file and key not in actions and inputs.files.on_disk(key, role) is None:
+            yield Action(key, Reason.UNDO, role, choice=Choice.UNDO, result=text_hash(aside.before))
 
 
 def put_aside(
-    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
+    inputs: Inputs, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
 ) -> dict[str, Replaced]:
-    """Return what is put aside after a build, by path; `texts` has merged files, `moved` those that move, by key."""
-    inputs, files = generation.inputs, generation.inputs.files
+    """Return what is put aside after a build, by path below the package.
+
+    `texts` has merged files, `disputed` those that both sides changed or that move, by key.
+    """
     actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
-    new = dict(_written_over(generation, actions, texts, moved))
+    new = dict(_written_over(inputs, actions, texts, disputed))
     untouched = [path for path, one in new.items() if not one.is_users]
     for path in untouched if len(untouched) > _MANY else ():
         del new[path]
-    found = {}
     is_writing = any(action.writes for action in actions)
-    settled = {inputs.path(action.path) for action in actions if action.choice is Choice.KEEP}
-    settled |= {inputs.path(action.path) for action in actions if action.reason is Reason.UNDO}
-    for path, one in inputs.replaced.items():
-        after = files.text(inputs.key(path))
-        stands = after is None or one.after in (None, after)
-        if path not in settled and (not is_writing or (one.is_users and stands)):
-            found[path] = one
-    return found | new
+    settled = {
+        inputs.folder.path(action.path)
+        for action in actions
+        if action.choice is Choice.KEEP or action.reason is Reason.UNDO
+    }
+    old = {}
+    for path, one in inputs.last.replaced.items():
+        after = inputs.files.text(inputs.folder.key(path))
+        is_saved_since = after is not None and one.after not in (None, after)
+        if path not in settled and (not is_writing or (one.is_users and not is_saved_since)):
+            old[path] = one
+    return old | new
 
 
 def _written_over(
-    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], moved: Mapping[str, Conflict]
+    inputs: Inputs, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
 ) -> Iterator[tuple[str, Replaced]]:
-    inputs, files = generation.inputs, generation.inputs.files
     for action in actions:
+        path, after = inputs.folder.path(action.path), texts.get(action.path)
         is_taken = action.reason is Reason.DELETE and action.choice is Choice.TAKE
         is_replaced = action.reason in (Reason.UPDATE, Reason.MERGE, Reason.UNDO) and action.origin is None
-        if action.writes and action.mine and (is_taken or is_replaced):
-            before = files.text(action.path) or ""
-            base = before if action.mine == action.base else None
-            if action.reason is Reason.UNDO:
-                base = inputs.replaced[inputs.path(action.path)].base
-            elif base is None and action.base:
-                base = inputs.base(action.base)
-            yield inputs.path(action.path), Replaced(before, base, texts.get(action.path))
-        elif action.writes and action.path in moved:
-            one, after = moved[action.path], texts.get(action.path)
-            if one.kept != after:
-                yield inputs.path(action.path), Replaced(one.kept, one.base, after)
+        if not action.writes:
+            continue
+        if action.mine and (is_taken or is_replaced):
+            before = inputs.files.text(action.path) or ""
+            base = before if action.mine == action.base else inputs.last.base(action.base)
+            base = inputs.last.replaced[path].base if action.reason is Reason.UNDO else base
+            yield path, Replaced(before, base, after)
+        elif action.reason is Reason.MOVE and (move := disputed.get(action.path)) and move.kept != after:
+            yield path, Replaced(move.kept, move.base, after)

@@ -26,7 +26,7 @@ _BUILTINS = frozenset(
     "list dict map len str float int bool True False min max round sorted range abs all any complex divmod enumerate "
     "filter frozenset hash isinstance issubclass ord repr reversed slice set sum tuple zip".split()
 )
-"""What xacro has in `python`, but for `type` and `vars`: these lead out of an expression."""
+"""All that xacro has in `python`, but for `type` and `vars`: these lead out of an expression."""
 _VALUES = frozenset(
     {str, int, float, complex, bool, list, dict, tuple, set, frozenset, xacro.YamlListWrapper, xacro.YamlDictWrapper}
 )

@@ -46,7 +46,7 @@ _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:",
 
 
 class Request(msgspec.Struct, frozen=True):
-    """What to expand; paths are absolute."""
+    """A file to expand; paths are absolute."""
 
     source: str
     arguments: Mapping[str, str]
@@ -56,7 +56,7 @@ class Request(msgspec.Struct, frozen=True):
     memory: int
     """Bytes that may be allocated."""
     folder: str = "."
-    """What `$(cwd)` stands for. The process works elsewhere: PYTHONPATH may have relative entries."""
+    """The value of `$(cwd)`. The process works elsewhere: PYTHONPATH may have relative entries."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -75,7 +75,7 @@ class TimeLimitError(Exception):
 
 
 class Answer(msgspec.Struct, frozen=True):
-    """What came of it, and all that it depends on, even if it failed; files are absolute."""
+    """The expanded text, and all that it depends on, even if it failed; files are absolute."""
 
     text: str = ""
     places: tuple[tuple[int, str, int], ...] = ()

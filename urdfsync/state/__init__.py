@@ -1,1 +1,1 @@
-"""What is kept on disk between builds, and writing that survives a crash, a full disk and other writers."""
+"""State on disk between builds, and writing that survives a crash, a full disk and other writers."""

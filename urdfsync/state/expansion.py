@@ -38,7 +38,7 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     unused: tuple[str, ...] = ()
     """Arguments that the source does not have."""
     warnings: tuple[str, ...] = ()
-    """What xacro said."""
+    """Messages of xacro."""
     places: str = ""
     """Where elements come from: for example `12=0:7`, line 12 of the text is from line 7 of the first of `files`, in
     the order of their names."""

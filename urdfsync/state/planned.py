@@ -35,14 +35,14 @@ class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class OvertakenBuild(msgspec.Struct, frozen=True):
-    """What a build was about to write that a save has overtaken; kept until a build of its robot is complete."""
+    """The planned changes of a build that a save has overtaken; kept until a build of its robot is complete."""
 
     robot: str
     files: tuple[PlannedFile, ...]
 
 
 class PlannedBuild(file_operations.Bound, frozen=True):
-    """What one build is about to write."""
+    """The planned changes of one build."""
 
     robot: str
     token: str

@@ -1,4 +1,4 @@
-"""What is recorded of a robot: its last complete build, and what is open since.
+"""The record of a robot: its last complete build, and the open decisions since.
 
 The record advances only as a whole. A build that ends with a conflict leaves it as it is, but for the bases of the
 files that it renewed, so that the next build compares with the last complete one.
@@ -33,7 +33,7 @@ class Choice(enum.StrEnum):
     MERGE_GENERATED = "merge-generated"
     """Both sides' changes; where they contradict each other, the generated ones."""
     EDIT = "edit"
-    """What the user makes of both sides in an editor; nothing, as long as there is no such text."""
+    """The text that the user makes of both sides in an editor."""
     UNDO = "undo"
     """The user's text as it was before it was merged or replaced."""
 
@@ -47,7 +47,7 @@ class FileRecord(msgspec.Struct, frozen=True):
 
     hashes: tuple[str, ...] = ()
     is_users: bool = False
-    """Whether the user keeps a file that was no longer generated. This goes before any hash."""
+    """Whether the user keeps a file that was no longer generated. Overrides `hashes`."""
 
     @property
     def is_ambiguous(self) -> bool:
@@ -73,7 +73,7 @@ class FileRecord(msgspec.Struct, frozen=True):
 
 
 class Generator(msgspec.Struct, frozen=True):
-    """What turned the model into files, beside the options."""
+    """The program that turned the model into files: domain, revision and templates."""
 
     domain: str
     revision: int
@@ -81,19 +81,25 @@ class Generator(msgspec.Struct, frozen=True):
     """Hash of the templates."""
 
 
-class Open(msgspec.Struct, frozen=True):
-    """What the user has decided since the last complete build, and what is needed to recognise renames."""
+class UsersChoice(msgspec.Struct, frozen=True, omit_defaults=True):
+    """The user's decision about one file. It holds for the two texts that he saw: one that was saved since stays."""
 
-    choices: Mapping[tuple[str, str], Choice] = {}
-    """By the path below the package and `sides_hash`: a choice holds for the two texts that it was made on."""
+    choice: Choice
+    sides: str
+    """`sides_hash` of them."""
+    text: str | None = None
+    """The text that the user made of both sides, for `Choice.EDIT`."""
+
+
+class Open(msgspec.Struct, frozen=True):
+    """The user's decisions since the last complete build, and the facts that recognise renames."""
+
+    choices: Mapping[str, UsersChoice] = {}
+    """By the path below the package."""
     seen: Snapshot = {}
     """The model that the last build saw."""
     renamed: Mapping[ElementKey, str] = {}
     """Elements of the last complete build that have another name in the model last seen."""
-    edited: Mapping[str, str] = {}
-    """What the user has made of files that wait, by the path below the package."""
-    imports: Mapping[str, Import] = {}
-    """Imported files that were renewed since, as the build that renewed them read them."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
@@ -112,6 +118,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     snapshot: Snapshot | None = None
     """The model; None before the first complete build, and if an element stands twice in a united state."""
     imports: Mapping[str, tuple[Import, ...]] = {}
+    """Several for one file if git has united two states, or if it was renewed since."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if nothing is: the last build was complete."""

@@ -7,9 +7,10 @@ Nothing in it is an absolute path, a time or a host name.
 
 from __future__ import annotations
 
+import functools
 import posixpath
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import msgspec
@@ -17,7 +18,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import, Snapshot
 from urdfsync.files import digest
-from urdfsync.state.record import RESOURCES, Choice, FileRecord, Generator, Open, Record
+from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record, UsersChoice
 
 FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
@@ -27,7 +28,7 @@ _USERS = "user"
 """In the place of a hash: the file is the user's."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
-"""What nearly all paths are: nothing that could lead elsewhere."""
+"""Form of nearly all paths, which can't lead elsewhere."""
 _HINT = "restore it from version control, or let `urdfsync build --full` make it anew"
 
 _FACTS: Mapping[str, Any] = {
@@ -42,11 +43,9 @@ _FACTS: Mapping[str, Any] = {
     "option": tuple[str, Any],
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
-    "choice": tuple[str, str, Choice],
-    "edited": tuple[str, str],
+    "choice": tuple[str, UsersChoice],
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
-    "renewed": tuple[str, Import],
 }
 """The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
@@ -87,11 +86,9 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
         yield from (("model", fact) for fact in _elements(record.snapshot))
     yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
     if record.open:
-        yield from (("choice", (*key, choice)) for key, choice in record.open.choices.items())
-        yield from (("edited", item) for item in record.open.edited.items())
+        yield from (("choice", item) for item in record.open.choices.items())
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
-        yield from (("renewed", item) for item in record.open.imports.items())
 
 
 def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
@@ -103,6 +100,7 @@ def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
             yield part, None, value
 
 
+@functools.lru_cache(maxsize=8)  # the daemon reads each state after a build and before the next: 3 of 90 ms
 def loads(text: str, file: str, *, strict: bool = True) -> Record:
     """The record in `text`, which errors call `file`.
 
@@ -164,17 +162,14 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         imports[key] = (*imports.get(key, ()), one)
     open_ = None
     if found["seen"]:
-        choices = {(path, sides): choice for path, sides, choice in found["choice"]}
+        choices = dict(found["choice"])
         renamed = {(kind, old): new for kind, old, new in found["renamed"]}
         seen = _snapshot(found["seen"])
         is_known = seen is not None and len(renamed) == len(found["renamed"])
-        once = len(choices) == len(found["choice"])
         open_ = Open(
-            choices if once else {},
+            choices if len(choices) == len(found["choice"]) else {},
             (seen or {}) if is_known else {},
             renamed if is_known else {},
-            dict(found["edited"]) if once else {},
-            dict(found["renewed"]),
         )
     return Record(
         package=package,
@@ -224,14 +219,12 @@ def _strange_paths(record: Record) -> Iterator[str]:
     if not (_is_normal(folder) and folder.split("/")[-len(package) :] == package):
         yield folder
     below = len(folder) + 1
-    imports = [one for found in record.imports.values() for one in found]
-    imports += record.open.imports.values() if record.open else ()
-    rules: list[tuple[Iterator[str], Callable[[str], bool]]] = [
-        ((key[below:] for key in record.files), lambda path: path.startswith(RESOURCES) or path.endswith(".mo")),
-        ((one.target for one in imports), lambda path: path.startswith(RESOURCES)),
-    ]
-    for paths, is_written in rules:
-        yield from (path for path in paths if not (_is_inside(path) and is_written(path)))
+    paths = [key[below:] for key in record.files]
+    targets = [entry.target for found in record.imports.values() for entry in found]
+    yield from (
+        path for path in paths if not (_is_inside(path) and (path.startswith(RESOURCES) or path.endswith(".mo")))
+    )
+    yield from (path for path in targets if not (_is_inside(path) and path.startswith(RESOURCES)))
 
 
 def _is_inside(path: str) -> bool:

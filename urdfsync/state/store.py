@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
@@ -10,16 +10,14 @@ from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest, normalised, shown
-from urdfsync.state import bases, expansion, planned, statefile
+from urdfsync.state import bases, expansion, planned, replaced, statefile
 from urdfsync.state.expansion import Expansion
 from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
+from urdfsync.state.replaced import Replaced
 from urdfsync.state.transaction import FileChange
 
-SUFFIX, EXPANDED = ".state", ".expanded"
-CONFLICTS, REPLACED = "conflicts", "replaced"
-"""Folders beside the records, with one for each robot: versions of what conflicts, and what stood in files that the
-last build wrote over."""
+SUFFIX = ".state"
 _FOR_GIT = {
     ".gitignore": """\
 # Written by urdfsync. robots/ and bases/ belong into version control, everything else is safe to lose.
@@ -37,7 +35,7 @@ _FOR_GIT = {
 """,
 }
 
-Witness: TypeAlias = Mapping[Path, str | None]
+StateHashes: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
 
 
@@ -49,8 +47,6 @@ class Store:
         self._tree = Tree(root)
         self._seen: dict[Path, tuple[bytes | None, str | None]] = {}
         """Content and hash of each file that was loaded; None for no file."""
-        self._bases: dict[Path, dict[str, str]] = {}
-        """What was loaded of bases, by their files."""
 
     def names(self) -> list[str]:
         """The robots that have a record, by their names."""
@@ -88,108 +84,25 @@ class Store:
         return None if content is None else expansion.loads(content)
 
     def planned_files(self) -> tuple[PlannedFile, ...]:
-        """What builds that are not complete were about to write, in their order. Raises OutputError for a link."""
+        """The planned changes of builds that are not complete, in their order. Raises OutputError for a link."""
         path = self.folder / planned.FILE
         build = planned.parse(path, self._bytes(path))
         return tuple(file for one in build.overtaken() for file in one.files) if build else ()
 
-    def witness(self) -> Witness:
-        """What all files were when they were loaded."""
-        return {path: sha256 for path, (_, sha256) in self._seen.items()}
-
-    def is_unchanged(self, witness: Witness, but: Collection[Path] = ()) -> bool:
-        """Whether all files still are as they were then, but for some that somebody else looks at."""
-        tree = Tree(self._tree.root)  # which finds folders that have come since
-        found = ((tree.read(path), before) for path, before in witness.items() if path not in but)
-        return all((None if content is None else digest(content)) == before for content, before in found)
-
     def base(self, robot: str, sha256: str) -> str | None:
-        """The text with this hash (see `text_digest`) that was generated last for a robot; None if it is lost."""
-        return self.bases(robot, sha256[0]).get(sha256) if sha256 else None
+        """The text with this hash (see `text_digest`) that was generated once for a robot; None if it is lost."""
+        return (self.bases(robot, sha256[0]) or {}).get(sha256)
 
-    def bases(self, robot: str, digit: str) -> dict[str, str]:
-        """The texts generated last for a robot whose hashes begin with a digit, by these hashes."""
-        path = self._base_file(robot, digit)
-        if path not in self._bases:
-            self._bases[path] = bases.loads(self._bytes(path) or b"")
-        return self._bases[path]
+    def bases(self, robot: str, digit: str) -> Mapping[str, str] | None:
+        """The texts generated for a robot whose hashes begin with a digit, by these hashes; None for no file."""
+        content = self._bytes(self.base_file(robot, digit))
+        return None if content is None else bases.loads(content)
 
-    def missing_bases(self, robot: str) -> set[str]:
-        """The digits for which there is no file of bases."""
-        folder = self.folder / "bases" / robot
-        return {*bases.DIGITS}.difference(list_folder(folder) if self._tree.check_folder(folder) else ())
+    def replaced(self, robot: str) -> Mapping[str, Replaced]:
+        """Texts that the last build wrote over, by path below the package."""
+        return replaced.loads(self._bytes(self.replaced_file(robot)) or b"")
 
-    def save_bases(self, robot: str, digit: str, texts: Mapping[str, str] | None) -> list[FileChange]:
-        """How the texts of one digit get to the disk, or how their file goes."""
-        path, content = self._base_file(robot, digit), None if texts is None else bases.dumps(texts)
-        return [self._change(path, content)] if self._bytes(path) != content else []
-
-    def base_files(self, robot: str) -> list[Path]:
-        """The files of a robot's bases."""
-        return [self._base_file(robot, digit) for digit in bases.DIGITS]
-
-    def _base_file(self, robot: str, digit: str) -> Path:
-        return self.folder / "bases" / robot / digit
-
-    def contents(self, kind: str, robot: str) -> dict[str, bytes]:
-        """What is in the robot's folder of one kind, by the paths below it. Safe to lose."""
-        folder = self.folder / kind / robot
-        found = ((path.relative_to(folder).as_posix(), self._bytes(path)) for path in self._files(folder))
-        return {path: content for path, content in found if content is not None}
-
-    def fill(self, kind: str, robot: str, contents: Mapping[str, bytes], former: str | None) -> list[FileChange]:
-        """How files get to the robot's folder of one kind, by their path below it, and how all others go."""
-        folder = self.folder / kind / robot
-        folders = [folder, *([folder.with_name(former)] if former else [])]
-        there = [path for one in folders for path in self._files(one)]
-        wanted = {folder / path: content for path, content in contents.items()}
-        gone = [self._change(path, None) for path in there if path not in wanted and self._bytes(path) is not None]
-        return gone + [self._change(path, text) for path, text in wanted.items() if self._bytes(path) != text]
-
-    def _files(self, folder: Path) -> list[Path]:
-        """All files below a folder. Raises OutputError for a link to it, which may lead to all of the disk."""
-        return sorted(map(Path, walk_files(folder))) if self._tree.check_folder(folder) else []
-
-    def changes(self, robot: str, record: Record | None, former: str | None) -> Iterator[FileChange]:
-        """How the new record gets to the disk, or how the old one goes if there is none.
-
-        `former` is the robot's name in the record that was loaded.
-        """
-        path, content = self.path(robot), statefile.dumps(record).encode() if record else None
-        drawing = self._drawing(robot)
-        for name in (*([robot] if record is None else []), *([former] if former else [])):
-            yield from self.save_expansion(name, None)
-        if record is None and self._bytes(drawing) is not None:
-            yield self._change(drawing, None)
-        old = self._bytes(path)
-        if content != (old.replace(b"\r\n", b"\n") if old and b"\r" in old else old):
-            yield self._change(path, content)
-        if former and self._bytes(self.path(former)) is not None:
-            yield self._change(self.path(former), None)
-
-    def for_git(self) -> list[FileChange]:
-        """How git is told what is safe to lose and how states merge; lines of the user's stay."""
-        found = []
-        for name, text in _FOR_GIT.items():
-            path = self.folder / name
-            old = self._bytes(path)
-            if old is None:
-                found.append(self._change(path, text.encode()))
-                continue
-            known = {line.strip() for line in old.splitlines()}
-            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in known]
-            if lines:
-                old += b"" if old.endswith(b"\n") or not old else b"\n"
-                found.append(self._change(path, old + b"".join(b"%s\n" % line for line in lines)))
-        return found
-
-    def drawing(self, robot: str, text: str) -> tuple[Path, list[FileChange]]:
-        """Where the robot's diagram goes, and how it gets there."""
-        path = self._drawing(robot)
-        return path, [self._change(path, text.encode())] if self._bytes(path) != text.encode() else []
-
-    def _drawing(self, robot: str) -> Path:
-        return self.folder / "svg" / f"{robot}.svg"
+    # --- places ---------------------------------------------------------------------------------------------------
 
     def path(self, robot: str) -> Path:
         """The file of the robot's record."""
@@ -197,16 +110,76 @@ class Store:
 
     def expansion(self, robot: str) -> Path:
         """The file of the robot's expanded source."""
-        return self.folder / "robots" / f"{robot}{EXPANDED}"
+        return self.folder / "robots" / f"{robot}.expanded"
 
-    def save_expansion(self, robot: str, found: Expansion | None) -> list[FileChange]:
-        """How the expanded source of a robot gets to the disk, or how it goes if there is none."""
-        path, content = self.expansion(robot), expansion.dumps(found) if found else None
+    def base_file(self, robot: str, digit: str) -> Path:
+        """The file of the robot's bases whose hashes begin with a digit."""
+        return self.folder / "bases" / robot / digit
+
+    def base_files(self, robot: str) -> list[Path]:
+        """The files of a robot's bases."""
+        return [self.base_file(robot, digit) for digit in bases.DIGITS]
+
+    def replaced_file(self, robot: str) -> Path:
+        """The file with what stood in files that the last build wrote over. Safe to lose."""
+        return self.folder / "replaced" / f"{robot}.json"
+
+    def drawing(self, robot: str) -> Path:
+        """The file of the robot's diagram. Safe to lose."""
+        return self.folder / "svg" / f"{robot}.svg"
+
+    def conflicts(self, robot: str) -> Path:
+        """The folder with versions of what conflicts. Safe to lose."""
+        return self.folder / "conflicts" / robot
+
+    # --- changes --------------------------------------------------------------------------------------------------
+
+    def save(self, path: Path, content: bytes | None) -> list[FileChange]:
+        """How a file gets its content, or how it goes for None; nothing if it has that, line ends apart."""
         old = self._bytes(path)
-        return [self._change(path, content)] if content != (old and normalised(old)) else []
+        if content == old or (old is not None and content == normalised(old)):
+            return []
+        return [FileChange(path, content, self._seen[path][1])]
 
-    def _change(self, path: Path, content: bytes | None) -> FileChange:
-        return FileChange(path, content, self._seen[path][1] if path in self._seen else None)
+    def save_conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[FileChange]:
+        """How the versions of what conflicts get to the robot's folder, by path, and how all others go."""
+        folder = self.conflicts(robot)
+        # raises OutputError for a link to the folder, which may lead to all of the disk
+        existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
+        wanted = dict.fromkeys(sorted(existing)) | {folder / path: content for path, content in contents.items()}
+        return [change for path, content in wanted.items() for change in self.save(path, content)]
+
+    def remove(self, robot: str) -> list[FileChange]:
+        """How all goes that there is of a robot."""
+        files = (*self.base_files(robot), self.replaced_file(robot), self.drawing(robot), self.expansion(robot))
+        changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
+        return [*self.save_conflicts(robot, {}), *changes]
+
+    def for_git(self) -> list[FileChange]:
+        """How git is told what is safe to lose and how states merge; lines of the user's stay."""
+        found = list[FileChange]()
+        for name, text in _FOR_GIT.items():
+            path = self.folder / name
+            old = self._bytes(path)
+            if old is None:
+                found += self.save(path, text.encode())
+                continue
+            known = {line.strip() for line in old.splitlines()}
+            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in known]
+            if lines:
+                old += b"" if old.endswith(b"\n") or not old else b"\n"
+                found += self.save(path, old + b"".join(b"%s\n" % line for line in lines))
+        return found
+
+    def hashes(self) -> StateHashes:
+        """The hashes of all files that were loaded."""
+        return {path: sha256 for path, (_, sha256) in self._seen.items()}
+
+    def is_unchanged(self, hashes: StateHashes, but: Collection[Path] = ()) -> bool:
+        """Whether all files still are as they were then, but for some that somebody else looks at."""
+        tree = Tree(self._tree.root)  # which finds folders that have come since
+        found = ((tree.read(path), before) for path, before in hashes.items() if path not in but)
+        return all((None if content is None else digest(content)) == before for content, before in found)
 
     def _bytes(self, path: Path) -> bytes | None:
         if path not in self._seen:

@@ -10,7 +10,7 @@
 6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken: those
    stand until a build of this robot is complete.
 
-From the fourth on, every write can be done twice: whoever finds planned hashes in their place begins there again. A
+From the fourth on, every write can be done twice: recovery resumes at step 4. A
 temporary name that holds bytes that nobody planned with holds a save of the user's. It is put back, or kept beside the
 target under a name that people see.
 """
@@ -41,7 +41,7 @@ class UnfinishedError(OutputError):
 
 
 class FileChange(msgspec.Struct, frozen=True):
-    """What is to happen to one file."""
+    """A planned change of one file."""
 
     path: Path
     content: bytes | None
@@ -55,7 +55,7 @@ class FileChange(msgspec.Struct, frozen=True):
 
 
 class Applied(msgspec.Struct, frozen=True):
-    """What became of a transaction."""
+    """The outcome of a transaction."""
 
     not_done: tuple[Path, ...] = ()
     """Targets that somebody saved in between, and the recorded state that stays because of it."""

@@ -1,0 +1,112 @@
+"""The last build of a robot: what the state records of it, and the model and the package that follow from that."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import msgspec
+
+from urdfsync.config import RobotConfig
+from urdfsync.diagnostics import OutputError
+from urdfsync.domain import Domain, Import, Target, Templates, Version
+from urdfsync.engine.generate import Package, generate
+from urdfsync.engine.imports import RecordedImports
+from urdfsync.engine.package_files import Folder, PackageFiles
+from urdfsync.state.record import FileRecord, Record
+from urdfsync.state.replaced import Replaced
+from urdfsync.state.store import Store
+
+NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
+"""Errors that a domain raises for a recorded snapshot that is none of its own."""
+
+
+class LastBuild(msgspec.Struct, frozen=True, dict=True):
+    """The last complete build of a robot, and what has been written since."""
+
+    name: str
+    """The robot's name then."""
+    record: Record
+    """Without a model and files if the robot was never built, or if its state is lost."""
+    is_recorded: bool
+    """Whether there is a recorded state."""
+    written: Mapping[str, FileRecord | None]
+    """Records of files that builds which are not complete have written since, by key; None for a deleted file."""
+    _store: Store
+    _files: PackageFiles
+    _domain: Domain
+    _robot: RobotConfig
+    _templates: Templates
+
+    @cached_property
+    def folder(self) -> Folder:
+        """Where the package was."""
+        return Folder(self.record.folder)
+
+    @property
+    def target(self) -> Target:
+        """Package and class."""
+        return Target(self.record.package, self.record.class_)
+
+    @cached_property
+    def files(self) -> Mapping[str, FileRecord]:
+        """The recorded files by key, with what was written since; those that a build may not touch are left out."""
+        found = {**self.record.files, **self.written}
+        return {key: file for key, file in found.items() if file is not None and self._files.is_inside(key)}
+
+    @cached_property
+    def options(self) -> Any:
+        """The domain's options; None if they are not as this program has them."""
+        if self.record.generator.domain != self._robot.domain:
+            return None
+        try:
+            return msgspec.convert(self.record.options, self._domain.options)
+        except msgspec.ValidationError:
+            return None
+
+    @cached_property
+    def imports(self) -> RecordedImports:
+        """The imported files, and how their copies in the package are read."""
+        files, folder = self._files, self.folder  # not `self`, which would hold itself then
+        records = {folder.path(key): file for key, file in self.files.items()}
+        return RecordedImports(self.record.imports, lambda target: files.read(folder.key(target)), records)
+
+    @cached_property
+    def version(self) -> Version | None:
+        """The model; None if there was none, or it is lost, or united and not whole."""
+        if self.record.snapshot is None or (self.record.is_united and self.package is None):
+            return None
+        return self._version
+
+    @cached_property
+    def _version(self) -> Version:
+        imports = {key: self.imports.entry(key) for key in self.record.imports}
+        return Version(self.record.snapshot or {}, imports, self.options)
+
+    @cached_property
+    def package(self) -> Package | None:
+        """The package, from today's templates; None if there can't be one, as of a model that is not whole."""
+        if self.record.snapshot is None or self.record.generator.domain != self._robot.domain:
+            return None
+        options = self.options or self._robot.options
+        try:
+            imports: Mapping[str, Import] = self._version.imports or {}
+            return generate(self._domain, self.record.snapshot, imports, self.target, options, self._templates)
+        except (*NO_MODEL, OutputError):
+            return None
+
+    def base(self, sha256: str | None) -> str | None:
+        """Return the text with this hash that was generated once; None if it is not stored."""
+        return self._store.base(self.name, sha256) if sha256 else None
+
+    @cached_property
+    def replaced(self) -> Mapping[str, Replaced]:
+        """Texts that the build wrote over, by path below the package."""
+        return self._store.replaced(self.name)
+
+
+def option_values(options: msgspec.Struct) -> dict[str, Any]:
+    """Return a domain's options as they are recorded: plain data, without those that are None."""
+    values = msgspec.json.decode(msgspec.json.encode(options))
+    return {name: value for name, value in values.items() if value is not None}
