@@ -226,12 +226,6 @@ def test_git_works_underneath(start: Start, project: Path, monkeypatch: pytest.M
         repository.git("checkout", "--", "modelica", ".urdfsync")
 
 
-def test_without_events_it_looks_by_itself(start: Start) -> None:
-    watch = start("--poll")
-    probe(watch, ohm=330)
-    assert "noted" not in watch.kinds()
-
-
 # Outputs
 
 
@@ -266,7 +260,7 @@ OUTPUTS = (MODEL, "modelica/Ladder/package.order", ".urdfsync/robots/ladder.stat
 
 
 @pytest.mark.parametrize("output", OUTPUTS)
-@pytest.mark.parametrize("options", [(), ("--poll", "--rescan", "0.1")], ids=["by its event", "by a rescan"])
+@pytest.mark.parametrize("options", [(), ("--rescan", "0.1")], ids=["by its event", "by a rescan"])
 def test_an_output_that_is_deleted_is_written_again(start: Start, output: Path | str, options: tuple[str, ...]) -> None:
     start(*options)
     path, before = Path(output), Path(output).read_bytes()

@@ -18,6 +18,7 @@ from support.daemon import MODEL, RECORD, Daemons, holds, ladder
 
 from urdfsync import registry
 from urdfsync.watch import events
+from urdfsync.watch.observer import Observer
 
 NEVER = 100000.0
 KEEP = [("keep", str(MODEL))]
@@ -33,11 +34,18 @@ def running(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Dae
         daemon.stop()
 
 
+@pytest.fixture
+def without_events(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a network mount, or a mount of a container."""
+    monkeypatch.setattr(Observer, "dispatch", lambda *_: None)
+
+
 def put(ohm: float) -> None:
     """Change the source."""
     Path("ladder.json").write_text(ladder(ohm))
 
 
+@pytest.mark.usefixtures("without_events")
 def test_an_edit_during_a_build_is_seen_without_its_event(running: list[Daemons]) -> None:
     """The daemon waits for whoever is told of a build, before it looks at what the build left."""
 
@@ -45,10 +53,18 @@ def test_an_edit_during_a_build_is_seen_without_its_event(running: list[Daemons]
         if isinstance(event, events.Built) and not MODEL.read_text().endswith("// mine\n"):
             MODEL.write_text(MODEL.read_text() + "// mine\n")
 
-    daemon = Daemons(edit, poll=True, rescan=NEVER)
+    daemon = Daemons(edit, rescan=NEVER)
     running.append(daemon)
     result = daemon.wait(events.Built, 3).result
     assert [(one.reason.word, one.path) for one in result.actions.decided] == KEEP
+
+
+@pytest.mark.usefixtures("without_events")
+def test_without_events_rescans_find_what_changed(running: list[Daemons]) -> None:
+    daemon = Daemons(rescan=0.1)
+    running.append(daemon)
+    daemon.after(lambda: put(330), events.Built)
+    assert holds(330)
 
 
 def test_what_is_stashed_away_during_a_build_is_not_built(project: Path, running: list[Daemons]) -> None:

@@ -24,7 +24,7 @@ _TIMES = (
     ("settle", "MS", 300, "milliseconds without an event before a build"),
     ("sample", "MS", 200, "milliseconds between two reads that have to show the same"),
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
-    ("rescan", "S", 30, "seconds between two reads of all files, since the system may drop events"),
+    ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts have none"),
 )
 _GRACE = 10.0
 """Seconds after the first signal in which the work in hand has to end."""
@@ -45,9 +45,6 @@ def add(commands: arguments.Commands) -> None:
         words = f"{words} (default: {default})"
         parser.add_argument(f"--{name}", type=_duration, metavar=unit, default=default, help=words)
     command = "shell command to run after a build that changed files"
-    parser.add_argument(
-        "--poll", action="store_true", help="read the sources every second, for network and container mounts"
-    )
     parser.add_argument("--exec", metavar="CMD", default="", help=command)
 
 
@@ -72,7 +69,6 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             sample=args.sample / 1000,
             give_up_after=args.patience,
             rescan=max(args.rescan, 0.1),
-            poll=args.poll,
             command=args.exec,
             build=arguments.request(args, console),
         )

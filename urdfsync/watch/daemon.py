@@ -38,8 +38,6 @@ from urdfsync.watch.robot import WatchedRobot, read_state
 
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
-_POLL = 1.0
-"""Seconds between two reads of all inputs, where there are no events."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -57,8 +55,6 @@ class WatchOptions(msgspec.Struct, frozen=True):
     """Until an invalid source is an error."""
     rescan: float = 30.0
     """Between two reads of everything."""
-    poll: bool = False
-    """Do without events."""
     command: str = ""
     """What to run after a build that changed something; empty for nothing."""
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)
@@ -85,7 +81,7 @@ class Daemon:
         """Robots that are built, until the user was told for whom they wait."""
         self._is_working = True
         self._is_paused = False
-        self._next_poll = self._next_rescan = 0.0
+        self._next_rescan = 0.0
 
     def stop(self, signal: str) -> None:
         """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers.
@@ -126,8 +122,6 @@ class Daemon:
                 with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
                     self._acquire(lock)
                 self._rescan()
-            elif self._is_polling and time.monotonic() >= self._next_poll:
-                self._poll()
             settled = self._find_settled()
             if settled and self._reload_config():
                 continue  # which has all robots settle again
@@ -217,7 +211,6 @@ class Daemon:
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
         due = [self._next_rescan, *(watched.due for watched in self._robots.values())]
-        due += [self._next_poll] if self._is_polling else []
         due += [now + _PAUSE] if self._is_paused else []
         return max(min(due) - now, 0.0)
 
@@ -245,14 +238,7 @@ class Daemon:
         for event in shown_events:
             self._listener(event)
 
-    @property
-    def _is_polling(self) -> bool:
-        """Whether there are no events, or not of all folders."""
-        return self._options.poll or bool(self._unwatched)
-
     def _watch_folders(self) -> None:
-        if self._options.poll:
-            return
         self._watched = find_watched_paths(self._config, {name: one.paths for name, one in self._robots.items()})
         unwatched = self._observer.watch_folders(self._watched)
         told = {diagnostic.hint for diagnostic in self._unwatched}
@@ -261,16 +247,9 @@ class Daemon:
 
     def _rescan(self) -> None:
         """Look at all files, since events may be lost."""
-        now = time.monotonic()
-        self._next_rescan, self._next_poll = now + self._options.rescan, now + _POLL
+        self._next_rescan = time.monotonic() + self._options.rescan
         self._watch_folders()
         self._touch([watched for watched in self._robots.values() if watched.has_changed()])
-
-    def _poll(self) -> None:
-        """Look at the inputs of all robots."""
-        self._next_poll = time.monotonic() + _POLL
-        robots = self._robots.values()
-        self._touch([one for one in robots if one.has_changed(one.files.keys() - one.paths.outputs)])
 
     def _find_settled(self) -> list[WatchedRobot]:
         """Look at the robots that are due; return those whose files are as they were at the look before."""

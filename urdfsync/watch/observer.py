@@ -101,8 +101,8 @@ class Observer(events.FileSystemEventHandler):
 
 
 def _not_watched(error: Exception, folder: str) -> Diagnostic:
-    hint = _HINTS.get(getattr(error, "errno", None) or 0, "use --poll")
+    hint = _HINTS.get(getattr(error, "errno", None) or 0, "use a shorter --rescan")
     reason = getattr(error, "strerror", None) or error
     name = f"the folder {folder}" if folder else "the files"
-    message = f"{name} can't be watched, so its files are read at intervals: {reason}"
+    message = f"{name} can't be watched, so its files are read every --rescan seconds: {reason}"
     return Diagnostic(Severity.WARNING, "not-watched", message, folder, hint=hint)

@@ -61,16 +61,18 @@ class Activity(enum.StrEnum):
     IN_STEP = "in step"
 
 
-_RANKS = {activity: rank for rank, activity in enumerate(Activity)}
+_RANKS = list(Activity)
 _SIGNS = {
     Activity.ERROR: ("✗", "bold red"),
     Activity.CONFLICT: ("!", "yellow"),
     Activity.WAITING: ("…", "yellow"),
+    Activity.BUILDING: ("…", "cyan"),
+    Activity.CHECKING: ("…", "cyan"),
+    Activity.SETTLING: ("…", "cyan"),
     Activity.STARTING: ("…", "dim"),
     Activity.IN_STEP: ("✓", "green"),
 }
-"""Mark and style; of others those of `_BUSY`."""
-_BUSY = "…", "cyan"
+"""Mark and style."""
 _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Settling: ("settling: {0.file}", Activity.SETTLING),
     events.Building: ("building", Activity.BUILDING),
@@ -313,7 +315,7 @@ class Report:
         """The status of each robot in the order of the configuration; of build and check that which matters more."""
         rows = {}
         for robot, result in self._results.items():
-            at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS[status.activity])
+            at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS.index(status.activity))
             rows[robot] = self._builds.get(robot, at_rest)
         return rows
 
@@ -329,12 +331,12 @@ class Report:
         if self._pause:
             yield line((self._pause, "yellow"))
             room -= 1
-        by_rank = sorted(rows, key=lambda robot: _RANKS[rows[robot].activity])
+        by_rank = sorted(rows, key=lambda robot: _RANKS.index(rows[robot].activity))
         number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
         width = min(max(map(len, by_rank[:number]), default=0), _NAME_WIDTH)
         for robot in (robot for robot in rows if robot in by_rank[:number]):
             activity, text = rows[robot]
-            mark, style = _SIGNS.get(activity, _BUSY)
+            mark, style = _SIGNS[activity]
             name = f"{robot:<{width}}" if len(robot) <= width else f"{robot[: width - 1]}…"
             words = f"  {text}", "" if activity is Activity.IN_STEP else style
             yield line((f"{mark} " if marks else "", style), (name, "bold"), words)
