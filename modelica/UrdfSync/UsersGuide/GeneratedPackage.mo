@@ -1,6 +1,6 @@
 within UrdfSync.UsersGuide;
 
-class GeneratedPackage "The files of a robot, what you may edit, and what the next build does"
+class GeneratedPackage "The files of a robot, its connectors, and how to make it yours"
   extends Modelica.Icons.Information;
 
   annotation (
@@ -75,37 +75,18 @@ robot.</li>
 <a href=\"modelica://UrdfSync.Drives.TranslationalSweep\">TranslationalSweep</a>.</li>
 <li>Both drive the joints that the URDF drives, or those that the option <code>driven</code> names.</li>
 </ul>
-<h4>Extend, edit, template</h4>
-<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
-<tr><th align=\"left\">way</th><th align=\"left\">right for</th><th align=\"left\">what the next build does</th></tr>
-<tr><td>extend the robot: <code>extends Arm(redeclare ElasticElbow elbow)</code></td>
-<td>another joint or link model, payloads, sensors</td><td>nothing to your file, never a conflict</td></tr>
-<tr><td>edit a generated file</td><td>a change to one element, as a part of the package</td><td>keeps it; a conflict if there is something new for it</td></tr>
-<tr><td>change a template</td><td>what all links or joints are to have</td><td>renders all of them with your template</td></tr>
-</table>
+<h4>Making it yours</h4>
 <p>
-Links and joints are <code>replaceable</code>, constrained by <a href=\"modelica://UrdfSync.Interfaces\">Interfaces</a>, and so is the robot in Run and Test.
-<a href=\"modelica://UrdfSync.Examples.CustomArm\">Examples.CustomArm</a> exchanges two joints, attaches parts to links and runs in the generated test model. The pages
-<code>docs/extending.md</code> and <code>docs/templates.md</code> of urdfsync show all three ways.
+Links and joints are <code>replaceable</code>, constrained by <a href=\"modelica://UrdfSync.Interfaces\">Interfaces</a>, and so is the robot in Run and Test. A
+model that extends the robot, <code>extends Arm(redeclare ElasticElbow elbow)</code>, can never be in conflict with an export.
+<a href=\"modelica://UrdfSync.Examples.CustomArm\">Examples.CustomArm</a> exchanges two joints, attaches parts to links and runs in the generated test model.
 </p>
-<h4>What you may edit</h4>
 <p>
-Everything. <code>urdfsync</code> compares texts, not times: what it wrote last, what is on disk now, and what it would write now.
+Every generated file may be edited, too. A build never writes over an edit: if the export changes the same file, it reports a conflict. Your own classes may live in the
+same package: in <code>package.order</code> files a build inserts and removes its own names only.
 </p>
-<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
-<tr><th align=\"left\">the file</th><th align=\"left\">what the next build does</th></tr>
-<tr><td>is as <code>urdfsync</code> left it</td><td>writes it if there is something new for it, else does not touch it</td></tr>
-<tr><td>was edited, and there is nothing new for it</td><td>keeps it</td></tr>
-<tr><td>was edited, and there is something new for it</td>
-<td>keeps it and reports a conflict; the other models of this robot wait, so that the package on disk still fits together. Records of
-which only numbers change are still written</td></tr>
-<tr><td>was deleted</td><td>writes it again and says so</td></tr>
-<tr><td>was not written by <code>urdfsync</code></td><td>leaves it and reports a conflict</td></tr>
-<tr><td>is no longer generated</td><td>deletes it if it is as <code>urdfsync</code> left it, else keeps it and says so</td></tr>
-</table>
 <p>
-In <code>package.order</code> files <code>urdfsync</code> inserts and removes its own names and leaves all other lines: your own classes
-may live in the same package.
+The pages <code>docs/extending.md</code>, <code>docs/templates.md</code> and <code>docs/conflicts.md</code> of urdfsync say more.
 </p>
 </html>"));
 end GeneratedPackage;

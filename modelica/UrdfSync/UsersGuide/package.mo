@@ -13,8 +13,8 @@ in step.
 </p>
 <ol>
 <li><a href=\"modelica://UrdfSync.UsersGuide.Overview\">Overview</a>: what there is, and where to begin</li>
-<li><a href=\"modelica://UrdfSync.UsersGuide.GeneratedPackage\">GeneratedPackage</a>: the files of a robot, what you may edit, and
-what the next build does</li>
+<li><a href=\"modelica://UrdfSync.UsersGuide.GeneratedPackage\">GeneratedPackage</a>: the files of a robot, its connectors, and how to make
+it yours</li>
 <li><a href=\"modelica://UrdfSync.UsersGuide.Links\">Links</a>: mass, inertia, shapes</li>
 <li><a href=\"modelica://UrdfSync.UsersGuide.Joints\">Joints</a>: motion, limits, losses, mimic</li>
 <li><a href=\"modelica://UrdfSync.UsersGuide.MobileRobots\">MobileRobots</a>: free base and ground</li>
