@@ -121,7 +121,7 @@ class Import(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class ChangeKind(enum.StrEnum):
-    """What happened to a value or an element."""
+    """How two versions differ at a value or an element."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -199,13 +199,6 @@ class Reading(msgspec.Struct, frozen=True):
     """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
 
 
-class Standalone(NamedTuple):
-    """A record of a whole model, and what there is to say about it that reading the source did not say."""
-
-    artifact: Artifact
-    diagnostics: tuple[Diagnostic, ...]
-
-
 class Lookup(msgspec.Struct, frozen=True):
     """Where to look for the files that a source refers to."""
 
@@ -239,20 +232,16 @@ class Proposal(msgspec.Struct, frozen=True):
 
 
 class Quantity(enum.StrEnum):
-    """What is compared with a reference."""
+    """What is compared with a reference: of a frame, of an axis, of the root, of the whole model; in SI units."""
 
     POSITION = "position"
-    """Of a link's frame, in m."""
     ORIENTATION = "orientation"
-    """Of a link's frame: elements of its rotation matrix."""
+    """Elements of the rotation matrix."""
     EFFORT = "effort"
-    """Of what drives an axis, in N·m or N."""
     REACTION = "reaction"
-    """Of the force and of the torque that hold the root, in N and N·m."""
+    """Force and torque that hold the root."""
     MASS = "mass"
-    """Of the whole model, in kg."""
     CENTRE = "centre of mass"
-    """Of the whole model, in m."""
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -302,7 +291,7 @@ class Experiment(msgspec.Struct, frozen=True):
     """A comparison of a generated package with an independent reference that reads the same source."""
 
     reference: str
-    """What the package is compared with, with its version."""
+    """Name and version."""
     content: bytes
     """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
     probe: Probe
@@ -310,11 +299,11 @@ class Experiment(msgspec.Struct, frozen=True):
     compared: tuple[Compared, ...]
     """From the root outwards."""
     expected: Mapping[str, tuple[float, float]]
-    """What the reference says of each value at the beginning and at the end; it may be no number."""
+    """Of each value at the beginning and at the end; it may be no number."""
     notes: tuple[str, ...] = ()
-    """In which way `content` is not what was given, and why: one sentence each, without a full stop."""
+    """How `content` differs from what was given, and why: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """What the comparison does not cover, and why: one sentence each, without a full stop."""
+    """What is not compared, and why, likewise."""
 
 
 class Signal(msgspec.Struct, frozen=True):
@@ -402,11 +391,7 @@ class Domain(Protocol):
     # Files that a source refers to
 
     def dependencies(
-        self,
-        snapshot: Snapshot,
-        lookup: Lookup,
-        options: Any,
-        lines: Mapping[str, int],
+        self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
         """Return the files that the model refers to, each once. Pure: nothing is looked for yet."""
         return ()
@@ -452,15 +437,11 @@ class Domain(Protocol):
         """
         return ()
 
-    def option_for(self, path: str, target: Target, options: Any) -> str:
-        """Return the option that brings a file, as the configuration has it; empty unless `options` leave it out.
+    def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
+        """Return the option that brings a class, connector, input or output, as the configuration has it.
 
-        `path` counts from the package's folder.
+        Empty if none does, or if `options` bring it.
         """
-        return ""
-
-    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
-        """Return the option that brings a connector, input or output of a model; empty if none does, or it is there."""
         return ""
 
     # Differences
@@ -481,11 +462,7 @@ class Domain(Protocol):
         return snapshot
 
     def describe(
-        self,
-        differences: Sequence[Difference],
-        old: Version,
-        new: Version,
-        options: Any,
+        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
     ) -> Sequence[Meaning | None]:
         """Return the meaning of each difference of two comparable versions; None if another difference says the same.
 
@@ -505,12 +482,7 @@ class Domain(Protocol):
         return ()
 
     def interface(
-        self,
-        old: Version,
-        new: Version,
-        renames: Mapping[ElementKey, str],
-        target: Target,
-        options: Any,
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
         """Return what users may have connected to, and what has another name now, or is gone; old is None for new.
 
@@ -541,11 +513,13 @@ class Domain(Protocol):
         """Return how the package is simulated and what is told of it, or None if nothing in it can be. Pure."""
         return None
 
-    def record(self, reading: Reading, file: str, target: Target, options: Any) -> Standalone | None:
-        """Return the whole model as one record that needs nothing around it, or None if the domain has none.
+    def record(
+        self, reading: Reading, file: str, target: Target, options: Any
+    ) -> tuple[Artifact, Sequence[Diagnostic]] | None:
+        """Return the whole model as one record that stands alone, with its own findings; or None.
 
-        `reading` has a snapshot, `file` is the source's name in diagnostics. `target.name` is the record's class,
-        `target.package` the package that it says it stands in, empty for none. Nothing is imported for it. Pure.
+        `file` is the source's name in diagnostics. `target.name` is the record's class, `target.package` the package
+        that it says it stands in, empty for none. Nothing is imported for it. Pure.
         """
         return None
 

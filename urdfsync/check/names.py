@@ -105,9 +105,7 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
         if one.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
             if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                option = package.generation.inputs.domain.option_for_connector(
-                    one.part, snapshot, robot.target, robot.options
-                )
+                option = package.generation.inputs.domain.option_for(one.part, snapshot, robot.target, robot.options)
                 hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {one.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""

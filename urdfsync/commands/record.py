@@ -70,10 +70,11 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
-    generated = Package([found.artifact], sources.domain_templates(domain), target.package)
-    told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *found.diagnostics))]
+    artifact, findings = found
+    generated = Package([artifact], sources.domain_templates(domain), target.package)
+    told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *findings))]
     console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))
-    record = generated.content(found.artifact.path).decode()
+    record = generated.content(artifact.path).decode()
     values = {"class": target.name, "within": target.package}
     if file is None:
         if console.json:

@@ -384,11 +384,9 @@ class Package(Mapping[str, bytes]):
             return f"use `{target.package}` instead"
         if name := self.new_name(use):
             return f"use `{name}` instead"
-        if option := inputs.domain.option_for(f"{use.part}.mo", target, inputs.robot.options):
-            return brings_back(option)
         snapshot, options = self._generation.now.snapshot, inputs.robot.options
         for name in dict.fromkeys((use.part, next(new_names(use.part, self._renamed), use.part))):
-            if option := inputs.domain.option_for_connector(name, snapshot, target, options):
+            if option := inputs.domain.option_for(name, snapshot, target, options):
                 return brings_back(option, name if name != use.part else "")
         if use.near:
             return f"did you mean `{use.meant}`?"

@@ -20,7 +20,6 @@ from urdfsync.domain import (
     Proposal,
     Reading,
     Snapshot,
-    Standalone,
     Target,
 )
 from urdfsync.urdf import artifacts as package
@@ -147,13 +146,10 @@ class UrdfDomain(Domain):
             return (base,)
         return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))
 
-    def option_for(self, path: str, target: Target, options: Options) -> str:
-        """Return the option that brings the record of the whole robot."""
-        is_left_out = path == f"{target.name}Parameters.mo" and "record" not in options.approach
-        return 'approach = ["package", "record"]' if is_left_out else ""
-
-    def option_for_connector(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
-        """Return the option that brings a frame of a link, or a variable of Run, that the options leave out."""
+    def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+        """Return the option that brings the record of the robot, a frame of a link, or a variable of Run."""
+        if name == f"{target.name}Parameters" and "record" not in options.approach:
+            return 'approach = ["package", "record"]'
         return connector_options(KinematicTree.of(from_snapshot(snapshot), (target.name,)), options).get(name, "")
 
     renames = staticmethod(find_renames)
@@ -183,13 +179,15 @@ class UrdfDomain(Domain):
         """Return Test and Run, or the bench of the generic robot, with position, speed and effort of each joint."""
         return bench(KinematicTree.of(from_snapshot(snapshot), (target.name,)), target, options)
 
-    def record(self, reading: Reading, file: str, target: Target, options: Options) -> Standalone | None:
+    def record(
+        self, reading: Reading, file: str, target: Target, options: Options
+    ) -> tuple[Artifact, Sequence[Diagnostic]] | None:
         """Return the record of the whole robot, and which joints the generic robot can't move."""
         if reading.snapshot is None:
             return None
         robot = from_snapshot(reading.snapshot)
         findings = out_of_scope(KinematicTree.of(robot), file, reading.lines)
-        return Standalone(package.record(robot, target, options), tuple(findings))
+        return package.record(robot, target, options), tuple(findings)
 
     def experiment(self, content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
         """Return the comparison with Pinocchio; there is none of robots with planar or floating joints."""
