@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Literal, get_args, get_origin
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 import msgspec
 import pytest
@@ -20,6 +20,8 @@ NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 def values(kind: Any) -> st.SearchStrategy[Any]:
     """Any value of a type that fields of robots have."""
     inside = get_args(kind)
+    if get_origin(kind) is Annotated:
+        return values(inside[0])
     if kind in (float, str, bool, None, type(None)):
         return {float: NUMBERS, str: st.text(max_size=6), bool: st.booleans()}.get(kind, st.none())
     if get_origin(kind) is Literal:

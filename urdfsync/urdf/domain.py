@@ -69,8 +69,8 @@ class UrdfDomain(Domain):
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
         if robot is None:
             return Reading(None, diagnostics, lines)
-        diagnostics += located(find_implausible(robot), file, lines) + unmodelled
         tree = KinematicTree.of(robot)
+        diagnostics += located(find_implausible(tree), file, lines) + unmodelled
         if "record" in options.approach:
             diagnostics += tuple(out_of_scope(tree, file, lines))
         if "package" not in options.approach:

@@ -6,9 +6,9 @@ The bounds leave a wide margin, since a warning about a sound robot is worse tha
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     Box,
@@ -20,7 +20,6 @@ from urdfsync.urdf.robot import (
     Joint,
     Link,
     Mesh,
-    Robot,
     Sphere,
     Visual,
 )
@@ -45,42 +44,31 @@ _LIGHT = 0.05
 """In kg: a lighter part may only mark a place, and its inertia may be rounded to 0."""
 
 
-def find_implausible(robot: Robot) -> Iterator[Finding]:
+def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     """Yield a warning for all that is hardly meant in a robot that passed all checks."""
-    distances, masses = _measure(robot)
+    own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
+    distances, masses = {tree.links[0].name: 0.0}, dict(own_masses)
+    for joint in tree.joints:
+        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    for joint in reversed(tree.joints):
+        masses[joint.parent] += masses[joint.child]
     length = max(distances.values())
-    yield from _check_masses(robot, masses, length)
-    for link in robot.links:
+    yield from _check_masses(tree, masses, length)
+    for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
             yield from _check_inertia(link, link.inertial, length)
         yield from _check_shapes(link, length)
-    own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in robot.links}
-    for joint in robot.joints:
+    for joint in tree.joints:
         yield from _check_limits(joint, length, own_masses[joint.child])
 
 
-def _measure(robot: Robot) -> tuple[Mapping[str, float], Mapping[str, float]]:
-    """Return how far each link is from the root, along the joints, and the mass of it and all links behind it."""
-    behind: defaultdict[str, list[Joint]] = defaultdict(list)
-    for joint in robot.joints:
-        behind[joint.parent].append(joint)
-    children = {joint.child for joint in robot.joints}
-    distances = {link.name: 0.0 for link in robot.links if link.name not in children}
-    order = list(distances)
-    for name in order:  # grows while it is walked
-        for joint in behind[name]:
-            distances[joint.child] = distances[name] + math.hypot(*joint.origin.xyz)
-            order.append(joint.child)
-    masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in robot.links}
-    for name in reversed(order):
-        masses[name] += sum(masses[joint.child] for joint in behind[name])
-    return distances, masses
+def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
+    """Whatever a joint moves has a mass, and the robot is no denser than steel.
 
-
-def _check_masses(robot: Robot, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
-    """Whatever a joint moves has a mass, and the robot is no denser than steel."""
+    `masses` are those of each link with all links behind it.
+    """
     total = max(masses.values())
-    moving = [joint for joint in robot.joints if joint.type != "fixed"]
+    moving = [joint for joint in tree.joints if joint.type != "fixed"]
     if moving and not total:
         yield Finding("no-inertia", "robot", "no link has a mass, so that motion takes no force")
         return
@@ -90,8 +78,8 @@ def _check_masses(robot: Robot, masses: Mapping[str, float], length: float) -> I
             yield Finding("no-inertia", f"joint {joint.name}", message)
     if total <= _HEAVY:
         return
-    radii = [radius for link in robot.links if math.isfinite(radius := _radius(link))]
-    size = 2 * max([length / 2, *radii, *(_gyration(link.inertial) for link in robot.links if link.inertial)])
+    radii = [radius for link in tree.links if math.isfinite(radius := _radius(link))]
+    size = 2 * max([length / 2, *radii, *(_gyration(link.inertial) for link in tree.links if link.inertial)])
     if total > _DENSEST * size * size * size:  # a power of a large number is an error
         message = f"the masses add up to {total:.6g} kg in a robot of {size:.3g} m: they may be in grams"
         yield Finding("mass-unit", "robot", message)

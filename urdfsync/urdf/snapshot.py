@@ -70,12 +70,11 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
         for tag, texts in tags.items()
         for text in texts
     ]
-    robot = msgspec.convert({"name": snapshot["name"], "extensions": extensions}, Robot)
-    links = msgspec.convert([{"name": name, **link} for name, link in snapshot["links"].items()], tuple[Link, ...])
-    sensors = msgspec.convert(
-        [{"name": name, **sensor} for name, sensor in snapshot.get("sensors", {}).items()], tuple[Sensor, ...]
-    )
-    return msgspec.structs.replace(robot, links=links, joints=joints_of(snapshot["joints"]), sensors=sensors)
+    elements = {
+        kind: [{"name": name, **element} for name, element in snapshot.get(kind, {}).items()]
+        for kind in ("links", "joints", "sensors")
+    }
+    return msgspec.convert({"name": snapshot["name"], "extensions": extensions, **elements}, Robot)
 
 
 def joints_of(joints: Mapping[str, Any]) -> tuple[Joint, ...]:

@@ -18,6 +18,7 @@ from urdfsync.urdf.robot import (
     Box,
     Capsule,
     Cylinder,
+    Dynamics,
     Geometry,
     Inertia,
     Joint,
@@ -26,6 +27,7 @@ from urdfsync.urdf.robot import (
     Robot,
     Sphere,
     Vector,
+    effective,
 )
 
 _EXACT = 1e-12
@@ -34,6 +36,13 @@ _INERTIA_TOLERANCE = 1e-6
 # Radius of gyration, in m, below which a body is a point: its inertia is rounding then.
 _POINT = 1e-6
 _COMPARED = 500
+_MAGNITUDES = (
+    ("negative-limit", "limit", ("effort", "velocity", "acceleration", "deceleration", "jerk")),
+    ("negative-dynamics", "dynamics", ("damping", "friction")),
+    ("negative-inertia", "dynamics", ("armature",)),
+    ("negative-inertia", "transmission", ("rotor_inertia",)),
+)
+"""Codes for numbers below zero, by their blocks of a joint."""
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -80,7 +89,6 @@ _ERRORS = {
 }
 _WARNINGS = {
     # the file
-    "xml-version": 'write version="1.0"',
     "xml-declaration": 'begin the file with <?xml version="1.0" encoding="UTF-8"?>',
     "xml-prefix": "declare it in the root element",
     "xacro-leftover": "expand the source with xacro, if this file is not the result of it",
@@ -331,33 +339,19 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
         shown = " ".join(f"{value:g}" for value in joint.axis)
         message = f"{path}: the axis {shown} has length {length:g}, and is normalised"
         yield Finding("axis-not-unit", f"{path} / axis", message)
-    if limit := joint.limit:
-        if kind.has_limits and limit.lower > limit.upper:
-            message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
-            yield Finding("limit-order", f"{path} / limit", message)
-        for name in ("effort", "velocity", "acceleration", "deceleration", "jerk"):
-            value = getattr(limit, name)
+    limit = joint.limit
+    if limit and kind.has_limits and limit.lower > limit.upper:
+        message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
+        yield Finding("limit-order", f"{path} / limit", message)
+    effect = effective(joint)
+    for code, block, names in _MAGNITUDES:
+        for name in names:
+            value = getattr(getattr(effect, block), name, None)
             if value is not None and value < 0:
-                message = f"{path}: the {name} limit {value:g} is negative, so that it is always exceeded"
-                yield Finding("negative-limit", f"{path} / limit", message)
-    rotor = joint.transmission.rotor_inertia if joint.transmission and kind.motion else None
-    if rotor is not None and rotor < 0:
-        yield Finding("negative-inertia", path, f"{path}: the inertia {rotor:g} of its rotor is negative")
-    if dynamics := joint.dynamics:
-        losses = ("damping", dynamics.damping), ("friction", dynamics.friction)
-        if not kind.has_axis and any(value for _, value in losses):
-            message = f"{path}: damping and friction have no effect on a {joint.type} joint"
-            yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
-        if dynamics.armature and not kind.motion:
-            message = f"{path}: an armature has no effect on a {joint.type} joint"
-            yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
-        elif dynamics.armature is not None and dynamics.armature < 0:
-            message = f"{path}: the armature {dynamics.armature:g} is negative"
-            yield Finding("negative-inertia", f"{path} / dynamics", message)
-        for name, value in losses if kind.has_axis else ():
-            if value < 0:
-                message = f"{path}: the {name} {value:g} is negative, so that the joint gains energy"
-                yield Finding("negative-dynamics", f"{path} / dynamics", message)
+                yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
+    if joint.dynamics and not kind.motion and joint.dynamics != (effect.dynamics or Dynamics()):
+        message = f"{path}: what <dynamics> says has no effect on a {joint.type} joint"
+        yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
 
 
 def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:

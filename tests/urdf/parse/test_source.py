@@ -157,7 +157,7 @@ def test_encodings_and_line_ends(encoding: str, line_end: str) -> None:
 
 
 @pytest.mark.parametrize(("declaration", "code"), [
-    ("<?xml version='0.0'?>", "xml-version"),
+    ("<?xml version='0.0'?>", "xml-declaration"),
     (" <?xml version='1.0'?>", "xml-declaration"),
     ("<?xml version=1.0?>", "xml-declaration"),
     ("<?XML version='1.0'?>", "xml-declaration"),

@@ -89,4 +89,4 @@ def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
     assert all(one and one.inertia.ixy and one.inertia.ixz and one.inertia.iyz for one in inertials.values())
     base = inertials["base"]
     assert base is not None
-    assert (base.mass, base.origin.xyz, base.inertia.ixy) == (0.946, (0.061, -0.08, 0.082), 0.003063)
+    assert (base.mass, base.origin.xyz, base.inertia.ixy) == (0.946, (0.04, -0.07, 0.06), 0.001891)

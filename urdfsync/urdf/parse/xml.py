@@ -34,9 +34,9 @@ _WIDE = ("utf-16", "utf-32", "ucs")
 _NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
 """Codecs of Python for single words: they fail in ways of their own, and one takes minutes for a file of 100 KB."""
 _DECLARATION = re.compile(
-    r"""<\?xml\s+version\s*=\s*(["'])(?P<version>[^"'<>]*)\1
-    (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\3)?
-    (?:\s+standalone\s*=\s*(["'])(?:yes|no)\5)?\s*\?>""",
+    r"""<\?xml\s+version\s*=\s*(["'])1\.[01]\1
+    (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\2)?
+    (?:\s+standalone\s*=\s*(["'])(?:yes|no)\4)?\s*\?>""",
     re.VERBOSE | re.ASCII,
 )
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
@@ -174,9 +174,6 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     if not text.strip("\0 \t\n"):
         raise ParseError("file-empty", "the file is empty")
     declaration, warnings = _DECLARATION.match(text), []
-    if declaration and declaration["version"] not in ("1.0", "1.1"):
-        message = f"there is no XML version {declaration['version']!r}; the file is read as 1.0"
-        warnings.append(diagnostic("xml-version", message, 1))
     if not declaration:
         declaration = re.match(_FAULTY_DECLARATION, text)
         is_faulty = declaration is not None

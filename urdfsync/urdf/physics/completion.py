@@ -22,7 +22,8 @@ _NEEDED = {
     "link/inertial/inertia": dict.fromkeys(Inertia.__struct_fields__, "0"),
 }
 """Attributes that Pinocchio's reader insists on."""
-_POINTS = 4  # made-up inertias are those of so many equal masses: not diagonal, and never impossible
+_PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
+"""Of made-up inertias, in the order of the fields, for 1 kg: not diagonal, and those of some body."""
 
 
 class CompletedSource(NamedTuple):
@@ -93,18 +94,11 @@ def _massless_links(tree: KinematicTree) -> set[str]:
 
 
 def _made_up_inertial(link: str) -> Element:
-    """Return mass properties of equal masses at random places, in a frame that is turned and off-centre."""
-    draw = random.Random(link)  # noqa: S311 - the link's name decides, so the numbers are the same everywhere
-    mass = round(draw.uniform(0.5, 3), 3)
-    points = [[draw.uniform(-0.15, 0.15) for _ in range(3)] for _ in range(_POINTS)]
-    tensor = {}
-    for name in Inertia.__struct_fields__:
-        i, j = ("xyz".index(letter) for letter in name[1:])
-        products = sum((i == j) * sum(x * x for x in point) - point[i] * point[j] for point in points)
-        tensor[name] = repr(round(products * mass / _POINTS, 6))
+    """Return mass properties that no two links share, in a frame that is turned and off-centre."""
+    mass = random.Random(link).uniform(0.5, 3)  # noqa: S311 - the link's name decides: the same on every machine
     element = Element("inertial")
-    xyz, rpy = (" ".join(repr(round(draw.uniform(-reach, reach), 3)) for _ in range(3)) for reach in (0.1, 1))
-    SubElement(element, "origin", xyz=xyz, rpy=rpy)
-    SubElement(element, "mass", value=repr(mass))
-    SubElement(element, "inertia", tensor)
+    SubElement(element, "origin", xyz="0.04 -0.07 0.06", rpy="0.3 -0.8 0.6")
+    SubElement(element, "mass", value=repr(round(mass, 3)))
+    tensor = zip(Inertia.__struct_fields__, _PER_MASS, strict=True)
+    SubElement(element, "inertia", {name: repr(round(value * mass, 6)) for name, value in tensor})
     return element
