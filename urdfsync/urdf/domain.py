@@ -38,7 +38,7 @@ from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
-from urdfsync.urdf.unsimulated import left_to_package, massless_passive_joints, out_of_scope
+from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
 from urdfsync.urdf.validate import ADVICE
 
 WARNINGS = frozenset(
@@ -71,12 +71,7 @@ class UrdfDomain(Domain):
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
         diagnostics += located(find_implausible(tree), file, lines) + unmodelled
-        if "record" in options.approach:
-            diagnostics += tuple(out_of_scope(tree, file, lines))
-        if "package" not in options.approach:
-            diagnostics += tuple(left_to_package(tree, options, file))
-        else:
-            diagnostics += tuple(massless_passive_joints(tree, options, file, lines))
+        diagnostics += tuple(find_unsimulated(tree, options, file, lines))
         return Reading(to_snapshot(robot), diagnostics, lines)
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:

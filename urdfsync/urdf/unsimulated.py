@@ -19,14 +19,22 @@ _HINTS = {
 }
 
 
-def massless_passive_joints(
+def find_unsimulated(
     tree: KinematicTree, options: Options, file: str, lines: Mapping[str, int]
 ) -> Iterator[Diagnostic]:
-    """Yield a warning for each joint of the package that is not driven and moves nothing where the robot starts.
-
-    Driven joints count as fixed: they move as prescribed, so a passive joint behind one or before one gets no motion
-    from it that would undo its own. `file` and `lines` are those of `RobotReading`.
-    """
+    """Yield what the approaches that are chosen can't simulate. `file` and `lines` are those of `RobotReading`."""
+    if "record" in options.approach:
+        yield from out_of_scope(tree, file, lines)
+    if "package" not in options.approach:
+        names = ", ".join(sensor.name for sensor in tree.sensors)
+        parts = [f"sensors ({names})"] * bool(names) + ["flanges of motors"] * (options.drives == "motor")
+        if parts:
+            message = f"the record approach has no {' and no '.join(parts)}"
+            hint = 'add "package" to `approach` for them'
+            yield Diagnostic(Severity.NOTE, "not-in-record", message, file, hint=hint)
+        return
+    # Driven joints count as fixed: they move as prescribed, so a passive joint behind one or before one gets no motion
+    # from it that would undo its own.
     passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - driven_joints(tree.joints, options)
     for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
@@ -35,15 +43,6 @@ def massless_passive_joints(
             hint = "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint"
             line = lines.get(f"joint {name}", 0)
             yield Diagnostic(Severity.WARNING, "passive-moves-no-mass", message, file, line, hint=hint)
-
-
-def left_to_package(tree: KinematicTree, options: Options, file: str) -> Iterator[Diagnostic]:
-    """Yield a note if the robot or the options have something that only the package approach has a place for."""
-    names = ", ".join(sensor.name for sensor in tree.sensors)
-    parts = [f"sensors ({names})"] * bool(names) + ["flanges of motors"] * (options.drives == "motor")
-    if parts:
-        message, hint = f"the record approach has no {' and no '.join(parts)}", 'add "package" to `approach` for them'
-        yield Diagnostic(Severity.NOTE, "not-in-record", message, file, hint=hint)
 
 
 def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> Iterator[Diagnostic]:

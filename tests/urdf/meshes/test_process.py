@@ -18,12 +18,12 @@ from support.urdfs import link, robot
 
 from urdfsync import cli
 from urdfsync.urdf.meshes import process
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
 
 Capture = pytest.CaptureFixture[str]
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold")]
-UNIT = (1.0, 1.0, 1.0)
+REQUEST = Request(".dae")
 SOUND = dae().encode()
 ENDLESS = tenfold(11, "").encode()
 
@@ -71,27 +71,27 @@ def _pid() -> int:
 
 
 def test_the_process_is_kept_until_a_mesh_breaks_a_limit(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
-    ((stl, facts),) = reader.read(".dae", UNIT, SOUND)
+    ((stl, facts),) = reader.read(REQUEST, SOUND)
     assert (len(stl), facts["bounds"]) == (134, [[0, 0, 0], [1, 1, 0]])
     first = _pid()
     with pytest.raises(MeshError, match="well-formed"):
-        reader.read(".dae", UNIT, b"<a")
-    assert (reader.read(".dae", UNIT, SOUND), _pid()) == ([(stl, facts)], first)
+        reader.read(REQUEST, b"<a")
+    assert (reader.read(REQUEST, SOUND), _pid()) == ([(stl, facts)], first)
     monkeypatch.setattr(process, "CPU_SECONDS", 0.3)
     with pytest.raises(MeshError, match=LIMITS):
-        reader.read(".dae", UNIT, ENDLESS)
+        reader.read(REQUEST, ENDLESS)
     assert not psutil.pid_exists(first)
     monkeypatch.undo()
-    assert reader.read(".dae", UNIT, SOUND) == [(stl, facts)]
+    assert reader.read(REQUEST, SOUND) == [(stl, facts)]
     assert _pid() != first
 
 
 def test_time_by_the_clock_is_limited_too(reader: MeshProcess, monkeypatch: pytest.MonkeyPatch) -> None:
-    reader.read(".dae", UNIT, SOUND)
+    reader.read(REQUEST, SOUND)
     os.kill(_pid(), signal.SIGSTOP)
     monkeypatch.setattr(process, "WALL_SECONDS", 0.2)
     with pytest.raises(MeshError, match=LIMITS):
-        reader.read(".dae", UNIT, SOUND)
+        reader.read(REQUEST, SOUND)
 
 
 @pytest.mark.parametrize(("program", "words"), [
@@ -105,27 +105,27 @@ def test_a_crash_and_a_wrong_answer_are_told(
 ) -> None:
     monkeypatch.setattr(process, "python_module", lambda _module: [sys.executable, "-c", program])
     with pytest.raises(MeshError, match=words):
-        reader.read(".dae", UNIT, SOUND)
+        reader.read(REQUEST, SOUND)
 
 
 def test_an_interruption_is_heard_while_a_mesh_is_read(reader: MeshProcess) -> None:
-    reader.read(".dae", UNIT, SOUND)
+    reader.read(REQUEST, SOUND)
     first = _pid()
     signal.setitimer(signal.ITIMER_REAL, 0.5)
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):
-            reader.read(".dae", UNIT, ENDLESS)
+            reader.read(REQUEST, ENDLESS)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert not psutil.pid_exists(first)
-    assert reader.read(".dae", UNIT, SOUND)
+    assert reader.read(REQUEST, SOUND)
 
 
 def test_the_process_ends_with_whoever_started_it(tmp_path: Path) -> None:
     program = (
-        "import os, psutil; from urdfsync.urdf.meshes.process import MeshProcess; reader = MeshProcess();"
-        f"reader.read('.dae', (1.0, 1.0, 1.0), {SOUND!r}); print(psutil.Process().children()[0].pid, flush=True);"
+        "import os, psutil; from urdfsync.urdf.meshes.process import MeshProcess, Request; reader = MeshProcess();"
+        f"reader.read(Request('.dae'), {SOUND!r}); print(psutil.Process().children()[0].pid, flush=True);"
         "os.kill(os.getpid(), 9)"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
@@ -138,5 +138,5 @@ def test_the_process_ends_with_whoever_started_it(tmp_path: Path) -> None:
 def test_it_imports_nothing_from_the_working_folder_and_writes_nothing(folder: Path, reader: MeshProcess) -> None:
     for name in ("collada", "numpy", "msgspec", "urdfsync", "signal", "resource", "sitecustomize"):
         (folder / f"{name}.py").write_text(f"open({str(folder / 'mark')!r}, 'w').close()\n")
-    assert reader.read(".dae", UNIT, SOUND)
+    assert reader.read(REQUEST, SOUND)
     assert not (folder / "mark").exists()

@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -34,10 +34,8 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
             raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - told as what the process finds
         colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
-        with_hull = lookup.HULL in dependency.facts
-        (whole, facts), *parts = _process.read(
-            suffix, mesh.scale, content, with_hull, colors=colors, as_obj=is_obj, others=others
-        )
+        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
+        (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
         hint = "export it again, best as STL or OBJ"

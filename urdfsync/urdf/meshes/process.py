@@ -40,17 +40,18 @@ class Request(msgspec.Struct, frozen=True):
     """A line for the process; the bytes of a mesh, and those of other files, follow."""
 
     suffix: str
-    scale: Vector
-    size: int
-    with_hull: bool
-    seconds: float
-    """CPU time that reading it may take."""
+    scale: Vector = (1.0, 1.0, 1.0)
+    with_hull: bool = True
     colors: str = ""
     """Name of the fact that tells the colours, see `lookup.PARTS`; empty if they are not wanted."""
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
+    size: int = 0
+    """Of the mesh in bytes; `MeshProcess` fills this in, and what follows."""
     others: Mapping[str, int] = {}
     """Sizes of the other files by their paths."""
+    seconds: float = 0.0
+    """CPU time that reading it may take."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -75,23 +76,15 @@ class MeshProcess:
         self._lock = threading.Lock()  # workers of a cluster are threads
 
     def read(
-        self,
-        suffix: str,
-        scale: Vector,
-        content: bytes,
-        with_hull: bool = True,
-        *,
-        colors: str = "",
-        as_obj: bool = False,
-        others: Mapping[str, bytes] | None = None,
+        self, request: Request, content: bytes, others: Mapping[str, bytes] | None = None
     ) -> list[tuple[bytes, Facts]]:
-        """Return the files that a mesh becomes, with their facts; see `Request`.
+        """Return the files that a mesh becomes, with their facts.
 
         Raises MeshError, or OSError if no process can be started.
         """
         others = others or {}
         sizes = {name: len(one) for name, one in others.items()}
-        request = Request(suffix, scale, len(content), with_hull, CPU_SECONDS, colors, as_obj, sizes)
+        request = msgspec.structs.replace(request, size=len(content), others=sizes, seconds=CPU_SECONDS)
         with self._lock:
             process = self._process = self._process or self._start()
             timer = threading.Timer(WALL_SECONDS, process.kill)
