@@ -7,7 +7,6 @@ import json
 import math
 import os
 import re
-import shutil
 import signal
 import sys
 from collections.abc import Collection
@@ -144,7 +143,8 @@ def test_commands_that_plan_have_the_document_of_a_build(folder: Path, execute: 
     edited(folder)
     for command in (["status"], ["build"], ["resolve", "--all", "--merge"]):
         assert tell_all(printed(execute, folder, *command), "build")
-    assert keys(printed(execute, folder, "remove", "arm", "--dry-run")) <= named("Every document", "build")
+    for command in (["remove", "arm", "--dry-run"], ["adopt", "arm"]):
+        assert keys(printed(execute, folder, *command)) <= named("Every document", "build")
     of_edits = {"files", "edits", "element", "part", "mine"}
     assert tell_all(printed(execute, folder, "diff", "arm.urdf"), "build", "diff", absent=of_edits)
     edits = printed(execute, folder, "diff", "--edits")["robots"]
@@ -240,16 +240,6 @@ def test_the_other_events_look_as_shown() -> None:
     assert_event_has_its_keys(shown)
     classes = {*events.Event.__subclasses__(), *events.RobotEvent.__subclasses__()} - {events.RobotEvent}
     assert all(f"`{kind.__struct_config__.tag}`" in SECTIONS["watch"] for kind in classes)
-
-
-def test_adopt(folder: Path, execute: Execute) -> None:
-    edited(folder)
-    shutil.rmtree(folder / ".urdfsync")
-    document = printed(execute, folder, "adopt", "arm")
-    (robot,) = document["robots"]
-    assert {file["status"] for file in robot["files"]} == {"same", "edited"}
-    assert keys(robot) - keys(BUILD["robots"]) == {"files", "edits", "element", "part", "base", "mine"}
-    assert "edits" in SECTIONS["adopt"]
 
 
 def checked() -> CheckResult:

@@ -37,10 +37,10 @@ def test_after_the_state_was_lost(lost: Path, execute: Execute) -> None:
     shutil.rmtree(lost / ".urdfsync")
     before = snapshot(lost)
     assert execute("adopt", "ladder").lines == [
-        "ladder: adopted: 10 same, 2 edited",
-        f"  edited     {C1}  element C1",
+        "ladder: 10 already equal to the generated text, 2 kept because you edited them",
+        f"  {C1}  element C1",
         "    component `mine`: added",
-        f"  edited     {RECORD}  element R1",
+        f"  {RECORD}  element R1",
         "    component `R`: R 100 → 99",
     ]
     assert {path: content for path, content in snapshot(lost).items() if not path.startswith(".urdfsync")} == before
@@ -58,8 +58,7 @@ def test_later_exports_merge(lost: Path, execute: Execute) -> None:
 def test_a_dry_run_says_the_same_and_writes_nothing(lost: Path, execute: Execute) -> None:
     with unchanged(lost):
         said = execute("adopt", "ladder", "--dry-run").lines
-    assert said[0] == "ladder: to adopt: 10 same, 2 edited"
-    assert said[1:] == execute("adopt", "ladder").lines[1:]
+    assert said == execute("adopt", "ladder").lines
 
 
 def test_a_robot_that_was_built_is_refused(project: Path, execute: Execute) -> None:
@@ -73,7 +72,7 @@ def test_a_robot_that_was_built_is_refused(project: Path, execute: Execute) -> N
 
 def test_after_a_first_build_that_ended_in_conflicts(lost: Path, execute: Execute) -> None:
     execute("build", "-q", code=3)
-    assert execute("adopt", "ladder").lines[0] == "ladder: adopted: 10 same, 2 edited"
+    assert execute("adopt", "ladder").lines[0].endswith("2 kept because you edited them")
 
 
 @pytest.fixture
@@ -102,24 +101,17 @@ def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
     before = snapshot(foreign)
     (found,) = execute("adopt", "arm", "--json", code=3).json["robots"]
     assert snapshot(foreign).items() >= before.items()
-    files = {file["path"]: file for file in found["files"]}
-    assert {path for path in files if files[path]["status"] == "edited"} == {
-        path for path in before if path.endswith(".mo") and path not in (PARAMS, "modelica/Arm/Joints/Brake.mo")
+    reasons = {action["path"]: action["reason"] for action in found["actions"]}
+    unknown = (PARAMS, "modelica/Arm/Joints/Brake.mo")
+    assert {path for path, reason in reasons.items() if reason == "keep"} == {
+        path for path in before if path.endswith(".mo") and path not in unknown
     }
-    unknown = {path: file["owner"] for path, file in files.items() if file["status"] == "unknown"}
-    assert unknown == {PARAMS: "joint elbow", "modelica/Arm/Joints/Brake.mo": ""}
-    assert files[PARAMS]["numbers"] == [{"name": "limit", "value": "4.2", "line": 3}]
-    assert files["modelica/Arm/Joints/ElbowParameters.mo"]["status"] == "new"
-    named = {edit["element"]: edit for edit in files["modelica/Arm/Arm.mo"]["edits"]}
-    assert named["component `tip`"]["mine"] is None
-    assert "component `elbow`" in named
+    assert reasons["modelica/Arm/Joints/ElbowParameters.mo"] == "create"
+    assert reasons.keys().isdisjoint(unknown)
     order = (foreign / "modelica/Arm/Joints/package.order").read_text().split()
     assert order == ["Elbow", "ElbowParameters", "Brake", "ElbowParams"]
     shutil.rmtree(foreign / ".urdfsync")
     lines = execute("adopt", "arm", code=3).lines
-    assert lines[lines.index(f"  unknown    {PARAMS}  named after joint elbow") + 1] == (
-        "    line 3: limit = 4.2 is not in the source"
-    )
-    assert lines[-1] == "  exports do not change unknown files: new numbers go to the generated records"
+    assert lines[-1] == f"  unknown    {PARAMS}  yours: no export changes it"
     assert "4 edited" in execute("status", code=1).out
     assert "order-lacks" not in execute("check", code=None).words

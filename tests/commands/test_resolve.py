@@ -78,7 +78,7 @@ def test_take_gives_back_a_file_that_does_not_conflict(project: Path, execute: E
     before = Path(MODEL).read_text()
     edit(MODEL, "equation", "  Real mine;\n\nequation")
     for choice in ("--keep", "--merge"):
-        assert f"{MODEL}: error: it has no conflict" in execute("resolve", MODEL, choice, code=2).err
+        assert f"{MODEL}: error: the file has no conflict" in execute("resolve", MODEL, choice, code=2).err
     assert execute("resolve", MODEL, "--take").lines[0] == "ladder: 1 file written"
     assert Path(MODEL).read_text() == before
 
@@ -293,7 +293,7 @@ def test_of_many_conflicts_a_few_are_named(clean: Path, execute: Execute) -> Non
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--keep"], "name files or folders, or use --all; `urdfsync status` lists the conflicts"),
+        (["--keep"], "name files or folders, or use --all; see `urdfsync status` for the conflicts"),
         ([], "one of the arguments --keep --take --merge --edit --undo --rename-uses is required"),
         ([MODEL, "--all", "--keep"], "--all goes without paths"),
         (["--rename-uses", "--keep"], "argument --keep: not allowed with argument --rename-uses"),
@@ -347,7 +347,8 @@ def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute)
     execute("resolve", str(orphan.parent), "--take", code=2)
     assert orphan.exists()
     assert (
-        "it is no longer generated: there is nothing to merge" in execute("resolve", str(orphan), "--merge", code=2).err
+        "the file is no longer generated: there is nothing to merge"
+        in execute("resolve", str(orphan), "--merge", code=2).err
     )
     assert (
         f"  accepted   {orphan.relative_to(Path.cwd())}  deleted; --undo brings it back"
@@ -516,7 +517,7 @@ def save_before(monkeypatch: pytest.MonkeyPatch, path: Path, old: str, new: str)
     monkeypatch.setattr("urdfsync.commands.resolve.build_and_check", save_and_build)
 
 
-CHANGED = "it has changed since it was looked at, so your choice does not count for it; look at it, then choose again"
+CHANGED = "changed after they were read, so your choice was not applied; look at it, then choose again"
 
 
 @pytest.mark.parametrize("choice", ["--take", "--keep", "--edit", "--merge --prefer generated"])
@@ -693,7 +694,7 @@ def test_an_edited_text_waits_for_other_conflicts(contradictory: Path, execute: 
 def test_what_is_saved_while_the_editor_is_open_stays(contradictory: Path, execute: Execute, editor: Editor) -> None:
     editor(f'{SETTLE}\nmine = Path({str(Path(MODEL).absolute())!r})\nmine.write_text(mine.read_text() + "// saved\\n")')
     printed = execute("resolve", MODEL, "--edit", code=3)
-    assert "this edited text was not taken over" in printed.err
+    assert "the text that you edited was not used" in printed.err
     assert Path(MODEL).read_text().endswith("// saved\n")
 
 
@@ -721,7 +722,7 @@ def test_a_text_that_is_not_taken_is_named(contradictory: Path, execute: Execute
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", "--all", "--edit", code=2).err
     assert "the editor ended with exit code 1" in error
-    assert "R8.mo: note: this edited text was not taken over" in error
+    assert "R8.mo: note: the text that you edited was not used" in error
 
 
 HOSTILE = """
@@ -771,7 +772,7 @@ def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(
     mine = Path(MODEL).read_text()
     printed = execute("resolve", MODEL, "--edit", code=3)
     assert "there is no class `Elements.R2`" in printed.out
-    assert "this edited text was not taken over" in printed.err
+    assert "the text that you edited was not used" in printed.err
     assert Path(MODEL).read_text() == mine
 
 

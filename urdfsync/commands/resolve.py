@@ -135,7 +135,7 @@ def _choice(args: argparse.Namespace) -> Choice:
     wrong = "--undo goes with paths, not with --all" if args.all and args.choice is Choice.UNDO else wrong
     wrong = "--prefer goes with --merge" if args.prefer and args.choice is not Choice.MERGE else wrong
     if wrong:
-        raise arguments.UsageError(args.parser, wrong, "`urdfsync status` lists the conflicts")
+        raise arguments.UsageError(args.parser, wrong, "see `urdfsync status` for the conflicts")
     return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
 
 
@@ -191,7 +191,7 @@ def _compare(
         if result.robot in failed:
             continue
         if after is not None and after.sides != before.sides:
-            message = "it has changed since it was looked at, so your choice does not count for it"
+            message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at it, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
         elif after is None or (after.choice is not choice and before.kind is not Kind.CONFLICT):
@@ -203,13 +203,13 @@ def _compare(
 
 def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     """Return why a choice changes nothing about a file that does not conflict."""
-    code, message, hint = "no-conflict", "it has no conflict", "`urdfsync status` lists the conflicts"
+    code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
     if choice is Choice.UNDO:
-        code, hint = "no-undo", "--keep, --take and --merge settle conflicts"
+        code, hint = "no-undo", "to settle a conflict, use --keep, --take or --merge"
         message = "nothing to undo: no build has replaced your text here, or you saved the file since"
     elif action.reason is Reason.ORPHAN:
-        code, message = "no-merge", "it is no longer generated: there is nothing to merge"
-        hint = "--keep makes it yours, --take deletes it"
+        code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
+        hint = "make it yours with --keep, or delete it with --take"
     return Diagnostic(Severity.ERROR, code, message, place, hint=hint)
 
 
@@ -270,6 +270,6 @@ def _flaw(content: bytes, conflict: Conflict) -> str:
 
 
 def _remains(file: Path) -> Diagnostic:
-    message = "this edited text was not taken over"
+    message = "the text that you edited was not used"
     hint = "put what you want of it into your file, or edit again"
     return Diagnostic(Severity.NOTE, "edit-left", message, shown(file), hint=hint)
