@@ -138,13 +138,6 @@ def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str |
     assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted the next time"
 
 
-def test_what_the_user_keeps_overrides_hashes() -> None:
-    file = File(Role.MODEL, record=FileRecord(("mine",), is_users=True), on_disk="mine")
-    assert decide({"A.mo": file}, {}) == ()
-    (action,) = decide({"A.mo": msgspec.structs.replace(file, generated="new")}, {})
-    assert action.reason is Reason.UNOWNED
-
-
 LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)
 
 

@@ -23,7 +23,7 @@ ARM = Record(
     options={"base": "fixed", "frames": ["tip"]},
     snapshot={"links": {"tip": {"mass": 1.5}}, "joints": {}, "name": "arm"},
     imports={"tip.stl": (Import("Resources/tip.stl", A, B, 2, {"hull": [[0.0, 1.0]]}),)},
-    files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,)), "modelica/Plant/Arm/Mine.mo": FileRecord((), is_users=True)},
+    files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,))},
 )
 OPEN = Open({"Arm.mo": UsersChoice(Choice.MERGE, B)}, {"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})
 TEXT = dumps(ARM)
@@ -74,10 +74,9 @@ def test_a_model_that_git_united_is_at_hand_unless_an_element_stands_twice() -> 
     assert united('model ["links","tip",{"mass":3.0}]').snapshot is None
 
 
-def test_a_file_has_every_hash_that_a_branch_recorded_and_is_the_users_if_one_says_so() -> None:
-    record = united(f"file {B}  Arm.mo", f"file {B}  Mine.mo")
+def test_a_file_has_every_hash_that_a_branch_recorded() -> None:
+    record = united(f"file {B}  Arm.mo")
     assert record.files["modelica/Plant/Arm/Arm.mo"] == FileRecord((A, B))
-    assert record.files["modelica/Plant/Arm/Mine.mo"].is_users
     assert record.is_united
 
 

@@ -93,10 +93,8 @@ def _find_files(generation: Generation) -> dict[str, File]:
     found = dict[str, File]()
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
-        record = last.files.get(key, NEVER_WRITTEN)
-        # the user's own file is not looked at
-        on_disk = None if generated is None and record.is_users else inputs.files.on_disk(key, role)
-        found[key] = File(role, owner, record, on_disk, generated)
+        on_disk = inputs.files.on_disk(key, role)
+        found[key] = File(role, owner, last.files.get(key, NEVER_WRITTEN), on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))

@@ -74,7 +74,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     def moves(self) -> dict[str, str]:
         """New and old key of text files whose element was renamed, or whose package moved."""
         inputs, last = self.inputs, self.inputs.last
-        texts = {last.folder.path(key) for key, file in last.files.items() if not file.is_users}
+        texts = set(map(last.folder.path, last.files))
         recorded = last.package.artifacts if last.package else {}
         before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
         now = {path: (file.owner, file.template) for path, file in self.package.artifacts.items()}

@@ -101,8 +101,8 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
             reason = decide_file(base, mine, generated)
             if reason is Reason.DELETE and file.record.is_ambiguous:
                 reason = Reason.ORPHAN
-        if reason is Reason.FORGET and (file.record.is_users or not file.record.hashes):
-            continue  # it was never written, and is not wanted any more; or it is the user's
+        if reason is Reason.FORGET and not file.record.hashes:
+            continue  # it was never written, and is not wanted any more
         on_disk_hash = mine if isinstance(mine, str) else None
         actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
@@ -176,15 +176,13 @@ def files_after(
     One that is complete has done all of its actions. Else the files count that are as generated now; what is recorded
     of all others stays that of the last complete build.
     """
-    found = {path: record for path, record in recorded.items() if record.is_users or not is_complete}
+    found = {} if is_complete else dict(recorded)
     for action in actions:
         is_generated = action.reason in (Reason.UNCHANGED, Reason.ADOPT) or action.writes
         if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
         if action.generated is not None:
             found[action.path] = FileRecord((action.generated,))
-        elif action.handed_to_user:
-            found[action.path] = FileRecord(is_users=True)
         elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED):
             hashes = recorded[action.path].hashes
             # one is left of an ambiguous base: not that of the file, or the next build would delete it

@@ -8,7 +8,6 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.changes import Changes
-from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Actions, Kind
@@ -125,9 +124,7 @@ def _record(generation: Generation, decision: Decision) -> Record:
         choices = {inputs.folder.path(key): choice for key, choice in choices.items()}
         open_ = Open(choices, generation.now.snapshot, generation.recognised_renames)
         return msgspec.structs.replace(old, files=files, imports={**old.imports, **renewed}, open=open_)
-    recorded = inputs.last.files.items()
-    kept = {key: file for key, file in recorded if not file.is_users or is_file(inputs.files.path(key))}
-    files = files_after(decision.actions, kept, is_complete=True)
+    files = files_after(decision.actions, inputs.last.files, is_complete=True)
     new = Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,

@@ -46,8 +46,6 @@ class FileRecord(msgspec.Struct, frozen=True):
     """
 
     hashes: tuple[str, ...] = ()
-    is_users: bool = False
-    """Whether the user keeps a file that was no longer generated. Overrides `hashes`."""
 
     @property
     def is_ambiguous(self) -> bool:
@@ -60,12 +58,12 @@ class FileRecord(msgspec.Struct, frozen=True):
         return next(iter(self.hashes), "")
 
     def base(self, mine: object, generated: str | None) -> str | None:
-        """Return the base to compare with; None if urdfsync never wrote the file, or if it is the user's.
+        """Return the base to compare with; None if urdfsync never wrote the file.
 
         A file that nobody edited has any of the hashes. An edited one with an ambiguous base is not kept in silence:
         its base is none that equals the generated text.
         """
-        if self.is_users or not self.hashes:
+        if not self.hashes:
             return None
         if isinstance(mine, str) and mine in self.hashes:
             return mine

@@ -24,8 +24,6 @@ FORMAT = 1
 """Raised when an older urdfsync could misread what a newer one records."""
 
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
-_USERS = "user"
-"""In the place of a hash: the file is the user's."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """Form of nearly all paths, which can't lead elsewhere."""
@@ -61,7 +59,7 @@ def dumps(record: Record) -> str:
     lines = {_line(word, value) for word, value in _facts(record)}
     files = set()
     for key, file in record.files.items():
-        files |= {(key[below:], one) for one in ((_USERS,) if file.is_users else file.hashes)}
+        files |= {(key[below:], sha256) for sha256 in file.hashes}
     listed = [f"file {sha256}  {path}" for path, sha256 in sorted(files)]
     if not record.is_united:
         lines.add(_line("sum", _sum([*lines, *listed])))
@@ -143,7 +141,7 @@ def _parse(content: str) -> tuple[str, Any]:
     word, _, rest = content.partition(" ")
     if word == "file":
         sha256, _, path = rest.partition("  ")
-        if not path or not (sha256 == _USERS or _HASH.fullmatch(sha256)):
+        if not path or not _HASH.fullmatch(sha256):
             raise ValueError("no hash and path")
         return word, (path, sha256)
     return word, _DECODERS[word].decode(rest)
@@ -179,10 +177,7 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         options=options,
         snapshot=_snapshot(found["model"]),
         imports=imports,
-        files={
-            key: FileRecord(tuple(one for one in found if one != _USERS), _USERS in found)
-            for key, found in sorted(hashes.items())
-        },
+        files={key: FileRecord(tuple(found)) for key, found in sorted(hashes.items())},
         open=open_,
         is_united=not is_whole,
     )
