@@ -60,7 +60,7 @@ def decide_package(generation: Generation) -> Decision:
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
     inputs, files, last = generation.inputs, generation.inputs.files, generation.inputs.last
-    actions = tuple(_as_can_be(inputs, action) for action in decide(_find_files(generation), generation.moves))
+    actions = tuple(_limit(inputs, action) for action in decide(_find_files(generation), generation.moves))
     chosen = valid_choices(inputs.options.choices, actions)
     actions, undone = apply_undo(inputs, actions, chosen)
 
@@ -103,17 +103,14 @@ def _find_files(generation: Generation) -> dict[str, File]:
     before = last.package.artifacts if last.package else {}
     for key in last.files.keys() - found.keys():
         path = last.folder.path(key)
-        add(
-            key,
-            before[path].role if path in before else role_of(path),
-            before[path].owner if path in before else "",
-            None,
-        )
+        artifact = before.get(path)
+        add(key, artifact.role if artifact else role_of(path), artifact.owner if artifact else "", None)
     return found
 
 
-def _as_can_be(inputs: Inputs, action: Action) -> Action:
-    """Delete no text that could not be given back; let `adopt` take files that are there for edits."""
+def _limit(inputs: Inputs, action: Action) -> Action:
+    """Keep a text that could not be given back, and with `adopt` a file that urdfsync did not write."""
+    # the record may be a stranger's, who has put the hash of a file of the user's into it
     if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
         return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:

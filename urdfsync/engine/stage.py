@@ -70,14 +70,12 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
             drawing = store.drawing(robot.name)
             changes += store.save(drawing, picture.encode())
 
-    state = store.remove(inputs.last.name) if record is None or inputs.former_name else []
-    if record is None:
-        state += store.remove(robot.name) if inputs.former_name else []
-    else:
+    names = {inputs.last.name} - {robot.name} if record else {inputs.last.name, robot.name}
+    state = [change for name in names for change in store.remove(name)]
+    if record:
         versions = [conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts]
-        changes += store.save_conflicts(
-            robot.name, {path: encode(text) for version in versions for path, text in version}
-        )
+        texts = {path: encode(text) for version in versions for path, text in version}
+        changes += store.save_conflicts(robot.name, texts)
         changes += store.save(store.replaced_file(robot.name), replaced.dumps(aside))
         expanded = inputs.source.expansion
         if not inputs.source.stale:
