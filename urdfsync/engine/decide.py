@@ -103,8 +103,8 @@ def _find_files(generation: Generation) -> dict[str, File]:
     before = last.package.artifacts if last.package else {}
     for key in last.files.keys() - found.keys():
         path = last.folder.path(key)
-        artifact = before.get(path)
-        add(key, artifact.role if artifact else role_of(path), artifact.owner if artifact else "", None)
+        old = before.get(path)
+        add(key, old.role if old else role_of(path), old.owner if old else "", None)
     return found
 
 
