@@ -14,6 +14,7 @@ from support.networks import edit
 from support.urdfs import ELBOW_ARM
 
 from urdfsync import cli
+from urdfsync.engine import generate
 
 pytestmark = NEEDS_GIT
 
@@ -139,6 +140,15 @@ def test_what_writes_nothing_is_told_by_diff_until_the_next_write(
     capsys.readouterr()
     assert cli.main(["diff"]) == 0
     assert "unmodelled" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("change", [extend, set_option_without_effect])
+def test_what_no_file_shows_renders_nothing(
+    verdict: Callable[[], Verdict], monkeypatch: pytest.MonkeyPatch, change: Callable[[], object]
+) -> None:
+    change()
+    monkeypatch.delattr(generate, "_render")
+    assert verdict() == GREEN
 
 
 def test_a_comment_in_a_template_writes_nothing(verdict: Callable[[], Verdict]) -> None:

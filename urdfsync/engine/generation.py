@@ -125,8 +125,9 @@ def _generate(inputs: Inputs) -> Generation:
         found.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
     is_complete = not (last.record.open or last.record.is_united or last.written)
-    if is_complete and last.package and inputs.has_same_generator and not options.full:
-        # texts whose template and data are as in the last complete build need not be rendered
+    is_same = last.record.generator == inputs.generator and last.options is not None
+    if is_complete and last.package and is_same and not options.full:
+        # Texts whose template and data are as in the last complete build need not be rendered, whatever options say.
         files = {last.folder.path(key): record for key, record in last.files.items()}
         hashes = {
             path: files[path].generated
