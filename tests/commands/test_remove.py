@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -77,9 +78,15 @@ def test_the_source_may_be_gone(plant: Path, execute: Execute) -> None:
 
 def test_a_package_that_was_to_move_goes_from_its_old_place(plant: Path, execute: Execute) -> None:
     edit("urdfsync.toml", '"Plant.Filter"', '"Plant.Other"')
-    line = f"  stays      {FILTER}/Resources/step.txt  it is in a former folder, and may be yours"
+    execute(*REMOVE)
+    assert not (plant / FILTER).exists()
+
+
+def test_a_text_that_could_not_be_given_back_stays(plant: Path, execute: Execute) -> None:
+    shutil.rmtree(plant / ".urdfsync/bases")
+    line = f"  stays      {FILTER}/Filter.mo  its text is not stored, and could not be given back"
     assert line in execute(*REMOVE).lines
-    assert [path.name for path in (plant / FILTER).rglob("*")] == ["Resources", "step.txt"]
+    assert (plant / FILTER / "Filter.mo").is_file()
 
 
 def test_without_a_terminal_it_wants_a_word(plant: Path, execute: Execute) -> None:

@@ -96,7 +96,7 @@ def _reason(action: Action) -> str:
     """Why a file stays."""
     if action.reason is Reason.NEEDED:
         return "your own files need it"
-    return "you edited it" if action.mine != action.base else "it is in a former folder, and may be yours"
+    return "you edited it" if action.mine != action.base else "its text is not stored, and could not be given back"
 
 
 def _take_out(configuration: Config, robot: str) -> None:
