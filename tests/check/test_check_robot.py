@@ -390,6 +390,18 @@ def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
     assert lines(result) == [f"Cell.mo:0: warning: there is 1 equation too few; {hint}"]
 
 
+def test_a_part_of_a_model_that_compiles_need_not_compile_by_itself(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    part, line = "model Part\n  Arm.Arm a;\nend Part;\n", "model Line\n  Part part;\nend Line;\n"
+    write({"Part.mo": part, "Line.mo": line})
+    compiler.problems["Part"] = "unbalanced model: 2 equations, 3 unknowns"
+    result = check()
+    assert (result.tools[0].failing, result.diagnostics) == ((), ())
+    compiler.problems["Line"] = compiler.problems["Part"]
+    assert check(fresh=True).tools[0].failing == ("Line", "Part")
+
+
 def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:

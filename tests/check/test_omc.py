@@ -222,18 +222,6 @@ def test_an_assertion_that_fails_is_told_with_its_text_place_and_time(ask: Ask, 
     assert run.problem == "assert failed at t=0.600000: the elbow breaks (/ws/Arm/Joints/Elbow.mo:28)"
 
 
-def test_a_run_that_stops_is_run_again_until_its_last_result(ask: Ask, tmp_path: Path) -> None:
-    run = Simulation(1, 0.25)
-    task = CompileTask("Good", "model Good end Good;", (run,), ("p",), title="Lab.Good")
-    write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25, 0.5), "p": (1.0, 2.0, 3.0)})
-    whole = RESULT.format(file="", messages=FAILED, said="")
-    part = RESULT.format(file=tmp_path / "x_res.mat", messages="", said="")
-    (result,) = ask({"simulate(Good, startTime=0, stopTime=0.5": part, "simulate": whole}, task)
-    (found,) = result.runs
-    assert found.problem.startswith("assert failed at t=0.600000")
-    assert found.values["p"] == (1, 2, 3)
-
-
 def test_a_model_that_ends_the_simulation_is_told_in_its_words(ask: Ask, tmp_path: Path) -> None:
     write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25), "q[1,2]": (2.0, 0.3)})
     log = "LOG_STDOUT        | info    | Simulation call terminate() at time 0.250000\n"

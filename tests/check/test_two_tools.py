@@ -37,8 +37,8 @@ Numbers = Mapping[str, tuple[float, float]]
 class Said:
     """In the place of `Compilation`: a compiler that finds these numbers and says this."""
 
-    def __init__(self, tool: Tool, numbers: Numbers, edited: Numbers, *said: Diagnostic, version: str = "") -> None:
-        self.tool, self.version, self.generated, self.edited = tool, version, numbers, edited or None
+    def __init__(self, tool: Tool, numbers: Numbers, edited: Numbers, *said: Diagnostic) -> None:
+        self.generated, self.edited = numbers, edited or None
         self.result, self.diagnostics, self.gaps = ToolResult(TITLES[tool.name]), [*said], list[str]()
 
     def run(self, experiment: Experiment | None) -> None:
@@ -129,13 +129,6 @@ def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
     assert check(numbers, said={"rumoca": LOST, "omc": in_its_words}).diagnostics == (LOST,)
     alone = [one.message for one in check(numbers, said={"rumoca": LOST, "omc": elsewhere}).diagnostics]
     assert alone == ["rumoca 0.10.2 alone: `elbo` is unknown", "OpenModelica 1.27.0 alone: units do not fit"]
-
-
-def test_an_untried_version_is_noted() -> None:
-    result = compiled(None, Said(TOOLS[1], {}, {}, version="1.14.2"))
-    assert [str(one) for one in result.diagnostics] == [
-        "note: OpenModelica 1.14.2 was not tried with urdfsync; 1.27 was [untried-compiler]"
-    ]
 
 
 def test_what_only_one_of_two_could_move_is_told_with_its_element(capsys: pytest.CaptureFixture[str]) -> None:

@@ -62,29 +62,20 @@ def test_a_record_stays_with_the_file_that_tells_its_use_and_locks_stay(cache: U
 def test_folders_go_as_a_whole(cache: UserCache) -> None:
     put_folder(cache, "libraries/old", 2 * HOUR)
     put_folder(cache, "libraries/recent", 60, 2)
-    put_folder(cache, "work/0-left-over", 2 * HOUR)
     cache.trim(limit=8 * BLOCK)
     assert [path.name for path in cache.libraries.iterdir()] == ["recent"], "no half of the other is left"
-    assert not list(cache.workspaces.iterdir())
 
 
-def test_what_a_check_works_with_is_not_trimmed(cache: UserCache) -> None:
-    record, copied = put(cache, f"{RECORDS}/a.bin", 0), put_folder(cache, "libraries/one", 2)
-    with cache.workspace() as first, cache.workspace() as second:
-        assert first != second
-        (first / "file").write_bytes(b"x" * BLOCK)
-        left = put_folder(cache, "work/99999999-of-a-process-that-is-gone", 2)
-        cache.trim(limit=1)
-        assert [path.exists() for path in (first / "file", second, left, record, copied)] == [
-            *(True, True, False, False, True)
-        ]
-    assert not first.exists()
-    assert cache.trim(0) > 0
+def test_a_library_that_a_check_may_work_with_is_not_trimmed(cache: UserCache) -> None:
+    record = put(cache, f"{RECORDS}/a.bin", 0)
+    busy, idle = put_folder(cache, "libraries/busy", HOUR / 2), put_folder(cache, "libraries/idle", 2 * HOUR)
+    cache.trim(limit=1)
+    assert [path.exists() for path in (busy, idle, record)] == [True, False, False]
 
 
 def test_trimming_says_how_much_that_was(cache: UserCache) -> None:
     put(cache, f"{RECORDS}/a.bin", 0, 10)
-    put_folder(cache, "libraries/one", 2)
+    put_folder(cache, "libraries/one", 2 * HOUR)
     put(cache, "templates/a.cache", 2)
     cache.save("a", {"right": True})
     assert cache.load("a", dict[str, bool]) == {"right": True}
@@ -92,7 +83,7 @@ def test_trimming_says_how_much_that_was(cache: UserCache) -> None:
     assert (cache.trim(0), cache.load("a", dict[str, bool])) == (0, None)
 
 
-@pytest.mark.parametrize("place", ["work", "work/one", RECORDS, f"{RECORDS}/a.bin", "libraries/one/inside"])
+@pytest.mark.parametrize("place", ["libraries", "libraries/one", RECORDS, f"{RECORDS}/a.bin", "libraries/one/inside"])
 def test_links_are_not_followed_and_what_is_not_ours_stays(place: str, cache: UserCache, tmp_path: Path) -> None:
     outside = tmp_path / "outside"
     outside.mkdir()
@@ -108,8 +99,8 @@ def test_links_are_not_followed_and_what_is_not_ours_stays(place: str, cache: Us
 
 def test_a_cache_that_can_not_be_made_is_a_clear_error(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with pytest.raises(CacheError) as caught, UserCache(tmp_path / "file" / "cache").workspace():
-        pass
+    with pytest.raises(CacheError) as caught:
+        UserCache(tmp_path / "file" / "cache").prepare()
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.code, diagnostic.file) == ("cache-not-writable", str(tmp_path / "file" / "cache"))
 

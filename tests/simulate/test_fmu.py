@@ -266,7 +266,7 @@ def test_a_motion_goes_step_by_step_and_only_to_co_simulation(
     fmpy = Fmpy([])
     monkeypatch.setattr("urdfsync.check.process.run", fmpy)
     tried(msgspec.structs.replace(OPTIONS, motion=Path("motion.csv")))
-    assert fmpy.request.kinds == ("cs",)
+    assert fmpy.request.kinds == ["cs"]
     place = fmpy.request.times.index(pytest.approx(1.5))
     assert fmpy.request.inputs["shoulder_phi"][place] == pytest.approx(1.5**2)
     assert fmpy.request.inputs["elbow_phi"][place] == pytest.approx(1.5**3)

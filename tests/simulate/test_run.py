@@ -165,22 +165,23 @@ def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
     ],
 )
 def test_a_simulation_that_fails_says_when(compiler: Compiler, problem: str, words: str) -> None:
-    compiler.results = [CompileResult(runs=(SimulationResult(problem=problem),))]
+    compiler.results = [CompileResult(runs=(SimulationResult(problem=problem),))] * 2
     assert words in refused()
 
 
 def test_results_until_a_simulation_stops_are_kept(compiler: Compiler) -> None:
     """And it is simulated again the next time."""
-    stopped = SimulationResult(compiler.values, "Modelica assert failed at t=2.25: too late", "", compiler.parameters)
+    stopped = SimulationResult(problem="Modelica assert failed at t=2.25: too late")
     compiler.results = [CompileResult(runs=(stopped,))]
-    result = run()
+    result = run(step=0.25)
+    assert [one.stop for job in compiler.jobs for one in job.tasks[0].runs] == [10.0, 2.0]
     assert result.series["time"] == (0.0, 1.0, 2.0)
     assert [one.element for one in result.joints] == ["joint shoulder", "joint elbow"]
     (error,) = (one for one in result.diagnostics if one.severity is Severity.ERROR)
     assert "stops at 2.25 s: Modelica assert failed" in error.message
     assert error.message.endswith("results until 2 s are kept")
-    assert not any(one.severity is Severity.ERROR for one in run().diagnostics)
-    assert len(compiler.jobs) == 2
+    assert not any(one.severity is Severity.ERROR for one in run(step=0.25).diagnostics)
+    assert len(compiler.jobs) == 3
 
 
 def test_a_model_that_ends_the_simulation_is_a_note(compiler: Compiler) -> None:

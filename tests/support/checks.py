@@ -82,7 +82,6 @@ class Compiler:
     INSTALL = "install it"
     REPORT = "report it"
     METHODS: tuple[str, ...] = ()
-    TRIED: tuple[str, ...] = ()
     HAS_STANDARD_LIBRARY = False
 
     def program(self, named: str) -> str | None:

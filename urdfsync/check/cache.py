@@ -1,6 +1,6 @@
 """The user's cache folder: copies of libraries, what the compiler remembers, templates, results.
 
-Everything in it can be made again. What was used longest ago goes first; what a check works with stays.
+Everything in it can be made again. What was used longest ago goes first.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import contextlib
 import hashlib
 import os
 import shutil
-import tempfile
+import time
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 
 import msgspec
 import platformdirs
-import psutil
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.files import put
@@ -27,6 +26,8 @@ T = TypeVar("T")
 LIMIT = 2**30
 """Bytes on disk that the cache never grows past: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
+_IN_USE = 3600.0
+"""Seconds since its last use in which a check may work with a copy of a library."""
 
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
 
@@ -36,7 +37,7 @@ class CacheError(UrdfsyncError):
 
 
 def digest(*facts: object) -> str:
-    """SHA-256 (hex) over facts whose `repr` says all of them."""
+    """Return the SHA-256 (hex) over facts whose `repr` says all of them."""
     return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 
 
@@ -44,33 +45,23 @@ class UserCache:
     """The cache in a folder, which need not exist; `UserCache.default` is the one of this user."""
 
     def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.libraries, self.workspaces = folder / "libraries", folder / "work"
+        self.folder, self.libraries = folder, folder / "libraries"
         self.compiler, self.results = folder / "rumoca", folder / "results"
+        self.fits = folder / "fits"
+        """The facts about edited files that builds remember (`engine.fit_cache`)."""
 
     @classmethod
     def default(cls) -> UserCache:
-        """The cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
+        """Return the cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
-        """Make the folder; raises CacheError if that can't be."""
+        """Make the folder. Raises CacheError if that can't be."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
-    @contextlib.contextmanager
-    def workspace(self) -> Iterator[Path]:
-        """A folder to work in, deleted in the end. Its name tells which process uses it. Raises CacheError."""
-        self.prepare()
-        with cache_errors(self.folder):
-            self.workspaces.mkdir(exist_ok=True)
-            prefix = f"{os.getpid()}-"
-            folder = tempfile.TemporaryDirectory(prefix=prefix, dir=self.workspaces, ignore_cleanup_errors=True)
-        with folder as name:
-            yield Path(name)
-
     def load(self, key: str, kind: type[T]) -> T | None:
-        """What was saved with this key; None if nothing was, or if it can't be read."""
+        """Return what was saved with this key; None if nothing was, or if it can't be read."""
         file = self.results / key
         try:
             os.utime(file)  # its last use is noted
@@ -79,7 +70,7 @@ class UserCache:
             return None
 
     def save(self, key: str, value: Any) -> None:
-        """Keep a result of a check, or forget the last one for None. A cache that can't be written to is none."""
+        """Keep a result, or forget the last one for None. If the cache can't be written, it is not used."""
         with contextlib.suppress(OSError):
             if value is None:
                 (self.results / key).unlink(missing_ok=True)
@@ -90,12 +81,12 @@ class UserCache:
     def trim(self, limit: int = LIMIT) -> int:
         """Delete what was used longest ago, if the cache comes near the limit; returns the bytes that came free.
 
-        Copies that running checks work with stay, and what can't be deleted now.
+        Copies of libraries that a check may work with stay, and what can't be deleted now.
         """
         entries = sorted(self._entries())
-        total, busy, freed = sum(size for _, _, size in entries), self._busy(), 0
-        for _, path, size in entries if total > _FULL * limit else ():
-            in_use = path in busy or (busy and path.parent == self.libraries)
+        total, freed, now = sum(size for _, _, size in entries), 0, time.time()
+        for used, path, size in entries if total > _FULL * limit else ():
+            in_use = path.parent == self.libraries and now - used < _IN_USE
             if total - freed <= _AFTER * limit or in_use:
                 continue
             with contextlib.suppress(OSError):  # links themselves, and not what they lead to
@@ -108,17 +99,12 @@ class UserCache:
                 freed += size
         return freed
 
-    def _busy(self) -> list[Path]:
-        """The folders that running checks work in."""
-        pids = {path: path.name.partition("-")[0] for path in self.workspaces.glob("*")}
-        return [path for path, pid in pids.items() if pid.isdecimal() and psutil.pid_exists(int(pid))]
-
     def _entries(self) -> Iterator[tuple[float, Path, int]]:
-        """What is deleted as a whole, with the time of its last use, and bytes on disk.
+        """Yield what is deleted as a whole, with the time of its last use, and bytes on disk.
 
         That is what is in folders of ours, and each file of the compiler but for its locks.
         """
-        for folder in (self.libraries, self.workspaces, self.results, self.compiler):
+        for folder in (self.libraries, self.results, self.fits, self.compiler):
             if folder.is_symlink():
                 continue
             for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too
@@ -132,7 +118,7 @@ class UserCache:
 
 @contextlib.contextmanager
 def cache_errors(folder: Path) -> Iterator[None]:
-    """Whatever the system refuses inside becomes a CacheError about `folder`."""
+    """Raise a CacheError about `folder` for whatever the system refuses inside."""
     try:
         yield
     except OSError as error:

@@ -68,12 +68,10 @@ class Compilation:
         # of their own: what can't be read of the user's files would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
-        self.tool, self._compiler = tool, compilers.COMPILERS[tool.name]
+        self._compiler = compilers.COMPILERS[tool.name]
         self.result = ToolResult(self._compiler.TITLE)
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
-        self.version = ""
-        """Of the compiler; empty until it has said something."""
         self.generated: Series | None = None
         """How the package moves as it is generated, completed for the comparison; None if it does not."""
         self.edited: Series | None = None
@@ -143,31 +141,37 @@ class Compilation:
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
-        compiled, files = list[CompiledModel](), self._package.files
+        compiled, files, users = list[CompiledModel](), self._package.files, self._users
+        failing: dict[str, list[Diagnostic]] = {}  # of the models outside of the package
         for label, (_, tasks) in jobs.items():
+            is_users = label == _USERS
             for task, answer in zip(tasks, done[label], strict=False):
                 self._note_version(answer)
-                is_users = label == _USERS
                 if answer.problem:
-                    file = self._users.files.get(task.title) if is_users else None
-                    said = explain(answer.problem, self._compiler, files, task.title, file)
-                    if is_users or task.title in self._users_models:
-                        said = [_as_part(each) for each in said]
-                    self.diagnostics += said
-                    self.result.failing += (task.title,) if is_users else ()
+                    file = users.files.get(task.title) if is_users else None
+                    faults = explain(answer.problem, self._compiler, files, task.title, file)
+                    if is_users:
+                        failing[task.title] = faults
+                    else:
+                        self.diagnostics += map(_as_part, faults) if task.title in self._users_models else faults
                     continue
                 # another model with the same part has it under another name
-                told = {(known.file, known.line, known.code) for known in self.diagnostics}
-                said = explain_warnings(answer.warnings, self._compiler, files)
-                self.diagnostics += [each for each in said if (each.file, each.line, each.code) not in told]
+                told = {(one.file, one.line, one.code) for one in self.diagnostics}
+                warnings = explain_warnings(answer.warnings, self._compiler, files)
+                self.diagnostics += [one for one in warnings if (one.file, one.line, one.code) not in told]
                 if is_users or task.title not in self._users_models:
                     compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
-        order = [*self._package.models, *self._users.files]
+        order = [*self._package.models, *users.files]
         self.result.compiled = tuple(sorted(compiled, key=lambda one: order.index(one.model)))
+        parts = {part for one in compiled if one.is_users for part in users.uses.get(users.files[one.model], ())}
+        for model, faults in failing.items():
+            if users.files[model] not in parts:  # else it compiles there, which is what it is for
+                self.diagnostics += map(_as_part, faults)
+                self.result.failing += (model,)
 
     def _note_version(self, answer: CompileResult) -> None:
         if answer.version:
-            self.version, self.result.tool = answer.version, f"{self._compiler.TITLE} {answer.version}"
+            self.result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
@@ -211,7 +215,7 @@ def _as_part(finding: Diagnostic) -> Diagnostic:
 
 
 def compare(compared: Iterable[Compared], found: Series, expected: Series) -> tuple[Deviation, ...]:
-    """How far values are from those expected, at the beginning and at the end; what is no number is infinitely far."""
+    """Return how far values are from those expected, at beginning and end; what is no number is infinitely far."""
     deviations: list[Deviation] = []
     for one in compared:
         places = [(name, instant) for name in one.values for instant in (0, -1)]
@@ -238,7 +242,7 @@ def edit_effects(
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
 ) -> Iterator[EditEffect]:
-    """What the edits in `files` do, each apart where that can be told; what no single one does, the others do together.
+    """Yield the effects of edits in `files`, each apart if possible; what no single one does, the others do together.
 
     Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
     """
@@ -259,7 +263,7 @@ def edit_effects(
 def explain(
     problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
 ) -> list[Diagnostic]:
-    """Diagnostics for a compiler's text about `model`, a name below the package; it has the files that people know.
+    """Return findings for a compiler's text about `model`, a name below the package; it names files that people know.
 
     `file` is that of a model of the user's outside of the package.
     """
@@ -282,7 +286,7 @@ def explain(
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
-    """Warnings for a compiler's text about a model that compiles, as far as they are about files of the package."""
+    """Return warnings for a compiler's text about a model that compiles, those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     found = [_diagnostic(one, package, one.code) for one in own]
@@ -290,7 +294,7 @@ def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> li
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
-    """One complaint; where the compiler does not say where it is, perhaps in the edited file, if there is one."""
+    """Return the finding of a complaint; if the compiler gives no place, perhaps it is in the edited file."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
     edited = [shown(package.folder / path) for path in sorted(package.edited)]

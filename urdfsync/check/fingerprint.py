@@ -1,4 +1,4 @@
-"""What a result rests on, in one hash: `check`, the check after a build and `simulate` remember results by it."""
+"""One hash of all that a result rests on: `check`, the check after a build and `simulate` remember results by it."""
 
 from __future__ import annotations
 

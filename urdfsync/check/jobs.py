@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.check import compilers, libraries
-from urdfsync.check.cache import UserCache, cache_errors
+from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
 from urdfsync.check.contents import copy_library
 from urdfsync.check.package import write_package
@@ -58,11 +58,10 @@ class Jobs(msgspec.Struct, frozen=True):
             roots.append(str(standard))
             parts = self.needed.standard.items()
             originals |= {str(standard / name): path for name, path in parts if path.suffix != ".mo"}
-        with cache_errors(cache.folder):
-            top = write_package(folder, self.robot, texts, around)
-            for path in needed.values():
-                roots.append(_readable(path, folder / ".libraries", changed))
-                originals[roots[-1]] = path
+        top = write_package(folder, self.robot, texts, around)
+        for path in needed.values():
+            roots.append(_readable(path, folder / ".libraries", changed))
+            originals[roots[-1]] = path
         roots.append(str(top))
         originals[roots[-1]] = self.robot.output / top.name
         tasks = [_with_imports(task, needed) for task in tasks]

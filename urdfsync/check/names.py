@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
@@ -30,6 +30,8 @@ class NameCheck(NamedTuple):
     """In files of the user outside of the package."""
     users_files: Mapping[Path, bytes]
     """The files of the user that use the package: by names that mean a class of it, or of another such file."""
+    uses: Mapping[Path, Set[Path]]
+    """For each file of the user, those of the classes that its names mean."""
 
 
 def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
@@ -65,7 +67,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
     found = [one for path in sorted(unplaced) for one in _check_place(path, others)]
     found += _findings(package, [one for one in places if one[0] in using])
-    return NameCheck(own, found, users_files)
+    return NameCheck(own, found, users_files, uses)
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:

@@ -1,4 +1,4 @@
-"""What there is to check of one robot: the package on disk, the one that is generated, and where they differ.
+"""The package of one robot: as it is on disk, as it is generated, and where these differ.
 
 A compiler reads all files below a folder, and one that does not parse spoils them all. So packages of other robots
 are left out, unless they are mentioned.
@@ -49,13 +49,11 @@ class PackageTexts(msgspec.Struct, frozen=True):
         return self.texts[path].decode("utf-8", "replace")
 
     def models_not_in(self, generated: Collection[str]) -> list[str]:
-        """The user's models and blocks that are files and not partial, by their full names below the package."""
+        """Return the user's models and blocks that are files and not partial, by their names below the package."""
         return [
             ".".join(path.with_suffix("").parts)
             for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
-            if path.suffix == ".mo" and path.name != "package.mo"
-            for one in parse(self.text(str(path))).classes
-            if one.kind in ("model", "block") and "partial" not in one.prefixes and str(one.name) == path.stem
+            if path.suffix == ".mo" and path.stem in _models_in(parse(self.text(str(path))).classes, ())
         ]
 
     def diagnostic(
@@ -185,9 +183,13 @@ class UsersModels(msgspec.Struct, frozen=True):
     """The top-level classes that they are in, but for the one around the package: folders or files."""
     left_out: tuple[Path, ...]
     """Files that no compiler would find, or that are no Modelica."""
+    uses: Mapping[Path, Collection[Path]]
+    """For each file, those that it uses."""
 
 
-def users_models(robot: RobotConfig, files: Mapping[Path, bytes]) -> UsersModels:
+def users_models(
+    robot: RobotConfig, files: Mapping[Path, bytes], uses: Mapping[Path, Collection[Path]] | None = None
+) -> UsersModels:
     """Return what can be compiled of the user's files."""
     models, libraries, left_out = dict[str, Path](), dict[str, Path](), list[Path]()
     top = robot.target.package.partition(".")[0]
@@ -207,7 +209,7 @@ def users_models(robot: RobotConfig, files: Mapping[Path, bytes]) -> UsersModels
         if not is_around:
             libraries[name[0]] = root
         models |= dict.fromkeys(_models_in(found.classes, around), path)
-    return UsersModels(models, libraries, tuple(left_out))
+    return UsersModels(models, libraries, tuple(left_out), uses or {})
 
 
 def _models_in(classes: Sequence[Class], around: tuple[str, ...]) -> Iterator[str]:

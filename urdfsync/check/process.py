@@ -29,10 +29,10 @@ _INTERVAL = 0.1
 
 
 class Limits(msgspec.Struct):
-    """What all that one check starts may take together."""
+    """The time and memory that all processes of one check may take together."""
 
     owner: str
-    """What messages call the check."""
+    """The name of the check in messages."""
     seconds: float
     memory: float
     """Bytes."""

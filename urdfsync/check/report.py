@@ -130,7 +130,7 @@ def _outlier(first: str, second: str, reference: str, *deviations: Deviation) ->
 
 
 def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[StyledLine]:
-    """What is to be said of several robots, each sentence once."""
+    """Yield the sentences about several robots, each once."""
     for label, field in (("not checked", "unchecked"), ("for the comparison", "notes")):
         robots: dict[str, list[str]] = {}
         for result in results:
@@ -195,7 +195,7 @@ def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] 
 
 
 def summary(result: CheckResult, strict: bool) -> str:
-    """The verdict, what compiles, and how far it agrees with the reference: the rest of a line that names the robot."""
+    """Return the verdict, what compiles, and how far it agrees with the reference, in one line."""
     errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
     said = [counted(errors, "error")] if errors else []
     if result.compiled:
@@ -221,7 +221,7 @@ def summary(result: CheckResult, strict: bool) -> str:
 
 
 def verdict(result: CheckResult, strict: bool) -> str:
-    """The status in a word or two."""
+    """Return the status in a word or two."""
     status = result.status(strict)
     if status is not CheckStatus.DIFFERS or result.differs or (strict and result.is_changed_by_edits):
         return str(status)
@@ -254,7 +254,7 @@ def _change(one: Deviation, others: str = "") -> str:
 
 
 def _amount(one: Deviation) -> tuple[str, str]:
-    """What differs, and by how much: `torque`, `0.4 N·m`.
+    """Return the quantity that differs, and by how much: `torque`, `0.4 N·m`.
 
     Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
     """

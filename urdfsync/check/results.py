@@ -1,4 +1,4 @@
-"""What is to be checked, and what came out: plain data."""
+"""Options and results of checks: plain data."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class CheckOptions(msgspec.Struct, frozen=True):
 
 
 class CheckStatus(enum.StrEnum):
-    """What a check says of a robot in one word."""
+    """The verdict on a robot in one word."""
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
@@ -74,7 +74,7 @@ class CompiledModel(msgspec.Struct, frozen=True):
 
 
 class EditEffect(msgspec.Struct, frozen=True):
-    """What edits of the user do to the robot, compared with what is generated."""
+    """The effect of edits of the user on the robot, compared with what is generated."""
 
     files: tuple[str, ...]
     """The edited files that it comes from, below the package's folder; several if they work together."""
@@ -102,7 +102,7 @@ class ToolResult(msgspec.Struct):
 
 
 class CheckResult(msgspec.Struct):
-    """What was checked of one robot, and what came out. The check fills it, and nobody changes it afterwards."""
+    """The result for one robot. The check fills it, and nobody changes it afterwards."""
 
     robot: str
     package: str
@@ -121,18 +121,18 @@ class CheckResult(msgspec.Struct):
     between_edited: tuple[Deviation, ...] = ()
     """The same for the package with the edits of the user; none if there are none."""
     notes: tuple[str, ...] = ()
-    """What was made up or completed for the comparison, and why: one sentence each, without a full stop."""
+    """Made up or completed for the comparison, and why: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """What a check like this does not cover, and why: one sentence each, without a full stop."""
+    """Not covered by a check like this, and why: one sentence each, without a full stop."""
     gaps: tuple[str, ...] = ()
-    """What it should have covered and could not, and why: one sentence each, without a full stop."""
+    """Should have been covered and could not be, and why: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
     """From beginning to end."""
     megabytes: float = 0.0
     """The most memory that its processes took together, looked at ten times a second."""
     reference: str = ""
-    """What `deviations` are from, for example `Pinocchio 3.4`; empty if nothing was compared."""
+    """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
 
     @property
     def failed(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
+import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -44,8 +44,11 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         package = read_package(config, robot, request)
         known = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
         if known is None:
-            with contextlib.nullcontext(folder) if folder else cache.workspace() as place:
-                _check(config, package, options, result, limits, place)
+            if folder:
+                _check(config, package, options, result, limits, folder)
+            else:
+                with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as place:
+                    _check(config, package, options, result, limits, Path(place))
             result.megabytes = limits.peak / 1e6
             is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
             if key and package.in_step and is_same:
@@ -86,7 +89,7 @@ def _check(
     if problem := _find_missing(config, options, needed, result):
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
         return
-    users = users_models(robot, names.users_files)
+    users = users_models(robot, names.users_files, names.uses)
     if users.left_out:
         files = listed([shown(path) for path in users.left_out])
         result.gaps += (f"{files} outside of the package: nothing there was compiled",)

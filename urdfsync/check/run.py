@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
+import tempfile
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, wait
+from pathlib import Path
 
 import msgspec
 import psutil
@@ -46,9 +47,10 @@ def check_robots(
         share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
     # cleaned up here: processes that check may be ended
     with (
-        contextlib.nullcontext() if options.executor else cache.workspace() as place,
+        tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
         workers(count, options.executor) as pool,
     ):
+        place = None if options.executor else Path(folder)
         futures = {one.name: pool.submit(check_robot, config, one, share, place) for one in robots}
         for robot in robots:
             result = _result(robot, futures, pool, progress)

@@ -1,4 +1,4 @@
-"""What is wrong with the texts of a package: syntax, layout, files that it refers to. No compiler is asked.
+"""Faults in the texts of a package: syntax, layout, files that it refers to. No compiler is asked.
 
 The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
 first one: one file that does not parse makes a compiler give up the whole package, often without telling which one it
@@ -28,7 +28,7 @@ _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
 def check_layout(package: PackageTexts) -> list[Diagnostic]:
-    """All that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
+    """Return all that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
 
     What is generated never gets one.
     """
@@ -95,13 +95,12 @@ def _check_folder(
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
-    """What keeps a compiler from reading the files around a package: syntax, `within`, and the names of packages.
+    """Return what keeps compilers from reading the files around a package: syntax, `within`, names of packages.
 
     `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
     """
-    found: list[Diagnostic] = []
+    found, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
-        package = PackageTexts("", output, {str(path): files[str(path)]})
         ignored = {"repeated", "second-class", *([] if path.name == PACKAGE_FILE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
         said = _check_file(package, str(path), ".".join(class_path(path).parts))[1]

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync.check import compilers
 from urdfsync.check.compilation import Compilation, compare
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckResult
@@ -24,8 +23,6 @@ def run_compilations(
         one.run(experiment)
         one.result.seconds, one.result.megabytes = time.monotonic() - begin, limits.peak / 1e6
         limits.peak = max(peak, limits.peak)
-        note = compilers.find_untried(one.tool, one.version)
-        result.add([note] if note else [])
         result.gaps += tuple(
             f"{one.result.tool}: {gap}" if result.tools else gap for gap in one.gaps if gap not in result.gaps
         )

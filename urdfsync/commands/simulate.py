@@ -18,7 +18,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulate.files import Outputs, check_outputs, write_outputs
+from urdfsync.simulate.files import check_outputs, write_outputs
 from urdfsync.simulate.report import result_lines, to_json
 from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
 from urdfsync.simulate.run import simulate
@@ -68,20 +68,21 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     """Simulate one robot, write what was asked for, and show what came out."""
     configuration = arguments.configuration(args)
     robot = arguments.select_robot(args, configuration, console)
-    outputs = Outputs(args.csv, args.parquet, args.plot)
-    check_outputs(outputs, input_files(configuration, robot, args.motion))
-    if outputs.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
+    chosen_files = {"csv": args.csv, "parquet": args.parquet, "plot": args.plot}
+    files = {kind: file for kind, file in chosen_files.items() if file is not None}
+    check_outputs(files, input_files(configuration, robot, args.motion))
+    if args.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
         later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
         later.daemon = True
         later.start()
     tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trust)
     options = simulate_options(args, tool, method=args.method, variables=tuple(args.variable))
     result = simulate(configuration, robot, options, console.progress)
-    write_outputs(outputs, result)
+    write_outputs(files, result)
     if console.json:
-        console.add_robot(to_json(result, outputs.files()))
+        console.add_robot(to_json(result, files))
     elif not console.quiet:
-        console.print(result_lines(result, outputs.files()))
+        console.print(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(one.severity is Severity.ERROR for one in result.diagnostics)
     code = Exit.ERROR if stopped else Exit.IN_STEP

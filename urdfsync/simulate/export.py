@@ -98,7 +98,6 @@ def export(
         export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
     )
     result = run_task(prepared, options, "export", task, text([]), tell)
-    note = compilers.find_untried(options.tool, result.version)
     return Exported(
         content=_corrected(result.fmu, with_model_exchange=kind.kind != "cs"),
         model=model.name,
@@ -108,7 +107,7 @@ def export(
         step=step,
         tolerance=tolerance,
         tool=f"{compilers.COMPILERS[options.tool.name].TITLE} {result.version}".rstrip(),
-        diagnostics=robot.without_ignored([*prepared.warnings, *([note] if note else [])]),
+        diagnostics=robot.without_ignored(prepared.warnings),
         seconds=time.monotonic() - begin,
     )
 

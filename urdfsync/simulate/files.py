@@ -9,8 +9,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
@@ -20,25 +18,15 @@ if TYPE_CHECKING:
     from urdfsync.simulate.results import Series
 
 
-class Outputs(msgspec.Struct, frozen=True):
-    """Files that are to be written; None for those that are not."""
-
-    csv: Path | None = None
-    parquet: Path | None = None
-    plot: Path | None = None
-
-    def files(self) -> dict[str, Path]:
-        """Return the files by what they are."""
-        return {name: file for name, file in msgspec.structs.asdict(self).items() if file is not None}
-
-
 PLOTS = (".png", ".svg")
 _MODULES = {"parquet": "pyarrow", "plot": "matplotlib"}
 
 
-def check_outputs(outputs: Outputs, inputs: Mapping[str, Path]) -> None:
-    """Raise an error for what can't be written, before anything is simulated. `inputs` must not be replaced."""
-    files = outputs.files()
+def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None:
+    """Raise an error for what can't be written, before anything is simulated. `inputs` must not be replaced.
+
+    The kinds of `files` are `csv`, `parquet` and `plot`.
+    """
     for kind, file in files.items():
         module = _MODULES.get(kind)
         if module and importlib.util.find_spec(module) is None:
@@ -74,9 +62,9 @@ def write_file(file: Path, content: bytes) -> None:
         raise not_writable(file, f"it can't be written: {error.strerror}", hint) from None
 
 
-def write_outputs(outputs: Outputs, result: SimulateResult) -> None:
+def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:
     """Write the files. Raises OutputError."""
-    for kind, file in outputs.files().items():
+    for kind, file in files.items():
         write_file(file, _content(kind, file, result))
 
 

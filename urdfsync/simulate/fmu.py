@@ -34,7 +34,7 @@ KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
 
 
 class Trial(msgspec.Struct, frozen=True):
-    """What FMPy says of an FMU."""
+    """The findings of FMPy about an FMU."""
 
     findings: tuple[str, ...]
     """Of its validation."""
@@ -49,15 +49,15 @@ class Trial(msgspec.Struct, frozen=True):
 
 
 class _Request(msgspec.Struct, frozen=True):
-    """What FMPy is to do."""
+    """The task for FMPy."""
 
     file: str
-    kinds: tuple[str, ...]
+    kinds: Sequence[str]
     stop: float
     step: float
     tolerance: float
-    names: tuple[str, ...]
-    times: tuple[float, ...]
+    names: Sequence[str]
+    times: Sequence[float]
     inputs: Mapping[str, list[float]]
 
 
@@ -89,51 +89,53 @@ def try_out(
     reference = simulate(config, robot, wanted, progress)
     if any(one.severity is Severity.ERROR for one in reference.diagnostics):
         raise UrdfsyncError(*reference.diagnostics)
-    simulated = [kind for kind in kinds if kind == "cs" or not options.motion]
-    times = tuple(index * exported.step for index in range(round(stop / exported.step) + 2))
+    times = [index * exported.step for index in range(round(stop / exported.step) + 2)]
+    request = _Request(
+        file=f"{exported.name}.fmu",
+        kinds=[kind for kind in kinds if kind == "cs" or not options.motion],
+        stop=stop,
+        step=exported.step,
+        tolerance=exported.tolerance,
+        names=list(reference.series),
+        times=times,
+        inputs=sampled(motion, times),
+    )
     limits = limits_of(f"the trial of `{exported.model}`", options.timeout, options.memory)
+    answer = _ask(request, exported.content, limits, lambda: progress(f"{robot.name}: FMPy is at work", 0, 1))
+    return _judge(answer, reference.series)
+
+
+def _ask(request: _Request, content: bytes, limits: Limits, progress: Callable[[], None]) -> _Examined:
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
-        file = Path(folder) / f"{exported.name}.fmu"
-        file.write_bytes(exported.content)
-        request = _Request(
-            file=str(file),
-            kinds=tuple(simulated),
-            stop=stop,
-            step=exported.step,
-            tolerance=exported.tolerance,
-            names=tuple(reference.series),
-            times=times,
-            inputs=sampled(motion, times),
-        )
-        answer = _asked(request, limits, folder, lambda: progress(f"{robot.name}: FMPy is at work", 0, 1))
-    end = reference.series["time"][-1]
+        file = Path(folder, request.file)
+        file.write_bytes(content)
+        request = msgspec.structs.replace(request, file=str(file))
+        environment = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+        try:
+            (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
+        except ImportError as error:
+            message, hint = f"FMPy does not start: {error}", install_command("fmu")
+            raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=hint)) from None
+        except process.BrokenProcessError as error:
+            message = f"FMPy crashed with the FMU: {error}"
+            raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
+        return answer
+
+
+def _judge(answer: _Examined, reference: Series) -> Trial:
+    """Compare the trajectories of an FMU with that of `simulate`."""
+    end, problems = reference["time"][-1], dict(answer.problems)
+    agreement, worst, compared = dict[str, float](), dict[str, str](), 0
     for kind, series in answer.series.items():
         if series["time"][-1] < end - _SAME_TIME:
-            answer.problems[kind] = f"it ends at {series['time'][-1]:g} s, not at {end:g} s"
+            problems[kind] = f"it ends at {series['time'][-1]:g} s, not at {end:g} s"
         elif len(series) == 1:
-            answer.problems[kind] = "it has no variable of the model"
-    differences = {kind: _differences(series, reference.series) for kind, series in answer.series.items()}
-    worst = {kind: max(found, key=lambda name: found[name]) for kind, found in differences.items() if found}
-    return Trial(
-        findings=tuple(answer.findings),
-        agreement={kind: differences[kind][name] for kind, name in worst.items()},
-        worst=worst,
-        compared=max((len(found) for found in differences.values()), default=0),
-        problems=answer.problems,
-    )
-
-
-def _asked(request: _Request, limits: Limits, folder: str, progress: Callable[[], None]) -> _Examined:
-    environment = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
-    try:
-        (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
-    except ImportError as error:
-        message, hint = f"FMPy does not start: {error}", install_command("fmu")
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=hint)) from None
-    except process.BrokenProcessError as error:
-        message = f"FMPy crashed with the FMU: {error}"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
-    return answer
+            problems[kind] = "it has no variable of the model"
+        if differences := _differences(series, reference):
+            worst[kind] = max(differences, key=lambda name: differences[name])
+            agreement[kind] = differences[worst[kind]]
+            compared = max(compared, len(differences))
+    return Trial(tuple(answer.findings), agreement, worst, compared, problems)
 
 
 def _examine(request: _Request) -> Iterator[_Examined]:

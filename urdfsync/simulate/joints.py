@@ -13,9 +13,9 @@ from urdfsync.simulate.results import JointResult, PassedLimit, Range, Series
 _ENDLESS = 1e300
 """From here on a limit is none: compilers write infinity as the greatest number that they have."""
 _MARGIN, _SHARE = 1e-6, 1e-6
-"""What the models of joints take for rounding: of positions in their unit, of speeds and efforts as a share as well."""
+"""Rounding, as the models of joints have it: of positions in their unit, of speeds and efforts as a share as well."""
 _INTEGRATION = 1e-4
-"""What counts as an error of the integration, of the way that a quantity goes in all.
+"""The share of the way that a quantity goes in all which counts as an error of the integration.
 
 Sources that follow a motion begin up to 2e-5 rad below 0 on a way of 1 rad, with the tolerance of Test, 1e-6: a joint
 whose lower limit is 0 passes nothing by that.

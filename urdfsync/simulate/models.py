@@ -37,7 +37,7 @@ class Input(msgspec.Struct, frozen=True):
 
 
 class Driven(msgspec.Struct, frozen=True):
-    """What is changed in a model so that its inputs can follow a table."""
+    """Changes to a model, so that its inputs can follow a table."""
 
     changed: Mapping[Path, bytes]
     """Contents in which the inputs are outputs, by file: another block of the same model may then say what they are."""

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import csv
 import io
-import itertools
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
@@ -23,7 +22,6 @@ from urdfsync.simulate.models import Input
 from urdfsync.spelling import nearest
 
 MOST_ROWS = 10_000
-MOST_BYTES = 50_000_000
 
 _UNITS = {
     "rad": {"rad": 1.0, "deg": math.pi / 180},
@@ -50,44 +48,45 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError."""
     if not inputs:
         _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
+    (line, header), *rows = _read_rows(file)
+    factors = _columns(file, line, header, inputs)
+    columns: dict[str, list[float]] = {name: [] for name in factors}
+    for line, row in rows:
+        if len(row) != len(header):
+            _refuse(file, f"the row has {len(row)} cells, the header {len(header)}", line)
+        for cell, (name, factor) in zip(row, factors.items(), strict=True):
+            columns[name].append(factor * _number(file, line, cell))
+        before, time = columns["time"][-2:] if len(columns["time"]) > 1 else (-math.inf, columns["time"][-1])
+        if time <= before:
+            hint = "sort the rows by time"
+            _refuse(file, f"the time does not go on: {before:g} s, then {time:g} s", line, hint)
+    if (start := columns["time"][0]) != 0:
+        _refuse(file, f"the time begins at {start:g} s", rows[0][0], "let it begin at 0")
+    return Motion(tuple(columns["time"]), tuple((one, tuple(columns[one.name])) for one in inputs))
+
+
+def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
+    """Return the rows that are not empty, with their lines: a header, and two or more."""
     try:
-        content = read_unrecorded(file)  # waits for no pipe, and reads no device, which may not end
+        text = read_unrecorded(file).decode("utf-8-sig")  # waits for no pipe, and reads no device, which may not end
     except OSError as error:
         _refuse(file, f"the file can't be read: {error.strerror}", hint="name a CSV file")
-    if len(content) > MOST_BYTES:
-        _refuse(file, f"the file has more than {MOST_BYTES // 10**6} MB", hint="leave out columns and rows")
-    try:
-        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    reader, rows = csv.reader(io.StringIO(text, newline=""), strict=True), list[tuple[int, list[str]]]()
     try:
-        rows = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append((reader.line_num, row))
+            if len(rows) > MOST_ROWS + 1:
+                hint = "leave out rows: what is between is interpolated"
+                _refuse(file, f"the file has more than {MOST_ROWS} rows", hint=hint)
     except csv.Error as error:
         _refuse(file, f"the file is no CSV: {error}", reader.line_num)
     if len(rows) < 3:
         _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
-    if len(rows) > MOST_ROWS + 1:
-        _refuse(
-            file, f"the file has more than {MOST_ROWS} rows", hint="leave out rows: what is between is interpolated"
-        )
-    (line, header), *rows = rows
-    factors = _columns(file, line, header, inputs)
-    table = [[_number(file, line, cell) for cell in row] for line, row in _of_width(file, len(header), rows)]
-    columns = {name: [factor * row[place] for row in table] for place, (name, factor) in enumerate(factors)}
-    times = columns["time"]
-    for number, (before, time) in enumerate(itertools.pairwise(times), start=1):
-        if time <= before:
-            _refuse(
-                file,
-                f"the time does not go on: {before:g} s, then {time:g} s",
-                rows[number][0],
-                "sort the rows by time",
-            )
-    if times[0] != 0:
-        _refuse(file, f"the time begins at {times[0]:g} s", rows[0][0], "let it begin at 0")
-    return Motion(tuple(times), tuple((one, tuple(columns[one.name])) for one in inputs))
+    return rows
 
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
@@ -108,35 +107,29 @@ def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
     return samples
 
 
-def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> list[tuple[str, float]]:
-    """The name of each column, and what its unit is in that of the input."""
-    found: list[tuple[str, float]] = []
+def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> dict[str, float]:
+    """Return the columns in their order, each with what its unit is in that of the input."""
+    factors: dict[str, float] = {}
     units = {"time": "s", **{one.name: one.unit for one in inputs}}
-    for place, cell in enumerate(header):
+    for cell in header:
         match = _HEADER.fullmatch(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
-        if place == 0 and name != "time":
+        if not factors and name != "time":
             _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
         if name not in units:
             near = nearest(name, units)
             others = f"the inputs are {', '.join(list(units)[1:])}"
             _refuse(file, f"the model has no input `{name}`", line, f"did you mean `{near}`?" if near else others)
-        if name in [other for other, _ in found]:
+        if name in factors:
             _refuse(file, f"the column `{name}` is there twice", line)
-        known = _UNITS.get(units[name], {units[name]: 1.0})
-        if unit is not None and unit not in known:
-            _refuse(file, f"`{name}` can't be given in {unit}", line, f"give it in {' or '.join(filter(None, known))}")
-        found.append((name, known[unit] if unit is not None else 1.0))
-    if missing := [name for name in units if name not in dict(found)]:
+        possible = _UNITS.get(units[name], {units[name]: 1.0})
+        if unit is not None and unit not in possible:
+            hint = f"give it in {' or '.join(filter(None, possible))}"
+            _refuse(file, f"`{name}` can't be given in {unit}", line, hint)
+        factors[name] = possible[unit] if unit is not None else 1.0
+    if missing := [name for name in units if name not in factors]:
         _refuse(file, f"columns are missing: {', '.join(missing)}", line)
-    return found
-
-
-def _of_width(file: Path, width: int, rows: Sequence[tuple[int, list[str]]]) -> Iterator[tuple[int, list[str]]]:
-    for line, row in rows:
-        if len(row) != width:
-            _refuse(file, f"the row has {len(row)} cells, the header {width}", line)
-        yield line, row
+    return factors
 
 
 def _number(file: Path, line: int, cell: str) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -121,11 +122,11 @@ def run_task(
 
     For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or has no such parameters.
     """
-    package, model, cache = prepared.package, prepared.model, UserCache.default()
+    package, model = prepared.package, prepared.model
     limits = limits_of(f"the {kind} of `{model.name}`", options.timeout, options.memory)
-    cache.prepare()
-    with cache.workspace() as folder:
-        jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, folder, progress)
+    UserCache.default().prepare()
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, Path(folder), progress)
         (result,) = jobs.run(kind, package.files.texts, [task], changed)
         if result.problem and task.parameters:  # perhaps since there is no such parameter
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)

@@ -22,7 +22,7 @@ _NOTHING = 5e-7
 
 
 def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
-    """All that there is to say of a simulation but for its diagnostics."""
+    """Yield all that there is to say of a simulation but for its diagnostics."""
     took = "as simulated before" if result.is_known else f"{result.seconds:.1f} s"
     about = f": {result.model}, {result.stop:g} s in steps of {result.step:g} s; {took}"
     yield line((result.robot, "bold"), (about, ""))
@@ -79,24 +79,14 @@ def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]
         "points": len(result.series["time"]),
         "seconds": result.seconds,
         "known": result.is_known,
-        "joints": [_joint_values(joint) for joint in result.joints],
+        "joints": list(map(msgspec.to_builtins, result.joints)),
         "files": {name: str(file) for name, file in files.items()},
         "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
     }
 
 
-def _joint_values(joint: JointResult) -> dict[str, Any]:
-    quantities = {name: getattr(joint, name) for name in ("position", "speed", "effort")}
-    return {
-        "element": joint.element,
-        "robot": joint.robot,
-        **{name: one and msgspec.structs.asdict(one) for name, one in quantities.items()},
-        "passed": list(map(msgspec.structs.asdict, joint.passed)),
-    }
-
-
 def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
-    """What there is to say of an FMU but for its diagnostics."""
+    """Yield all that there is to say of an FMU but for its diagnostics."""
     kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
     size = len(exported.content) / 1e6
     about = (

@@ -1,4 +1,4 @@
-"""What is to be simulated, and what came out: plain data."""
+"""Options and results of simulations: plain data."""
 
 from __future__ import annotations
 

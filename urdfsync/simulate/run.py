@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import fnmatch
+import math
 import re
 import threading
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+
+import msgspec
 
 from urdfsync.check.cache import UserCache
 from urdfsync.check.compilers.compiler import CompileTask, Simulation, SimulationResult, one_line
@@ -26,6 +29,8 @@ from urdfsync.simulate.values import modifiers
 _LATER = 1.5
 """Seconds until the compiler is at work."""
 _LONGEST_MESSAGE = 200
+_ROUNDING = 1e-9
+"""Of a quotient of two times."""
 _TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""
@@ -81,12 +86,25 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
         progress(f"{package.robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
 
     (simulation,) = run_task(prepared, options, "simulation", task, plain, tell, changed).runs
+    if shorter := _until(run, simulation):  # a compiler hands back nothing of a run that stops
+        part_task = msgspec.structs.replace(task, runs=(shorter,))
+        (part,) = run_task(prepared, options, "simulation", part_task, plain, tell, changed).runs
+        simulation = msgspec.structs.replace(part, problem=simulation.problem)
     if not simulation.values:
         raise UrdfsyncError(*_end(model, options, simulation))
     is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # else somebody has saved
     if key and is_same:
         cache.save(key, None if simulation.problem else simulation)
     return simulation, run, False
+
+
+def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
+    """Return a run to the last result before one stopped; None if it did not, or does not say when."""
+    moment = _TIME.search(simulation.problem)
+    if simulation.values or moment is None:
+        return None
+    last = run.step * (math.ceil(float(moment[1]) / run.step - _ROUNDING) - 1)
+    return msgspec.structs.replace(run, stop=last) if 0 < last < run.stop else None
 
 
 def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:

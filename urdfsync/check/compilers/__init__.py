@@ -43,15 +43,6 @@ def state(tool: Tool) -> list[str]:
     return [tool.name, version, *(f"{place} {content_hash(place)}" for place in places)]
 
 
-def find_untried(tool: Tool, version: str) -> Diagnostic | None:
-    """Return a note for a version of a compiler with which urdfsync was not tried."""
-    compiler = COMPILERS[tool.name]
-    if not version or not compiler.TRIED or version.startswith(compiler.TRIED):
-        return None
-    message = f"{compiler.TITLE} {version} was not tried with urdfsync; {', '.join(compiler.TRIED)} was"
-    return Diagnostic(Severity.NOTE, "untried-compiler", message)
-
-
 def run_job(
     tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
 ) -> list[CompileResult]:

@@ -1,8 +1,7 @@
-"""What a Modelica compiler gets and gives: jobs of tasks, and a result for each task."""
+"""Jobs of tasks for a Modelica compiler, and a result for each task."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol, TypeAlias
@@ -13,8 +12,6 @@ from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 
 Series: TypeAlias = Mapping[str, Sequence[float]]
 """Numbers by variable; `time` is one of them."""
-_ROUNDING = 1e-9
-"""Of a quotient of two times."""
 
 
 class Tool(msgspec.Struct, frozen=True):
@@ -62,17 +59,16 @@ class CompileTask(msgspec.Struct, frozen=True):
     parameters: tuple[str, ...] = ()
     """Parameters that the text sets: a task is done only if there are such, and if something depends on them."""
     title: str = ""
-    """What messages call the model."""
+    """The name of the model in messages."""
     export: Export | None = None
     """Instead of a simulation; by OpenModelica alone."""
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
-    """What a run gave: a number per instant for `time` and for each value, and what went wrong."""
+    """A trajectory: a number per instant for `time` and for each value; and why there is none."""
 
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
-    """Then `values` are those until it went wrong, as far as the compiler hands them back."""
     termination: str = ""
     """Why the model ended the simulation itself, in its words."""
     parameters: Mapping[str, float] = {}
@@ -80,14 +76,14 @@ class SimulationResult(msgspec.Struct, frozen=True):
 
 
 class CompileResult(msgspec.Struct, frozen=True):
-    """What became of a task. A model that is not balanced does not compile."""
+    """The answer to a task. A model that is not balanced does not compile."""
 
     problem: str = ""
-    """What the compiler says of a model that does not compile, in its words; empty if it does."""
+    """Why the model does not compile, in the compiler's words; empty if it does."""
     unknowns: int = 0
     """Scalar unknowns of the compiled model; so many equations as well."""
     warnings: str = ""
-    """What the compiler says of a model that compiles, in its words."""
+    """Findings about a model that compiles, in the compiler's words."""
     runs: tuple[SimulationResult, ...] = ()
     parameters: tuple[str, ...] = ()
     """All parameters of the model, if one that the task sets is not among them."""
@@ -127,17 +123,15 @@ class Compiler(Protocol):
     """A module of this package that drives one compiler. To add one, list it in `COMPILERS`."""
 
     TITLE: str
-    """What messages call the compiler."""
+    """The name of the compiler in messages."""
     MODULES: tuple[str, ...]
-    """What has to be installed."""
+    """The modules that have to be installed."""
     INSTALL: str
     """How to get it, as a hint."""
     REPORT: str
-    """What to do when the compiler crashes, as a hint."""
+    """The hint when the compiler crashes."""
     METHODS: tuple[str, ...]
     """Methods of integration."""
-    TRIED: tuple[str, ...]
-    """Beginnings of the versions with which urdfsync was tried; none if its own requirements say that."""
     HAS_STANDARD_LIBRARY: bool
     """Whether it finds the Modelica Standard Library by its own means."""
 
@@ -167,12 +161,6 @@ class Compiler(Protocol):
     def complaints(self, problem: str) -> list[Complaint]:
         """Return what the text of `CompileResult.problem` complains about, in its order."""
         ...
-
-
-def until(run: Simulation, moment: float) -> Simulation | None:
-    """Return a run that stops at a moment as far as its last result before that; None if that is the first."""
-    last = run.step * (math.ceil(moment / run.step - _ROUNDING) - 1)
-    return msgspec.structs.replace(run, stop=last) if last > 0 else None
 
 
 def one_line(text: str) -> str:

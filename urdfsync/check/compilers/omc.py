@@ -26,7 +26,6 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     SimulationResult,
     one_line,
-    until,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.names import STANDARD_LIBRARIES
@@ -37,7 +36,6 @@ MODULES: tuple[str, ...] = ("scipy",)
 INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
 REPORT = "report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
-TRIED: tuple[str, ...] = ("1.27",)
 HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
@@ -63,20 +61,19 @@ _FOLLOWS = re.compile(
     r"|Internal error Failed to move",
     re.IGNORECASE,
 )
-"""What is also said where something else could not be read."""
+"""Messages that only follow from another one: something could not be read."""
 _ASSERTION = re.compile(
     r"\[(?P<file>[^\n]*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n[^\n]*violated at time (?P<time>[-+.\deE]*\d)\n"
     r"[^\n]* --> \"(?P<text>.*?)\"$",
     re.MULTILINE | re.DOTALL,
 )
 _TERMINATED = re.compile(r"call terminate\(\) at time [^\n]*\n[^\n]*Message : ([^\n]*)")
-_STOPPED = re.compile(r"failed at t=([-+.\deE]*\d)")
 _BUILDS = re.compile(r"Error building simulator|Failed to get version from cmake")
 _LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
 
 
 class _Answer(NamedTuple):
-    """What OpenModelica answers to a call, and what it says about that."""
+    """The value that OpenModelica gives for a call, and its messages."""
 
     value: str
     messages: str
@@ -157,32 +154,14 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     for task, some in zip(job.tasks, calls, strict=True):
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
-        result = _with_parts(job, folder, loads, task, result)
         # a fault in the text of the task is in none of the user's files
         own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
         result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
 
 
-def _with_parts(
-    job: CompileJob, folder: Path, loads: Sequence[str], task: CompileTask, result: CompileResult
-) -> CompileResult:
-    """The result with what runs that stopped gave until then, for which they are run again: OpenModelica keeps none."""
-    runs = []
-    for run, found in zip(task.runs, result.runs, strict=False):
-        moment = _STOPPED.search(found.problem)
-        if moment and (shorter := until(run, float(moment[1]))):
-            again = msgspec.structs.replace(task, runs=(shorter,))
-            calls = _calls(again, len(job.tasks), folder)
-            answers = _ask(job, folder, [*loads, *calls])[len(loads) :]
-            (part,) = _result(again, answers, folder).runs or (SimulationResult(),)
-            found = msgspec.structs.replace(part, problem=found.problem)
-        runs.append(found)
-    return msgspec.structs.replace(result, runs=tuple(runs))
-
-
 def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
-    """What to ask for a task: its text is loaded, then checked or simulated."""
+    """Return the calls for a task: its text is loaded, then checked or simulated."""
     file = folder / f"task{number}.mo"
     file.write_text(task.source, encoding="utf-8")
     found = [f"loadFile({quoted(file.as_posix())})"]
@@ -245,7 +224,7 @@ def read_answers(printed: str) -> tuple[list[_Answer], str]:
 
 
 def _problem(answer: _Answer) -> str:
-    """What is wrong with something that was to be loaded; empty if it is there."""
+    """Return what is wrong with something that was to be loaded; empty if it is there."""
     if answer.value == "true":
         return ""
     return answer.messages.strip() or "OpenModelica can't load it and gives no reason"

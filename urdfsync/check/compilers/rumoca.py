@@ -6,7 +6,6 @@ with a frame around the source.
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
 import math
 import re
@@ -24,7 +23,6 @@ from urdfsync.check.compilers.compiler import (
     Simulation,
     SimulationResult,
     one_line,
-    until,
 )
 from urdfsync.extras import install_command
 
@@ -36,12 +34,10 @@ MODULES: tuple[str, ...] = ("rumoca",)
 INSTALL = install_command("check")
 REPORT = "report it to the authors of rumoca"
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
-TRIED: tuple[str, ...] = ()
 HAS_STANDARD_LIBRARY = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
-_STOPPED = re.compile(r"failed at t=([-+.\deE]*\d)")
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
@@ -186,36 +182,23 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
 
 
 def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> SimulationResult:
-    """Simulate a compiled model. rumoca hands back nothing of a run that stops, so it is run until shortly before."""
-    import rumoca
-
-    try:
-        return _integrate(model, run, task)
-    except (rumoca.RumocaError, LookupError, ValueError) as error:
-        problem = _words(error)
-    part = SimulationResult()
-    if (moment := _STOPPED.search(problem)) and (shorter := until(run, float(moment[1]))):
-        with contextlib.suppress(rumoca.RumocaError, LookupError, ValueError):  # the first reason is what counts
-            part = _integrate(model, shorter, task)
-    return msgspec.structs.replace(part, problem=problem)
-
-
-def _integrate(model: rumoca.Model, run: Simulation, task: CompileTask) -> SimulationResult:
-    """Raises an error of rumoca's, LookupError or ValueError."""
+    """Simulate a compiled model. rumoca hands back nothing of a run that stops."""
     import rumoca
 
     tolerance, method = run.tolerance, run.method or None
     config = rumoca.SimConfig(dt=run.step, rtol=tolerance, atol=tolerance, solver=method)
-    result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
-    wanted = re.compile(task.pattern)
-    others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # but for its own
-    names = dict.fromkeys((*task.values, *others))
-    series = {name: tuple(result[name].tolist()) for name in names}
-    known = {one.name: one.value for one in model.parameters if one.value is not None and wanted.fullmatch(one.name)}
+    try:
+        result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
+        wanted = re.compile(task.pattern)
+        others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # but for its own
+        series = {name: tuple(result[name].tolist()) for name in dict.fromkeys((*task.values, *others))}
+    except (rumoca.RumocaError, LookupError, ValueError) as error:
+        return SimulationResult(problem=_words(error))
     values = {"time": tuple(result.time.tolist()), **series}  # all finite, or it says so itself
+    known = {one.name: one.value for one in model.parameters if one.value is not None and wanted.fullmatch(one.name)}
     return SimulationResult(values, termination=result.termination or "", parameters=known)
 
 
 def _words(error: Exception) -> str:
-    """What the compiler says, without places in its own notation."""
+    """Return the compiler's message without places in its own notation."""
     return _SPAN.sub("", str(error.args[0] if error.args else error))
