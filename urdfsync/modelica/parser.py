@@ -8,6 +8,7 @@ are read one by one, so that one that is no Modelica does not hide what is wrong
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
@@ -17,6 +18,10 @@ from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Mo
 
 _DEEPEST = 50
 """How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
+_NUMBER = r"[-+]?\d++(?:\.\d*+)?(?:[eE][-+]?\d++)?\s*+"
+_ARRAY = rf"\{{\s*+{_NUMBER}(?:,\s*+{_NUMBER})*+\}}\s*+"
+_NUMBERS = re.compile(rf"{_ARRAY}|\{{\s*+{_ARRAY}(?:,\s*+{_ARRAY})*+\}}")
+"""An array of numbers, or of arrays of numbers."""
 _LONGEST = 60
 """Characters of what is quoted from a text."""
 
@@ -250,9 +255,15 @@ class Parser(Lexer):
 
     def _expression(self) -> None:
         word = self.word
-        # most expressions are one number or string, and most tokens of a text stand in these
-        if (word[:1] == '"' or word[:1].isdecimal()) and self.words[self.at + 1] in (",", ")", "}", ";"):
-            self.at += 1
+        # most tokens of a text stand in such expressions: 0.5 of 0.9 s that a robot model of 1,000 links takes
+        if word[:1] == '"' or word[:1].isdecimal():
+            stop = self.at + 1
+        elif word == "{" and (array := _NUMBERS.match(self.text, self.starts[self.at])):
+            stop = bisect_left(self.starts, array.end(), self.at)
+        else:
+            stop = 0
+        if stop and self.words[stop] in (",", ")", "}", ";"):
+            self.at = stop
             return
         while branch := self._accept("if"):
             self._enter()
