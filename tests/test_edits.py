@@ -165,7 +165,7 @@ def test_two_things_with_one_name_are_a_contradiction_that_names_it(project: Pat
     (found,) = run().conflict_texts
     assert found.merge is not None
     assert (found.path, found.rejected, found.merge.text) == (whole, "", None)
-    assert found.merge.conflicts[0].what.startswith("component `elementR9`: you added `Elements.R1 elementR9;`")
+    assert found.merge.contradictions[0].startswith("component `elementR9`: you added `Elements.R1 elementR9;`")
 
 
 def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None:

@@ -79,7 +79,7 @@ def conflicts(result: Result) -> Sequence[tuple[str, str]]:
         if one.merge is None or one.rejected:
             found.append(("refused", one.rejected or "no base"))
         else:
-            found += [("contradiction", conflict.what) for conflict in one.merge.conflicts[:1]]
+            found += [("contradiction", words) for words in one.merge.contradictions[:1]]
     return found
 
 

@@ -177,7 +177,7 @@ def merged(tools: Tools) -> Iterator[Pair]:
         found = merge(base, mine, generated, is_modelica=True)
         cost = Cost(time.perf_counter() - begin, time.process_time() - used)
         if not found.text or "link1000" not in found.text or _ADDED not in found.text:
-            raise UnexpectedError(f"the merge lacks a side: {found.conflicts} {found.flaw}")
+            raise UnexpectedError(f"the merge lacks a side: {found.contradictions} {found.flaw}")
         return cost
 
     yield Pair("1,000 links", measurement, "python -c pass", tools.python, [scaled(1000), CPU])

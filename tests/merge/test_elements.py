@@ -127,8 +127,8 @@ CONTRADICTIONS: dict[str, tuple[Edit, Edit, str]] = {
 def test_what_both_changed_is_a_contradiction_with_a_name(mine: Edit, generated: Edit, what: str) -> None:
     result = merged(RECORD, changed(RECORD, mine), changed(RECORD, generated))
     assert result.text is None
-    (conflict,) = result.conflicts
-    assert what in conflict.what
+    (conflict,) = result.contradictions
+    assert what in conflict
     assert merged(RECORD, changed(RECORD, generated), changed(RECORD, mine)).text is None
 
 
@@ -453,7 +453,7 @@ def test_inputs_of_a_function_are_a_sequence(mine: Edit, generated: Edit, fits: 
     edited = changed(FUNCTION, mine)
     found = merged(FUNCTION, edited, changed(FUNCTION, generated))
     assert found.text == (changed(edited, generated) if fits else None)
-    assert fits or ["class `f`: you" in one.what for one in found.conflicts] == [True]
+    assert fits or ["class `f`: you" in one for one in found.contradictions] == [True]
 
 
 # --- comments and blanks --------------------------------------------------------------------------------------------

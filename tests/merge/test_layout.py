@@ -26,7 +26,7 @@ def model(components: str, lines: str = "", annotation: str = "") -> str:
 
 def merged(base: str, mine: str, generated: str) -> str:
     found = merge(base, mine, generated, is_modelica=True)
-    assert found.text is not None, (found.conflicts, found.flaw)
+    assert found.text is not None, (found.contradictions, found.flaw)
     return found.text
 
 

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.cases import often
 
-from urdfsync.merge import merge, split_lines
-from urdfsync.merge.lines import merge_whole_lines
+from urdfsync.merge import merge
+from urdfsync.merge.lines import merge_whole_lines, split_lines
 
 Texts = tuple[list[str], list[str], list[str]]
 

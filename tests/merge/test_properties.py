@@ -61,7 +61,7 @@ def test_what_touches_different_things_fits_together(
     theirs = edited(base, Editor("new", random, 1), generated)
     ours = edited(resaved(base, style) if style else base, Editor("mine", random, 0), mine)
     found = merge(base, ours, theirs, is_modelica=True)
-    assert found.text is not None, (found.conflicts, found.flaw)
+    assert found.text is not None, (found.contradictions, found.flaw)
     before, left, right, after = map(said, (base, ours, theirs, found.text))
     expected = {key: right[key] if left[key] == before.get(key) else left[key] for key in left.keys() & right.keys()}
     expected |= {key: side[key] for side in (left, right) for key in side.keys() - before.keys()}
@@ -84,7 +84,7 @@ def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> Non
     assert merge(base, ours, base, is_modelica=True).text == ours
     assert merge(base, base, theirs, is_modelica=True).text == theirs
     found, swapped = (merge(base, *sides, is_modelica=True) for sides in ((ours, theirs), (theirs, ours)))
-    assert (found.text is None) == (swapped.text is None) == bool(found.conflicts)
+    assert (found.text is None) == (swapped.text is None) == bool(found.contradictions)
     if found.text is None or swapped.text is None:
         return
     before, left, right, after = map(said, (base, ours, theirs, found.text))
@@ -110,7 +110,7 @@ def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> No
     base = random.choice(simple_files())
     ours, theirs = commented(base, random), edited(base, Editor("new", random), kinds)
     found = merge(base, ours, theirs, is_modelica=True)
-    assert found.text is not None, (found.conflicts, found.flaw)
+    assert found.text is not None, (found.contradictions, found.flaw)
     assert [tag for tag in tags(found.text) if tag.startswith("mine")] == tags(ours)
     assert said(found.text) == said(theirs)
     assert parse(found.text).faults == []
@@ -155,6 +155,6 @@ def test_a_file_that_an_editor_saved_again_takes_every_export(name: str) -> None
         assert said(mine) == said(base)
         for generated in exports:
             found = merge(base, mine, generated, is_modelica=True)
-            assert found.text is not None, (path, found.conflicts, found.flaw)
+            assert found.text is not None, (path, found.contradictions, found.flaw)
             assert said(found.text) == said(generated), path
     assert variants > 20

@@ -44,7 +44,7 @@ def test_an_edit_moves_to_the_new_name() -> None:
         '"elbow"', '"wrist"'
     )
     plain = merge(BASE, mine, generated, is_modelica=True)
-    assert [found.what for found in plain.conflicts] == ["component `elbow`: you changed it, the export removes it"]
+    assert [*plain.contradictions] == ["component `elbow`: you changed it, the export removes it"]
 
 
 def test_what_the_user_renamed_is_still_the_same_thing() -> None:

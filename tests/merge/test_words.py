@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfsync.merge.elements import Contradiction
+from urdfsync.merge.lines import Contradiction
 from urdfsync.merge.words import describe
 
 PATHS = {
@@ -52,10 +52,10 @@ PATHS = {
 @pytest.mark.parametrize("path", PATHS)
 def test_words(path: tuple[str, ...]) -> None:
     (base, mine, generated), expected = PATHS[path]
-    assert describe(Contradiction(path, base, mine, generated, (0, 0, 0))) == expected
+    assert describe(Contradiction(path, base, mine, generated)) == expected
 
 
 def test_long_texts_are_cut() -> None:
-    found = describe(Contradiction(("body", f"equation {'a + ' * 40}", "equation"), "a", "b" * 99, "c", (0, 0, 0)))
+    found = describe(Contradiction(("body", f"equation {'a + ' * 40}", "equation"), "a", "b" * 99, "c"))
     assert len(found) < 200
     assert found.count("…") == 2

@@ -87,14 +87,6 @@ def written(tree: SyntaxTree) -> str:
     return "".join((*pieces, tree.closing))
 
 
-def test_each_thing_knows_its_place() -> None:
-    body = tree_of(TEXT).find("body")
-    assert body is not None
-    assert isinstance(body.node, SyntaxTree)
-    for part in body.node.parts:
-        assert body.node.text.startswith(part.node.text, body.node.place_of(part.key))
-
-
 @given(st.data())
 def test_a_text_is_kept_or_not_read(data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(TEXT)))

@@ -1,6 +1,5 @@
 """Three-way merge of generated text with hand edits; the same result on every machine."""
 
-from urdfsync.merge.lines import ChangedLines, find_changes, split_lines
-from urdfsync.merge.texts import ConflictingLines, Merge, merge
+from urdfsync.merge.texts import Merge, merge
 
-__all__ = ["ChangedLines", "ConflictingLines", "Merge", "find_changes", "merge", "split_lines"]
+__all__ = ["Merge", "merge"]

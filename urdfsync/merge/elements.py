@@ -5,7 +5,7 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 - What one side added, removed or changed is done; what both added stays, the user's first.
 - Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
 - Things stand in the generated order. What the user added or moved stands behind what precedes it in his text.
-- Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.sequence`).
+- Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.lines`).
 - Of blanks and comments, the user's stay where he changed them.
 - Rounding by the export is no change, where the user changed the number.
 - Layout is the user's where he changed some of it (`urdfsync.merge.layout`).
@@ -22,9 +22,8 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.merge.layout import PICTURES, arrange, find_users_layout
-from urdfsync.merge.lines import merge_sequences, merge_whole_lines
+from urdfsync.merge.lines import Contradiction, Piece, merge_order, merge_sequences, merge_whole_lines
 from urdfsync.merge.pairs import pair
-from urdfsync.merge.sequence import merge_order
 from urdfsync.modelica.tree import (
     LAYOUT,
     Leaf,
@@ -67,24 +66,6 @@ _MOVABLE = frozenset({"arguments", "annotation"})
 """Lists that mean nothing if they are empty."""
 
 
-class Contradiction(msgspec.Struct, frozen=True):
-    """A thing of which the sides say something else; a text is empty on a side that does not have the thing."""
-
-    path: tuple[str, ...]
-    """The keys of the things around it, from the outermost one, and its own."""
-    base: str
-    mine: str
-    generated: str
-    starts: tuple[int, int, int]
-    """Where the texts of base, mine and generated begin; where the thing around it does on a side that lacks it."""
-
-    def behind(self, starts: Iterable[int]) -> Contradiction:
-        """Return it with places from the beginning of something larger, in which the sides begin at `starts`."""
-        base, mine, generated = (start + begin for start, begin in zip(self.starts, starts, strict=True))
-        return msgspec.structs.replace(self, starts=(base, mine, generated))
-
-
-Piece: TypeAlias = str | Contradiction
 Path: TypeAlias = tuple[str, ...]
 
 
@@ -155,7 +136,7 @@ def _has_lines(path: Path, node: Node) -> bool:
 
 def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: Node | None) -> Contradiction:
     texts = [node.text if node else "" for node in (base, mine, generated)]
-    return Contradiction(path, texts[0], texts[1], texts[2], (0, 0, 0))
+    return Contradiction(path, *texts)
 
 
 def _is_rounding(one: Node, other: Node) -> bool:
@@ -321,8 +302,7 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> lis
     blanks = ""
     for number, item in enumerate(items):
         append_blanks(found, blanks + item.before)
-        places = [tree.place_of(item.key) for tree in trees] if len(item.pieces) > 1 else (0, 0, 0)
-        found += (piece if isinstance(piece, str) else piece.behind(places) for piece in item.pieces)
+        found += item.pieces
         blanks = item.after
         if mine.separator and number < len(items) - 1:
             append_blanks(found, blanks)

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from urdfsync.merge.elements import Contradiction, Piece, merge_trees
-from urdfsync.merge.lines import merge_lines, split_lines
+from urdfsync.merge.elements import merge_trees
+from urdfsync.merge.lines import Contradiction, Piece, merge_lines
 from urdfsync.merge.pairs import TooManyPairsError
 from urdfsync.merge.renames import find_renamed, rename, without_clashes
 from urdfsync.merge.words import describe
@@ -21,16 +21,6 @@ MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "gener
 """What stands before each version of a contradiction, and behind the last one."""
 
 
-class ConflictingLines(msgspec.Struct, frozen=True):
-    """Where the sides disagree: line numbers, from 1, in the three texts; an empty range is the place before a line."""
-
-    base: range
-    mine: range
-    generated: range
-    what: str = ""
-    """What they disagree about; empty for whole lines."""
-
-
 class Merge(msgspec.Struct, frozen=True):
     """The result of a merge."""
 
@@ -38,7 +28,8 @@ class Merge(msgspec.Struct, frozen=True):
     """The merged text; None if there is a conflict or a flaw."""
     proposal: str
     """The merged text, with all three versions of a conflict between markers: for people, never for a `.mo` file."""
-    conflicts: tuple[ConflictingLines, ...]
+    contradictions: tuple[str, ...]
+    """What the sides say otherwise, in words; an empty text for lines of which no more is known."""
     flaw: str = ""
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
@@ -65,17 +56,18 @@ def merge(
         base, mine = rename(base, mine, without_clashes(names, mine))
     ending = _ending(mine)
     known: KnownStatements = {}
-    pieces, texts = merge_pieces(base, mine, generated, ending, known if is_modelica else None)
-    conflicts = tuple(_find_lines(piece, texts) for piece in pieces if isinstance(piece, Contradiction))
-    merged, sides = with_markers(pieces, ending), (mine, generated)
-    if not conflicts:
+    pieces = _merge_pieces(base, mine, generated, ending, known if is_modelica else None)
+    contradictions = [piece for piece in pieces if isinstance(piece, Contradiction)]
+    told = tuple(map(describe, contradictions))
+    merged, sides = _with_markers(pieces, ending, MARKERS), (mine, generated)
+    if not told:
         flaw = find_flaw(merged, sides, known) if is_modelica and merged != mine else ""
-        return Merge(None if flaw else merged, merged, conflicts, flaw)
-    if any(isinstance(one, Contradiction) and _is_new_part(one) for one in pieces):
-        return Merge(None, merged, conflicts)  # both added a part of this name: no side has what the other one means
+        return Merge(None if flaw else merged, merged, told, flaw)
+    if any(map(_is_new_part, contradictions)):
+        return Merge(None, merged, told)  # both added a part of this name: no side has what the other one means
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
     sound = [text if not is_modelica or not find_flaw(text, sides, known) else None for text in preferred]
-    return Merge(None, merged, conflicts, "", sound[0], sound[1])
+    return Merge(None, merged, told, "", sound[0], sound[1])
 
 
 def _is_new_part(found: Contradiction) -> bool:
@@ -92,16 +84,15 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
     """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
     ending = _ending(mine)
-    pieces, _ = merge_pieces(base, mine, other, ending, {})
-    merged = with_markers(pieces, ending, markers)
-    if not _conflict_count(pieces) and find_flaw(merged, (mine, other)):
-        pieces, _ = merge_pieces(base, mine, other, ending, None)
-        merged = with_markers(pieces, ending, markers)
-    return merged, _conflict_count(pieces)
-
-
-def _conflict_count(pieces: Sequence[Piece]) -> int:
-    return sum(isinstance(piece, Contradiction) for piece in pieces)
+    merged, count = "", 0
+    ways: tuple[KnownStatements | None, ...] = {}, None
+    for known in ways:
+        pieces = _merge_pieces(base, mine, other, ending, known)
+        merged = _with_markers(pieces, ending, markers)
+        count = sum(isinstance(piece, Contradiction) for piece in pieces)
+        if count or not find_flaw(merged, (mine, other)):
+            break
+    return merged, count
 
 
 def _ending(text: str) -> str:
@@ -113,10 +104,8 @@ def _with_ending(text: str, ending: str) -> str:
     return text.replace("\r\n", "\n").replace("\n", ending)
 
 
-def merge_pieces(
-    base: str, mine: str, generated: str, ending: str, known: KnownStatements | None
-) -> tuple[list[Piece], Sequence[str]]:
-    """Return the merged text in pieces, and the texts that were merged; new lines get the `ending`.
+def _merge_pieces(base: str, mine: str, generated: str, ending: str, known: KnownStatements | None) -> Sequence[Piece]:
+    """Return the merged text in pieces; new lines get the `ending`.
 
     `known` gets the elements and equations that were read; with None, all is merged by lines.
     """
@@ -125,16 +114,14 @@ def merge_pieces(
     one, two, three = plain = [text.replace("\r\n", "\n") for text in written]
     is_mixed = "\r\n" in mine and mine.count("\r\n") < mine.count("\n")
     if three in (one, two):
-        return [mine], written
+        return [mine]
     if one == two and not is_mixed:
-        return [generated], written
+        return [generated]
     texts = written if is_mixed else plain
     pieces = None if known is None else _merge_classes(texts[0], texts[1], texts[2], known)
     if pieces is None:
-        return _merge_by_lines(mine, plain, ending), plain
-    if is_mixed:
-        return pieces, texts
-    return [piece.replace("\n", ending) if isinstance(piece, str) else piece for piece in pieces], texts
+        return merge_lines(*written)
+    return [piece.replace("\n", ending) if isinstance(piece, str) and not is_mixed else piece for piece in pieces]
 
 
 def _merge_classes(base: str, mine: str, generated: str, known: KnownStatements) -> list[Piece] | None:
@@ -150,33 +137,7 @@ def _merge_classes(base: str, mine: str, generated: str, known: KnownStatements)
         return None
 
 
-def _merge_by_lines(mine: str, texts: Sequence[str], ending: str) -> list[Piece]:
-    lines = [split_lines(text) for text in texts]
-    written, place = split_lines(mine), 0
-    pieces: list[Piece] = []
-    for parts, text in merge_lines(*lines):
-        pieces.append("".join(written[place : parts[1].start]))
-        place = parts[1].stop
-        if text is None:
-            base, own, new = ("".join(one[part.start : part.stop]) for one, part in zip(lines, parts, strict=True))
-            first, second, third = (len("".join(one[: part.start])) for one, part in zip(lines, parts, strict=True))
-            pieces.append(Contradiction((), base, own, new, (first, second, third)))
-        else:
-            pieces.append(text.replace("\n", ending))
-    return [*pieces, "".join(written[place:])]
-
-
-def _find_lines(found: Contradiction, texts: Sequence[str]) -> ConflictingLines:
-    """The lines of a contradiction in base, mine and generated."""
-    ranges = []
-    versions = (found.base, found.mine, found.generated)
-    for text, part, start in zip(texts, versions, found.starts, strict=True):
-        first = text.count("\n", 0, start) + 1
-        ranges.append(range(first, first + len(split_lines(part))))
-    return ConflictingLines(ranges[0], ranges[1], ranges[2], describe(found))
-
-
-def with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]] = MARKERS) -> str:
+def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> str:
     """Return the pieces as one text; lines with contradictions in them in all versions that have a marker."""
     result: list[str] = []
     row: list[Piece] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from urdfsync.merge.elements import Contradiction
+from urdfsync.merge.lines import Contradiction
 
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""

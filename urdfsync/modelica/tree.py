@@ -121,18 +121,6 @@ class SyntaxTree:
         )
         return "".join((self.opening, *inner, self.closing))
 
-    def place_of(self, key: str) -> int:
-        """Return where the part with this key begins, from the beginning of the tree; 0 if it has none."""
-        return self._places.get(key, 0)
-
-    @cached_property
-    def _places(self) -> dict[str, int]:
-        places, end = dict[str, int](), len(self.opening)
-        for part in self.parts:
-            places[part.key] = end + len(part.before)
-            end = places[part.key] + len(part.node.text + part.after + self.separator + part.remark)
-        return places
-
     @cached_property
     def sections(self) -> dict[str, str]:
         """The section of each part by its key: the key of its first word; empty before the first one, and for a list.

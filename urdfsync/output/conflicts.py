@@ -86,7 +86,7 @@ def describe(target: DisputedFile) -> str:
         return "the changes fit together: --merge takes both"
     if texts.rejected:
         return f"--merge would not be right: {texts.rejected}"
-    contradictions = [conflict.what for conflict in texts.merge.conflicts]
+    contradictions = texts.merge.contradictions
     if not all(contradictions):
         places = f" in {len(contradictions)} places" if len(contradictions) > 1 else ""
         return f"the changes contradict each other{places}"
@@ -208,7 +208,7 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
     """Yield the contradictions between their markers, as `--edit` has them; without any, what a merge would change."""
-    if not (texts.merge and texts.merge.conflicts):
+    if not (texts.merge and texts.merge.contradictions):
         name, new = ("merge", texts.merge.proposal) if texts.merge else ("generated", texts.generated)
         yield from difference_lines(texts.mine, new, "mine", name)
         return
