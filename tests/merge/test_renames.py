@@ -47,14 +47,6 @@ def test_an_edit_moves_to_the_new_name() -> None:
     assert [*plain.contradictions] == ["component `elbow`: you changed it, the export removes it"]
 
 
-def test_what_the_user_renamed_is_still_the_same_thing() -> None:
-    """Only a component that is alike in all but its own name counts as renamed."""
-    base = "model A\n  Body b(m = b.x, n = 1);\nequation\n  connect(b.frame, c.frame);\nend A;\n"
-    mine, generated = base.replace("b", "body"), base.replace("n = 1", "n = 2")
-    assert merge(base, mine, generated, is_modelica=True).text == mine.replace("n = 1", "n = 2")
-    assert merge(base, mine.replace("Body", "Ball"), generated, is_modelica=True).text is None
-
-
 def test_a_new_name_that_the_user_has_given_to_something_else_is_a_conflict() -> None:
     """Both would have the same name, and the user's equation would mean something else."""
     base, generated = "model A\n  Real a = 1;\nend A;\n", "model A\n  Real n = 1;\nend A;\n"
@@ -67,10 +59,3 @@ def test_names_that_swap_or_follow_each_other_have_no_clash() -> None:
     assert without_clashes({"a": "b", "b": "a"}, "a = b") == {"a": "b", "b": "a"}
     assert without_clashes({"a": "b", "b": "c"}, "a = b") == {"a": "b", "b": "c"}
     assert without_clashes({"a": "b", "b": "c"}, "a = b + c") == {}
-
-
-def test_a_modifier_with_the_name_of_a_component_that_the_user_renamed_stays() -> None:
-    """It is a name of another class."""
-    base = "model A\n  B x(m = 1);\nend A;\n"
-    merged = merge(base, base.replace("x", "y"), base.replace("m = 1", "m = f(x = x), x(k = 3)"), is_modelica=True)
-    assert merged.text == "model A\n  B y(m = f(x = y), x(k = 3));\nend A;\n"

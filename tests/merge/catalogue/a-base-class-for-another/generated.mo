@@ -1,0 +1,3 @@
+model A
+  extends G;
+end A;

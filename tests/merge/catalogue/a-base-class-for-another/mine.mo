@@ -1,0 +1,3 @@
+model A
+  extends M;
+end A;

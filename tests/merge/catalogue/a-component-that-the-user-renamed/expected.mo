@@ -1,0 +1,5 @@
+model A
+  Body body(m = body.x, n = 2);
+equation
+  connect(body.frame, c.frame);
+end A;

@@ -1,0 +1,4 @@
+model A
+equation
+  connect(b, a) annotation (Dialog); // mine
+end A;

@@ -1,0 +1,4 @@
+model A
+equation
+  connect(b, a); // mine
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(seed = 3000002);
+end A;

@@ -1,0 +1,3 @@
+model A
+  B x(m = 1);
+end A;

@@ -1,0 +1,3 @@
+model A
+  B y(m = f(x = y), x(k = 3));
+end A;

@@ -1,0 +1,3 @@
+model A
+  B x(m = f(x = x), x(k = 3));
+end A;

@@ -1,0 +1,3 @@
+model A
+  B y(m = 1);
+end A;

@@ -1,0 +1,5 @@
+model A
+  model N
+    Real x;
+  end N;
+end A;

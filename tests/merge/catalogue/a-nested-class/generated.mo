@@ -1,0 +1,6 @@
+model A
+  model N
+    Real x(start = 1);
+    Real g;
+  end N;
+end A;

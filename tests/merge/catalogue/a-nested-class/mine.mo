@@ -1,0 +1,6 @@
+model A
+  model N
+    Real x;
+    Real m;
+  end N;
+end A;

@@ -1,0 +1,6 @@
+model A
+  B a annotation (Placement(transformation(extent={{-10, -10}, {10, 10}})));
+  B b annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+equation
+  connect(a.f, b.f) annotation (Line(points={{10, 0}, {90, 0}}));
+end A;

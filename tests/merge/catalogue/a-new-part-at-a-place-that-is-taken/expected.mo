@@ -1,0 +1,9 @@
+model A
+  B a annotation (Placement(transformation(extent={{-10, -10}, {10, 10}})));
+  B b annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+  B m annotation (Placement(transformation(extent={{40, -10}, {60, 10}})));
+  B c annotation (Placement(transformation(extent={{40, -30}, {60, -10}})));
+equation
+  connect(a.f, b.f) annotation (Line(points={{10, 0}, {90, 0}}));
+  connect(a.f, c.f) annotation (Line(points={{10, 0}, {25, 0}, {25, -20}, {40, -20}}));
+end A;

@@ -1,0 +1,5 @@
+model A
+equation
+  x = m;
+  x = 2;
+end A;

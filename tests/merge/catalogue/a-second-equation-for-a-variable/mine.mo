@@ -1,0 +1,5 @@
+model A
+equation
+  x = 1;
+  x = m;
+end A;

@@ -1,0 +1,5 @@
+model A
+  Real x; // m
+equation
+  x = 1;
+end A;

@@ -1,0 +1,3 @@
+model A
+  type T = Real(min = 0, max = 2) "d";
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(m = 11.5, n = 2);
+end A;

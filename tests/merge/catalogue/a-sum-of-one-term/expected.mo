@@ -1,0 +1,3 @@
+model A
+  Real m = a.m + mine.m + b.m;
+end A;

@@ -1,0 +1,9 @@
+model A
+  B b(x={1,2},
+      y=4) "d" annotation(
+    Placement(transformation(extent={{-1,2},{3,4}})));
+  C   c(z = 1);
+equation
+  connect(a,b) annotation (Line(points={{1,2},{3,4}}));
+  x = 1;
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b = 1;
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r(v = {a.x, 5, c.x});
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r(v = {b.x, c.x, a.x}, w = 1);
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r(v = {a.x, m, a.x, b.x, c.x});
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r;
+end A;

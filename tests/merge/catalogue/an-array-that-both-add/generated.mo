@@ -1,0 +1,3 @@
+model A
+  R r(v = {b, c});
+end A;

@@ -1,0 +1,8 @@
+model A
+  B a annotation (Placement(transformation(extent={{-10, -10}, {10, 10}})));
+  B b annotation (Placement(transformation(extent={{-1e999, -10}, {10, 10}})));
+  B c annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+equation
+  connect(a.f, b.f) annotation (Line(points={{10, 0}, {40, 0}}));
+  connect(b.f, c.f) annotation (Line(points={{60, 20}, {75, 20}, {75, 0}, {90, 0}}));
+end A;

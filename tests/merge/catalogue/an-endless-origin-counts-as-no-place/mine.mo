@@ -1,0 +1,6 @@
+model A
+  B a annotation (Placement(transformation(extent={{-10, -10}, {10, 10}})));
+  B b annotation (Placement(transformation(extent={{-1, -1}, {1, 1}}, origin={1e999, 0})));
+equation
+  connect(a.f, b.f) annotation (Line(points={{10, 0}, {40, 0}}));
+end A;

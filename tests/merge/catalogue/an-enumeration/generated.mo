@@ -1,0 +1,3 @@
+model A
+  type T = enumeration(a, c);
+end A;

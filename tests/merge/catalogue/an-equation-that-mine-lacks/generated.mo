@@ -1,0 +1,4 @@
+model A
+equation
+  a + b = 3*c;
+end A;

@@ -1,0 +1,4 @@
+model A
+equation
+  a + b = c;
+end A;

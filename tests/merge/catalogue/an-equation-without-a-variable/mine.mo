@@ -1,0 +1,4 @@
+model A
+equation
+  a + b = 2*c;
+end A;

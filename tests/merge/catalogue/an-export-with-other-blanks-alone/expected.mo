@@ -1,0 +1,8 @@
+model A
+  B b(x={1,2},
+      y=3) "d" annotation(
+    Placement(transformation(extent={{-1,2},{3,4}})));
+  C   c;
+equation
+  connect(a,b) annotation (Line(points={{1,2},{3,4}}));
+end A;

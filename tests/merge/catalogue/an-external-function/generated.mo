@@ -1,0 +1,3 @@
+model A
+external "C" y = g(u) annotation (Library = "m");
+end A;

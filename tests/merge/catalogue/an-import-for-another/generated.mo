@@ -1,0 +1,3 @@
+model A
+  import S = G;
+end A;

@@ -1,0 +1,3 @@
+model A
+  import S = M;
+end A;

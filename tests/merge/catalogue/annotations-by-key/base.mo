@@ -1,0 +1,3 @@
+model A
+  annotation (Dialog(group = "a"), __Dymola_x = 1, Evaluate = true);
+end A;

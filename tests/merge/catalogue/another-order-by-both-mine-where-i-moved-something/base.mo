@@ -1,0 +1,6 @@
+model A
+  Real a;
+  Real b;
+  Real c;
+  Real d;
+end A;

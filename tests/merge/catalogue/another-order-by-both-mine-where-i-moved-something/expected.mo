@@ -1,0 +1,6 @@
+model A
+  Real d;
+  Real b;
+  Real a;
+  Real c;
+end A;

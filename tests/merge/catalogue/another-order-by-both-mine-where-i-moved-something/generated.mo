@@ -1,0 +1,6 @@
+model A
+  Real d;
+  Real a;
+  Real b;
+  Real c;
+end A;

@@ -1,0 +1,6 @@
+model A
+  Real a;
+  Real c;
+  Real d;
+  Real b;
+end A;

@@ -1,0 +1,6 @@
+model A
+  Real c;
+  Real g;
+  Real a;
+  Real b;
+end A;

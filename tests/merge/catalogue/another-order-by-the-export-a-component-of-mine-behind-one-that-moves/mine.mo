@@ -1,0 +1,6 @@
+model A
+  Real a;
+  Real m;
+  Real b;
+  Real c;
+end A;

@@ -1,0 +1,4 @@
+model A
+  Real a;
+  Real b;
+end A;

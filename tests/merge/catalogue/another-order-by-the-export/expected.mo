@@ -1,0 +1,4 @@
+model A
+  Real b; // m
+  Real a;
+end A;

@@ -1,0 +1,4 @@
+model A
+  Real b;
+  Real a;
+end A;

@@ -1,0 +1,8 @@
+model A
+  Real r = f(
+    1,
+    0,
+    0,
+    7,
+    0);
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r(v = {a.x, b.x});
+end A;

@@ -1,0 +1,3 @@
+model A
+  R r(v = {b.x, c.x});
+end A;

@@ -1,0 +1,3 @@
+model A
+  Real m annotation (Placement(x = 1));
+end A;

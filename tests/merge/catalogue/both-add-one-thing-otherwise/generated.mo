@@ -1,0 +1,3 @@
+model A
+  Body m;
+end A;

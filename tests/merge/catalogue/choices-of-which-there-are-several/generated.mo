@@ -1,0 +1,3 @@
+model A
+  Real x annotation (choices(choice = 1, choice = 3));
+end A;

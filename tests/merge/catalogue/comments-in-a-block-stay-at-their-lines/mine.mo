@@ -1,0 +1,8 @@
+model A
+equation
+  when a then
+    b = 1; // m
+    c = 1;
+    d = 1;
+  end when;
+end A;

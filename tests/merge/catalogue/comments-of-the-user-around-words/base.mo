@@ -1,0 +1,3 @@
+model A
+ A a (x = 1) ;
+end A;

@@ -1,0 +1,3 @@
+model A
+  A a(x = 2) "d";
+end A;

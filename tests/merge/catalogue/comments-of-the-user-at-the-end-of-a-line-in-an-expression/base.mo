@@ -1,0 +1,4 @@
+model A
+  Real r = a
+    * b;
+end A;

@@ -1,0 +1,4 @@
+model A
+  Real r = a * c // 1
+; // 2
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(x = 5 /* 1 */, y = 2, z = 3);
+end A;

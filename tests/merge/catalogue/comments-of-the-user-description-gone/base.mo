@@ -1,0 +1,4 @@
+model A
+  B b
+    "d";
+end A;

@@ -1,0 +1,5 @@
+model A
+  B b
+    // 1
+;
+end A;

@@ -1,0 +1,4 @@
+model A
+  B b // 1
+    "d";
+end A;

@@ -1,0 +1,4 @@
+model A
+  A a;
+
+end A;

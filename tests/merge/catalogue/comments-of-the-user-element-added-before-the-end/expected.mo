@@ -1,0 +1,5 @@
+model A
+  A a;
+  B b;
+  // 1
+end A;

@@ -1,0 +1,4 @@
+model A
+  A a;
+  B b;
+end A;

@@ -1,0 +1,4 @@
+model A
+  A a; // 1
+  B b;
+end A;

@@ -1,0 +1,5 @@
+model A
+  /* 1
+  2 */
+  C c;
+end A;

@@ -1,0 +1,3 @@
+model A
+  C c;
+end A;

@@ -1,0 +1,6 @@
+model A
+  A a;
+
+
+  B b;
+end A;

@@ -1,0 +1,6 @@
+model A
+  A a;
+
+  // 1
+  B b;
+end A;

@@ -1,0 +1,4 @@
+model A
+  A a;
+  C c;
+end A;

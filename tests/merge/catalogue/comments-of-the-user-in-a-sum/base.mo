@@ -1,0 +1,4 @@
+model A
+  Real r = a.m +
+    b.m;
+end A;

@@ -1,0 +1,3 @@
+model A
+  Real r = a.m + b.m + c.m;
+end A;

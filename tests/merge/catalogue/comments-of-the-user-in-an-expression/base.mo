@@ -1,0 +1,3 @@
+model A
+  Real r = a * b;
+end A;

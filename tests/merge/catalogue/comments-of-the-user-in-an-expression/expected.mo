@@ -1,0 +1,3 @@
+model A
+  Real r = a * c /* 1 */; // 2
+end A;

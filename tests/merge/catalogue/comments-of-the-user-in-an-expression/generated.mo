@@ -1,0 +1,3 @@
+model A
+  Real r = a * c;
+end A;

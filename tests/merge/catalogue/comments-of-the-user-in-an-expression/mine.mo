@@ -1,0 +1,3 @@
+model A
+  Real r = a /* 1 */ * b; // 2
+end A;

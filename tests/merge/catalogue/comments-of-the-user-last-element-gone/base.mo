@@ -1,0 +1,5 @@
+model A
+  A a;
+
+  B b(x = 1);
+end A;

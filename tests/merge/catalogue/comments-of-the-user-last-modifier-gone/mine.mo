@@ -1,0 +1,5 @@
+model A
+  B b(x = 1,
+    y = 2 // 1
+  );
+end A;

@@ -1,0 +1,4 @@
+model A
+  B b(x = 1, // 1
+    y = 2);
+end A;

@@ -1,0 +1,3 @@
+model A
+  // 1
+end A;

@@ -1,0 +1,3 @@
+model A
+  A a; B b;
+end A;

@@ -1,0 +1,3 @@
+model A
+  A a; B b(x = 1);
+end A;

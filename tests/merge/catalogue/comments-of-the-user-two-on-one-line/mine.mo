@@ -1,0 +1,3 @@
+model A
+  A a; /* 1 */ B b; /* 2 */
+end A;

@@ -1,0 +1,5 @@
+model A
+  A a;
+  // of b
+  B b; // b
+end A;

@@ -1,0 +1,5 @@
+model A
+  A a(x = 1);
+  // of b
+  B b; // b
+end A;

@@ -1,0 +1,6 @@
+model A
+  Real x;
+
+equation
+  x = 1;
+end A;

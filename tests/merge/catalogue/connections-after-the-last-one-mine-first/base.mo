@@ -1,0 +1,4 @@
+model A
+equation
+  connect(a, b);
+end A;

@@ -1,0 +1,6 @@
+model A
+equation
+  connect(a, b);
+  connect(m, n);
+  connect(g, h);
+end A;

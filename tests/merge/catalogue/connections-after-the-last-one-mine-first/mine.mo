@@ -1,0 +1,5 @@
+model A
+equation
+  connect(a, b);
+  connect(m, n);
+end A;

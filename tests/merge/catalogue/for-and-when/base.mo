@@ -1,0 +1,9 @@
+model A
+equation
+  for i in 1:2 loop
+    x[i] = 1;
+  end for;
+  when a then
+    b = 1;
+  end when;
+end A;

@@ -1,0 +1,9 @@
+model A
+equation
+  if a then
+    x = 1; // m
+    y = 1;
+  else
+    x = 2;
+  end if;
+end A;

@@ -1,0 +1,11 @@
+model A
+  function f
+    input Real x;
+    input Real y "second";
+    input Real g;
+    output Real z;
+  algorithm
+    z := x + y;
+  end f;
+  Real a = 1;
+end A;

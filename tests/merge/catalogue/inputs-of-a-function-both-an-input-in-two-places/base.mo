@@ -1,0 +1,10 @@
+model A
+  function f
+    input Real x;
+    input Real y "second";
+    output Real z;
+  algorithm
+    z := x + y;
+  end f;
+  Real a = 1;
+end A;

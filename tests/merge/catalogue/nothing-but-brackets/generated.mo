@@ -1,0 +1,3 @@
+model A
+  B b(y = 2);
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(m = 1.15e1, n = 3);
+end A;

@@ -1,0 +1,4 @@
+model A
+equation
+  x = 1;
+end A;

@@ -1,0 +1,4 @@
+model A
+equation
+  x = 2;
+end A;

@@ -1,0 +1,4 @@
+model A
+  annotation (Documentation(info = "<p>g</p>
+"));
+end A;

@@ -1,0 +1,4 @@
+model A
+  annotation (Documentation(info = "<p>m</p>
+"));
+end A;

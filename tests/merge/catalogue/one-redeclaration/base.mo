@@ -1,0 +1,3 @@
+model A
+  B b(redeclare model X = Y);
+end A;

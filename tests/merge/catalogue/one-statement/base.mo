@@ -1,0 +1,4 @@
+model A
+algorithm
+  x := 1;
+end A;

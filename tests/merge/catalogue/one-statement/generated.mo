@@ -1,0 +1,4 @@
+model A
+algorithm
+  x := 3;
+end A;

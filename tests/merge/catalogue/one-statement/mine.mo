@@ -1,0 +1,4 @@
+model A
+algorithm
+  x := 2;
+end A;

@@ -1,0 +1,5 @@
+model A
+  Real a;
+  Real b;
+  Real c;
+end A;

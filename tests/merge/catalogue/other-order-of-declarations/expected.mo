@@ -1,0 +1,5 @@
+model A
+  Real c;
+  Real b = 1;
+  Real a;
+end A;

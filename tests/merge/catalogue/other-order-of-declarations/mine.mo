@@ -1,0 +1,5 @@
+model A
+  Real c;
+  Real b;
+  Real a;
+end A;

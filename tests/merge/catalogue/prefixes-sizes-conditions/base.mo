@@ -1,0 +1,5 @@
+model A
+  inner World w;
+  B b if c;
+  P p[2];
+end A;

@@ -1,0 +1,5 @@
+model A
+  Real x;
+protected
+  Real y;
+end A;

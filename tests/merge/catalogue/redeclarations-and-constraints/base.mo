@@ -1,0 +1,3 @@
+model A
+  replaceable B b(redeclare model X = Y, redeclare Real z(start = 1)) constrainedby C(k = 1);
+end A;

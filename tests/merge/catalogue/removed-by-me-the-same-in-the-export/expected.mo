@@ -1,0 +1,3 @@
+model A
+  Real a = 1;
+end A;

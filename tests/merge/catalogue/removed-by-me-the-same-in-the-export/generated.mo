@@ -1,0 +1,4 @@
+model A
+  Real a = 1;
+  Real b;
+end A;

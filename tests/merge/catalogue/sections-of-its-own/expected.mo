@@ -1,0 +1,9 @@
+model A
+  Real x;
+  Real m;
+  Real g;
+protected
+  Real p;
+  Real mp;
+  Real gp;
+end A;

@@ -1,0 +1,7 @@
+model A
+  Real x;
+  Real m;
+protected
+  Real p;
+  Real mp;
+end A;

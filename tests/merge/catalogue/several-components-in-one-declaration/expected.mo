@@ -1,0 +1,4 @@
+model A
+  Real x, y, z;
+  Real w;
+end A;

@@ -1,0 +1,4 @@
+model A
+  Real x, y;
+  Real w;
+end A;

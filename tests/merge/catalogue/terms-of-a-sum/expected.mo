@@ -1,0 +1,3 @@
+model A
+  Real m = b.m + mine.m + c.m;
+end A;

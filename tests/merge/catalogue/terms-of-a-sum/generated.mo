@@ -1,0 +1,5 @@
+model A
+  Real m =
+    b.m +
+    c.m;
+end A;

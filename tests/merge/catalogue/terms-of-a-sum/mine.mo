@@ -1,0 +1,3 @@
+model A
+  Real m = a.m + b.m + mine.m;
+end A;

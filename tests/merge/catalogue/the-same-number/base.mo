@@ -1,0 +1,3 @@
+model A
+  B b(m = 1);
+end A;

@@ -1,0 +1,5 @@
+model A
+equation
+  p + q = r;
+  x = 1;
+end A;

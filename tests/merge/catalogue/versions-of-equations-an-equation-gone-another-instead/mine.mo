@@ -1,0 +1,5 @@
+model A
+equation
+  connect(a, b);
+  x = 1;
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(x = 3, m = 2) "d"; // m
+end A;
