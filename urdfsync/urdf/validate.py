@@ -90,7 +90,6 @@ _ERRORS = {
 _WARNINGS = {
     # the file
     "xml-declaration": 'begin the file with <?xml version="1.0" encoding="UTF-8"?>',
-    "xml-prefix": "declare it in the root element",
     "xacro-leftover": "expand the source with xacro, if this file is not the result of it",
     # elements and attributes
     "missing-name": 'write <robot name="…">',

@@ -1,6 +1,6 @@
 """Bytes to XML elements: strict, except for two faults that ROS's own parser accepts too.
 
-A faulty XML declaration and prefixes without a namespace are accepted with a warning. All else that is not
+A faulty XML declaration is accepted with a warning, and so are prefixes without a namespace. All else that is not
 well-formed XML is one error with its line and column. Entities are never declared, expanded or fetched.
 
 Elements are those of the standard library, with tags and attributes as written. ElementTree's own parser refuses
@@ -107,11 +107,7 @@ def parse(content: bytes) -> Document:
         if what in _UNCLOSED and above:
             what = f"<{above[-1].tag}> of line {lines[above[-1]]} is not closed"
         raise ParseError("xml-syntax", f"this is not well-formed XML: {what}", error.lineno, error.offset + 1)
-    root = builder.close()
-    document = Document(text, root, lines, warnings)
-    if ":" in text:
-        warnings += _undeclared_prefixes(document)
-    return document
+    return Document(text, builder.close(), lines, warnings)
 
 
 def canonical(element: Element) -> str:
@@ -126,23 +122,6 @@ def canonical(element: Element) -> str:
         part.attrib.update(attributes)
     element.tail = ""
     return tostring(element, "unicode", short_empty_elements=False)
-
-
-def _undeclared_prefixes(document: Document) -> list[Diagnostic]:
-    """Return a warning for each prefix without a namespace; where in the document a namespace counts is ignored."""
-    declared, used = {"", "xml", "xmlns"}, dict[str, int]()
-    for element, line in document.lines.items():
-        for name in (element.tag, *element.keys()):
-            prefix, colon, rest = name.partition(":")
-            if colon and prefix == "xmlns":
-                declared.add(rest)
-            elif colon:
-                used.setdefault(prefix, line)
-    return [
-        diagnostic("xml-prefix", f"the prefix {prefix!r} is not declared", line)
-        for prefix, line in used.items()
-        if prefix not in declared
-    ]
 
 
 def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:

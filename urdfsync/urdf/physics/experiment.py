@@ -11,7 +11,7 @@ from urdfsync.domain import Experiment, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.physics.probe import probe, robot_variables
 from urdfsync.urdf.physics.reference import Instant, Reference, pinocchio, read
@@ -31,12 +31,12 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
     reading = read_robot(content, file, options.allow)
     if left_out := [found.message for found in reading.diagnostics if found.code in options.allow]:
         return left_out[0]
-    robot = _robot(content, file)
+    robot = _robot(reading)
     if loose := obstacles(robot.joints):
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"
     completed, notes = completion.completed_for_pinocchio(content)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
-    tree = KinematicTree.of(_robot(completed, file), (target.name,))
+    tree = KinematicTree.of(_robot(read_robot(completed, file)), (target.name,))
     axes, trial = motion.driven_axes(tree), probe(tree, target, options)
     reference = Reference(read(completed, file), [joint.name for joint in axes])
     courses = [motion.axis_course(joint) for joint in axes]
@@ -47,7 +47,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
         probe=trial,
-        compared=tuple(robot_variables(tree, target, options).compared(tree)),
+        compared=robot_variables(tree, target, options).compared,
         expected=dict(zip(trial.values, zip(first, last, strict=True), strict=True)),
         notes=(*notes, *made_up),
         unchecked=(_UNCHECKED,),
@@ -66,8 +66,7 @@ def _expected(instant: Instant, tree: KinematicTree) -> Iterator[Iterable[float]
     yield from (-instant.force, -instant.torque, [mass], centre)
 
 
-def _robot(content: bytes, file: str) -> Robot:
-    reading = read_robot(content, file)
+def _robot(reading: RobotReading) -> Robot:
     if reading.robot is None:
         raise SourceError(*reading.diagnostics)
     return reading.robot

@@ -5,7 +5,7 @@ It relies on little of the package, so that packages may be edited: on the varia
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import msgspec
 
@@ -55,31 +55,16 @@ CENTRE = tuple(f"centre[{i}]" for i in (1, 2, 3))
 
 
 class RobotVariables(msgspec.Struct, frozen=True):
-    """Names in a model that has the robot as `robot`; keys are URDF names."""
+    """Names in a model that has the robot as `robot`."""
 
     declaration: str
     """Of the robot, up to the modifiers that depend on the comparison."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
-    places: Mapping[str, tuple[str, ...]]
-    """By link: the three coordinates of its frame, in the world."""
-    axes: Mapping[str, tuple[str, ...]]
-    """By link: the nine elements of the axes of its frame in the world, one axis after the other."""
     flanges: Mapping[str, str]
     """By joint that can be driven: the connector of its axis."""
-
-    def compared(self, tree: KinematicTree) -> Iterator[Compared]:
-        """Yield all that is compared, from the root outwards."""
-        for link in tree.links:
-            yield Compared(Quantity.POSITION, f"link {link.name}", "m", self.places[link.name])
-            yield Compared(Quantity.ORIENTATION, f"link {link.name}", "", self.axes[link.name])
-        for joint in filter(can_be_driven, tree.joints):
-            unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
-            yield Compared(Quantity.EFFORT, f"joint {joint.name}", unit, (f"{self.flanges[joint.name]}.{effort}",))
-        yield Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N", FORCE)
-        yield Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N·m", TORQUE)
-        yield Compared(Quantity.MASS, "robot", "kg", MASS)
-        yield Compared(Quantity.CENTRE, "robot", "m", CENTRE)
+    compared: tuple[Compared, ...]
+    """All that is compared, from the root outwards."""
 
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
@@ -87,17 +72,11 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
 
     With the record, the generic robot is moved: links are numbers there, and only their poses are told.
     """
-    places, axes = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]]()
-    moments, three = list[str](), (1, 2, 3)
-    if "package" in options.approach:
+    compared, moments, three = list[Compared](), list[str](), (1, 2, 3)
+    is_package = "package" in options.approach
+    if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in connector_names(tree, options).drives.items()}
-        for link in tree.links:
-            part = f"robot.{tree.link(link.name).component}"
-            places[link.name] = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
-            axes[link.name] = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
-            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
-            moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
     else:
         record = f"redeclare parameter {target.package}.{target.name}Parameters data"
         declaration = f"UrdfSync.Robots.GenericRobot robot({record}, "
@@ -106,12 +85,30 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
             for kind in MOTIONS
             for number, joint in enumerate(tree.axes(kind), 1)
         }
-        for k, link in enumerate(tree.links, 1):
-            places[link.name] = tuple(f"robot.r_0[{k},{i}]" for i in three)
-            axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
+    for k, link in enumerate(tree.links, 1):
+        if is_package:
+            part = f"robot.{tree.link(link.name).component}"
+            place = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
+            axes = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
+            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
+            moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
+        else:
+            place = tuple(f"robot.r_0[{k},{i}]" for i in three)
+            axes = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-    return RobotVariables(declaration, " + ".join(moments), places, axes, flanges)
+        compared.append(Compared(Quantity.POSITION, f"link {link.name}", "m", place))
+        compared.append(Compared(Quantity.ORIENTATION, f"link {link.name}", "", axes))
+    for joint in filter(can_be_driven, tree.joints):
+        unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
+        compared.append(Compared(Quantity.EFFORT, f"joint {joint.name}", unit, (f"{flanges[joint.name]}.{effort}",)))
+    compared += [
+        Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N", FORCE),
+        Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N·m", TORQUE),
+        Compared(Quantity.MASS, "robot", "kg", MASS),
+        Compared(Quantity.CENTRE, "robot", "m", CENTRE),
+    ]
+    return RobotVariables(declaration, " + ".join(moments), flanges, tuple(compared))
 
 
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
@@ -145,5 +142,5 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    values = tuple(value for one in names.compared(tree) for value in one.values)
+    values = tuple(value for one in names.compared for value in one.values)
     return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, values)
