@@ -65,9 +65,9 @@ def elbow(reading: RobotReading) -> Joint:
     return next(joint for joint in reading.robot.joints if joint.name == "elbow")
 
 
-def transmission(inside_joint: str = "", inside_actuator: str = "") -> str:
+def transmission(inside_joint: str = "", inside_actuator: str = "", own: str = "") -> str:
     joint, actuator = f'<joint name="elbow">{inside_joint}</joint>', f'<actuator name="m">{inside_actuator}</actuator>'
-    return f'<transmission name="t">{joint}{actuator}</transmission>'
+    return f'<transmission name="t">{joint}{actuator}{own}</transmission>'
 
 
 def control(inside: str) -> str:
@@ -81,6 +81,7 @@ GEARS = {
         Transmission(-50.0, 0.1),
     ),
     "at the joint": (transmission("<mechanicalReduction>7</mechanicalReduction>"), Transmission(7.0)),
+    "in neither": (transmission(own="<mechanicalReduction>3e1</mechanicalReduction>"), Transmission(30.0)),
     "of ros2_control": (
         control(transmission("<mechanical_reduction>325.9</mechanical_reduction><offset>-2</offset>")),
         Transmission(325.9, -2.0),

@@ -18,6 +18,7 @@ _REDUCTIONS = (
     "actuator/mechanical_reduction",
     "actuator/mechanicalReduction",
     "joint/mechanicalReduction",
+    "mechanicalReduction",
 )
 """Elements of a transmission that hold its reduction; the first that is there counts."""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
