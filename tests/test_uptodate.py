@@ -21,13 +21,14 @@ from support.screen import print_on_terminal
 
 from urdfsync import cli, dependencies, streams, uptodate
 from urdfsync.check import afterbuild
+from urdfsync.engine import plan
 from urdfsync.output import console
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
 
 BUILD, CHECK, STATUS = ["build"], ["build", "--check"], ["status"]
-STAMP = ".urdfsync/stamp"
+STAMP = ".urdfsync/stamp-build"
 LEG = "modelica/Leg/Links/Tip.mo"
 URDF = "robots/leg.urdf"
 IN_STEP = "arm: in step, 17 files, 1 kept because you edited it\nleg: in step, 16 files, 1 kept because you edited it"
@@ -196,6 +197,13 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     assert saved(*BUILD) is None
 
 
+def test_so_does_the_program(folder: Path) -> None:
+    """Somebody may be working on it."""
+    save(*BUILD)
+    checks = Path(STAMP).read_text(errors="surrogateescape").split("\0\0")[2].split("\0")
+    assert {plan.__file__, cli.__file__} <= set(checks[1::2])
+
+
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/notes.txt", "robots/other.urdf", ".urdfsync/own.txt"):
@@ -268,14 +276,14 @@ def test_a_copy_holds_no_answer(folder: Path) -> None:
 
 
 def test_a_file_of_nothing_but_separators_is_no_answer(folder: Path) -> None:
-    save(*STATUS)
+    save(*BUILD)
     with Path(STAMP).open("r+b") as file:  # which git packs into some kilobytes
         file.truncate(0)
         file.truncate(20_000_000_000)
-    assert uptodate.read_answers(str(folder / "urdfsync.toml")) is None
+    assert saved(*BUILD) is None
 
 
-@pytest.mark.parametrize("name", ["stamp", ".stamp.urdfsync-tmp"])
+@pytest.mark.parametrize("name", ["stamp-build", ".stamp.urdfsync-tmp"])
 def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -> None:
     victim = folder.parent / "victim"
     victim.write_text("precious")

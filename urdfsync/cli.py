@@ -44,7 +44,7 @@ def main(given: Sequence[str] | None = None) -> int:
             code = _run(given, transcript)
         if code == Exit.IN_STEP:
             answer = [text for entry in transcript if entry[1] for text in entry]
-            uptodate.save_answer(config_file, key, answer, dependencies)
+            uptodate.save_answer(config_file, given[0], key, answer, dependencies)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
         Console().end("", Exit.ERROR, [_unforeseen(error)])
         return Exit.ERROR

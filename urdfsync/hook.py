@@ -20,7 +20,8 @@ def passes(index: git.Index, configuration: str) -> bool:
 
     An answer lists what has to be staged, and holds as long as nothing has changed that a build of the robots reads.
     """
-    answer = uptodate.find_answer(*answer_place(index, configuration))
+    file, key = answer_place(index, configuration)
+    answer = uptodate.find_answer(file, "hook", key)
     return answer is not None and index.has_staged(answer)
 
 

@@ -1,7 +1,8 @@
 """The up-to-date check: say again what a command said, while nothing that its answer depended on has changed.
 
-`.urdfsync/stamp` holds the saved answers of `build`, `status` and the hook, a list of all paths that they depended on,
-and a hash of what the system said of these paths. A file in any other state is no answer, and the command runs.
+`.urdfsync/stamp-build` holds the last answer of `build`, a list of all paths that it depended on, and a hash of what
+the system said of these paths; so do `stamp-status` and `stamp-hook`. A file in any other state is no answer, and the
+command runs. The program's own modules are among the paths, for those who work on it.
 The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms:
 contextlib would take 1 of 12.
 """
@@ -12,41 +13,24 @@ import os
 import sys
 
 from urdfsync import __version__, streams
-from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, VARIABLE, Dependencies, Entries, check_path, is_young
+from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, VARIABLE, Dependencies, check_path, is_young
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"
 
-_FORMAT = "urdfsync answers 3"
-_FOLDER, _NAME = ".urdfsync", "stamp"
+_FORMAT = "urdfsync answer 4"
 _VARIABLES = (
     *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM"),
     *("COLORTERM", "COLUMNS", "LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
 )
 """Environment variables that decide which files a command finds, and how its output looks."""
-_MAX_ANSWERS = 16
 _MAX_CHARACTERS = 2_000_000
 """Longer answers are not saved. That of the hook names all that has to be tracked: 300,000 for 8,000 outputs."""
 
 
-class SavedAnswers:
-    """The content of the file: checks and paths, the hash of what they found, answers by their key."""
-
-    def __init__(self, checks: list[tuple[str, str]], found: int, answers: dict[str, list[str]]) -> None:
-        self.checks, self.found, self.answers = checks, found, answers
-
-    def check(self) -> Entries | None:
-        """What is at all paths now; None if anything that the answers depended on has changed."""
-        try:
-            found = {(check, path): check_path(check, path) for check, path in self.checks}
-        except (OSError, ValueError):
-            return None
-        return found if _hash(found) == self.found else None
-
-
-def _hash(found: Entries) -> int:
-    """A hash of what was found at all paths; Python gives tuples of integers the same one in each process."""
-    return hash(tuple(found.values()))
+def _stamp(config_file: str, command: str) -> str:
+    """The file of a command's answer."""
+    return os.path.join(os.path.dirname(config_file), ".urdfsync", f"stamp-{command}")
 
 
 def _program() -> str:
@@ -79,41 +63,37 @@ def answer_key(arguments: list[str], config_file: str) -> str:
     return repr((arguments, config_file, os.getcwd(), *terminals, *variables))
 
 
-def read_answers(config_file: str) -> SavedAnswers | None:
-    """The answers saved beside a configuration; None if there are none.
+def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
+    """The saved answer of a command, if its dependencies have not changed; None if there is none.
 
-    They count only if this program wrote them in this very file: a copy, such as a committed one, is somebody else's.
+    It counts only if this program wrote it in this very file: a copy, such as a committed one, is somebody else's.
     """
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
-    path = os.path.join(os.path.dirname(config_file), _FOLDER, _NAME)
     try:
-        with open(os.open(path, flags), encoding="utf-8", errors="surrogateescape", newline="") as file:
+        with open(
+            os.open(_stamp(config_file, command), flags), encoding="utf-8", errors="surrogateescape", newline=""
+        ) as file:
             status = os.fstat(file.fileno())
             text = file.read() if status.st_size <= MAX_FILE else ""
-        ours = "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), ""])
-        if not text.startswith(ours):  # nobody else's is taken apart, which could take minutes
+        if not text.startswith(f"{_bound(status)}\0\0"):  # nobody else's is taken apart, which could take minutes
             return None
-        head, checks, *answers, end = [section.split("\0") for section in text.split("\0\0")]
-        *_, found = head
-        if end != [str(len(answers))]:
-            return None
-        pairs = list(zip(checks[::2], checks[1::2], strict=True))
-        return SavedAnswers(pairs, int(found), {key: answer for key, *answer in answers})
+        _, (found,), checks, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
+        # Python gives tuples of integers the same hash in each process
+        now = hash(tuple(check_path(check, path) for check, path in zip(checks[::2], checks[1::2], strict=True)))
+        return answer if saved_key == key and now == int(found) and end == ["end"] else None
     except (OSError, ValueError):
         return None
 
 
-def find_answer(config_file: str, key: str) -> list[str] | None:
-    """A saved answer whose dependencies have not changed; None if there is none."""
-    saved = read_answers(config_file)
-    answer = saved.answers.get(key) if saved else None
-    return answer if answer is not None and saved and saved.check() is not None else None
+def _bound(status: os.stat_result) -> str:
+    """How the text of a file begins that this program wrote as this very file."""
+    return "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()])
 
 
 def saved_answer(arguments: list[str]) -> list[str] | None:
     """The saved answer of a command; None if there is none, or if it does not hold any more."""
     config_file = find_config(arguments)
-    return find_answer(config_file, answer_key(arguments, config_file)) if config_file else None
+    return find_answer(config_file, arguments[0], answer_key(arguments, config_file)) if config_file else None
 
 
 def print_answer(arguments: list[str]) -> str | None:
@@ -132,8 +112,8 @@ def print_answer(arguments: list[str]) -> str | None:
         return output.trouble
 
 
-def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
-    """Save the answer of a command that exited with 0.
+def save_answer(config_file: str, command: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
+    """Save the answer of a command that exited with 0, in the place of the command's last one.
 
     Nothing is saved if one of the dependencies has just changed, or if it is not certain that they are all there are.
     """
@@ -141,7 +121,7 @@ def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dep
 
     if not dependencies.complete or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
-    here, folder = os.getcwd(), os.path.join(os.path.dirname(config_file), _FOLDER)
+    here, stamp = os.getcwd(), _stamp(config_file, command)
     dependencies.add_modules()
     recorded = {
         (check, path if check == VARIABLE else os.path.join(here, path)): found
@@ -151,15 +131,10 @@ def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dep
         return  # such as `--help`, which reads nothing
     if any(is_young(found, dependencies.started) for (check, _), found in recorded.items() if check in (LSTAT, STAT)):
         return
-    answers, saved = {key: answer}, read_answers(config_file)
-    before = saved.check() if saved and len(saved.answers) < _MAX_ANSWERS else None
-    if saved and before and all(before.get(pair, found) == found for pair, found in recorded.items()):
-        recorded, answers = before | recorded, saved.answers | answers
-    listed = [[found, *texts] for found, texts in answers.items()]
     checks = [text for pair in recorded for text in pair]
-    if any(not text or "\0" in text for section in (checks, *listed) for text in section):
+    if any(not text or "\0" in text for text in (*checks, key, *answer)):
         return  # the file can't hold that
-    temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
+    temporary = os.path.join(os.path.dirname(stamp), ".stamp.urdfsync-tmp")
     try:
         descriptor = _create(temporary)
         try:
@@ -167,11 +142,12 @@ def save_answer(config_file: str, key: str, answer: list[str], dependencies: Dep
             os.utime(descriptor, ns=(0, 0))
             if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
                 return  # on Windows, FAT and sshfs, a file has no time of change that nobody can set
-            head = [_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program(), str(_hash(recorded))]
-            text = "\0\0".join("\0".join(section) for section in (head, checks, *listed, [str(len(listed))]))
+            found = str(hash(tuple(recorded.values())))
+            # the last section says that the file is whole
+            text = "\0\0".join([_bound(status), found, "\0".join(checks), "\0".join([key, *answer]), "end"])
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))
             os.utime(descriptor, ns=(status.st_mtime_ns, status.st_mtime_ns))
-            os.replace(temporary, os.path.join(folder, _NAME))
+            os.replace(temporary, stamp)
         finally:
             os.close(descriptor)
             _remove(temporary)

@@ -188,7 +188,7 @@ def test_an_edit_new_templates_and_an_export_in_one_interval_are_merged(
 ) -> None:
     run()
     if is_clone:
-        left_out = shutil.ignore_patterns("conflicts", "replaced", "lock", "stamp")
+        left_out = shutil.ignore_patterns("conflicts", "replaced", "lock", "stamp-*")
         monkeypatch.chdir(shutil.copytree(project, tmp_path / "clone", ignore=left_out))
     edit(R1, "end R1", NOTE)
     edit(RECORD, "end R1", NOTE)

@@ -92,7 +92,7 @@ def test_what_stays_is_told_once(hostile: Path, execute: Execute) -> None:
     assert "left-behind" not in execute("build").err
 
 
-@pytest.mark.parametrize("left_out", [("stamp",), ()], ids=["clone", "copy"])
+@pytest.mark.parametrize("left_out", [("stamp-*",), ()], ids=["clone", "copy"])
 def test_a_clone_moves_its_package(execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
     execute("build")
     clone = tmp_path / "clone"

@@ -197,7 +197,7 @@ def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> l
         robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
     if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
         needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, *one.states)}
-        uptodate.save_answer(file, key, sorted(needed), everything)
+        uptodate.save_answer(file, "hook", key, sorted(needed), everything)
         return []
     faults, to_build = [], []
     for one in robots:
