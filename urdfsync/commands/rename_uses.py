@@ -29,8 +29,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     if found.unknown:
         names = " or ".join(f"`{name}`" for name in sorted(found.unknown))
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
-    told, code = [*_conflicting(found), *_left(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
-    if not (found.texts or found.conflicting or found.left):
+    told, code = [*_conflicting(found), *_uncertain(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
+    if not (found.texts or found.conflicting or found.uncertain):
         hint = "" if given else "for a rename before the last build, give both names: --rename-uses OLD=NEW"
         told.append(
             Diagnostic(
@@ -76,8 +76,8 @@ def _conflicting(found: RenamedUses) -> Iterator[Diagnostic]:
         yield Diagnostic(Severity.WARNING, "conflicts-first", message, hint=hint)
 
 
-def _left(found: RenamedUses) -> Iterator[Diagnostic]:
-    for path, use, new in found.left:
+def _uncertain(found: RenamedUses) -> Iterator[Diagnostic]:
+    for path, use, new in found.uncertain:
         why = "may not be what it was" if new in use.known else "means nothing there"
         message = f"`{use.part}` in `{use.name}` stays: `{new}` {why}"
         hint = "change it by hand if it means the robot"

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Actions, Kind, Reason
+from urdfsync.domain import ChangeClass, brings_back
+from urdfsync.engine.actions import Actions, Kind
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.fit import Misfit
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
+from urdfsync.engine.package_names import begins_with, new_name, new_names, renamed_identifiers
 from urdfsync.files import shown
 from urdfsync.modelica.files import files_that_use
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.state.record import Choice
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind
 from urdfsync.state.store import Store
 
 CONNECTORS = "connector-changed"
@@ -61,7 +62,11 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
 
     And a note if names are known that can take the places of old ones.
     """
-    inputs, places = generation.inputs, dict[tuple[object, ...], list[Misfit]]()
+    inputs, renamed, places = (
+        generation.inputs,
+        renamed_identifiers(generation),
+        dict[tuple[object, ...], list[Misfit]](),
+    )
     outside = {one.file for one in misfits if not one.key}
     folders = {inputs.folder.rpartition("/")[2], inputs.last.folder.rpartition("/")[2]}
     users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
@@ -69,22 +74,42 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
         if one.key or one.file in users:
             what = one.use.part if one.use else (one.finding.code, one.finding.message, one.finding.line)
             places.setdefault((one.file, what), []).append(one)
+    pairs = dict[tuple[str, str], Misfit]()
     for first, *more in places.values():
         finding = first.finding
         lines = [*map(str, sorted({one.finding.line for one in more} - {finding.line}))]
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
+        hint = _hint(generation, renamed, first.use) if first.use else finding.hint
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,
             file=shown(first.file),
-            hint="; ".join(filter(None, (finding.hint, also))),
+            hint="; ".join(filter(None, (hint, also))),
         )
-    renamed = {one.renamed: one for group in places.values() for one in reversed(group) if one.renamed}
-    if renamed:
-        command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(renamed))))
-        message, place = "your files can get the new names", [*renamed.values()][-1]
+        if first.use and new_name(first.use.part, renamed, first.use.known):
+            pairs[next(pair for pair in renamed.items() if begins_with(first.use.part, pair[0]))] = first
+    if pairs:
+        command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(pairs))))
+        message, place = "your files can get the new names", [*pairs.values()][-1]
         hint = f"`{command}` shows the lines, and writes them if you agree"
         yield Diagnostic(Severity.NOTE, "rename-uses", message, shown(place.file), place.finding.line, hint=hint)
+
+
+def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -> str:
+    """Return what to do about a name that means nothing."""
+    inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
+    if use.part == inputs.last.target.package != target.package and target.name not in use.known:
+        return f"use `{target.package}` instead"
+    if name := new_name(use.part, renamed, use.known):
+        return f"use `{name}` instead"
+    for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
+        if option := inputs.domain.option_for(name, generation.now.snapshot, target, options):
+            return brings_back(option, name if name != use.part else "")
+    if use.near:
+        return f"did you mean `{use.meant}`?"
+    if use.kind is UnresolvedKind.CLASS and use.is_library:
+        return f'name the library in `uses` if `{use.part}` is one: annotation (uses({use.part}(version="…")))'
+    return "change or remove this use"
 
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
@@ -135,10 +160,7 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
 
 
 def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
-    """Warnings of a package that an older urdfsync wrote, and that does not fit the library any more.
-
-    One if it waits for conflicts, and one for each file that the user keeps.
-    """
+    """A warning of a package that an older urdfsync wrote, that does not fit the library, and waits for conflicts."""
     if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
         return
     conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind is Kind.CONFLICT]
@@ -149,12 +171,6 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         hint = f"it fits the library again once {named} is resolved: urdfsync resolve {command}"
         folder = shown(inputs.files.path(inputs.last.folder))
         yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
-    for action in actions:
-        if action.reason is Reason.KEEP and action.choice is Choice.KEEP:
-            message = f"this file stays as it is, but it was made for an older library {LIBRARY}"
-            hint = f"`urdfsync check {inputs.robot.name}` tells whether it fits the rest of the package"
-            file = shown(inputs.files.path(action.path))
-            yield Diagnostic(Severity.WARNING, "outdated-file", message, file, hint=hint)
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:

@@ -10,7 +10,7 @@ those that mention a name which an edit adds, changes or takes away; of generate
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
@@ -20,14 +20,22 @@ import msgspec
 from urdfsync.config import find_own_library
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Role, brings_back
+from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode, text_hash
-from urdfsync.engine.package_names import class_of, declared_names, new_name, new_names, renamed_identifiers
+from urdfsync.engine.package_names import class_of, declared_names
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
-from urdfsync.modelica.files import ClassName, StoredClasses, class_parts, files_that_use, place_of, text_of
+from urdfsync.modelica.files import (
+    ClassName,
+    StoredClasses,
+    class_of_file,
+    class_parts,
+    files_that_use,
+    place_of,
+    text_of,
+)
 from urdfsync.modelica.layout import check_class_file
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.statements import (
@@ -61,15 +69,13 @@ class Misfit(msgspec.Struct, frozen=True):
 
     file: Path
     finding: Diagnostic
-    """Without the file."""
+    """Without the file, and without a hint for a name that means nothing."""
     key: str = ""
     """Of a file in the package."""
     is_broken: bool = False
     """Whether it keeps the package from being compiled: the file is one of those that are generated."""
     use: Unresolved | None = None
     """The name that means nothing."""
-    renamed: tuple[str, str] | None = None
-    """Old and new identifier, if the build knows what was renamed."""
 
     @property
     def fault(self) -> str:
@@ -179,24 +185,16 @@ class Package(Mapping[str, bytes]):
     def __len__(self) -> int:
         return len(self._files)
 
-    def content_of(self, file: Path) -> bytes:
-        """Return what is in a file of the user's."""
-        path = self._path_below(file)
-        return self[path] if path in self else self.around[file]
+    @cached_property
+    def users(self) -> dict[Path, bytes]:
+        """Contents of all files that the user wrote or edited, by their absolute paths."""
+        edited = {path: file for path, file in self._files.items() if file.is_edited}
+        return {**{self._inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
 
-    def users_texts(self) -> dict[str, str]:
-        """Return the texts in the package that the user wrote or edited, by key."""
-        return {file.key: text_of(self[path]) for path, file in self._files.items() if file.is_edited}
-
-    def is_users(self, file: Path) -> bool:
-        """Whether the user wrote a file, and not only edited it."""
-        path = self._path_below(file)
-        return file in self.around or (path in self._files and self._files[path].is_users)
-
-    def _path_below(self, file: Path) -> str:
-        """Return the path of a file below the package; empty if it is elsewhere."""
-        key, inside = self._inputs.files.key(file), self._inputs.folder.key("")
-        return key.removeprefix(inside) if key.startswith(inside) else ""
+    @cached_property
+    def own(self) -> set[Path]:
+        """The files that the user wrote, and not only edited."""
+        return {self._inputs.files.path(file.key) for file in self._files.values() if file.is_users} | {*self.around}
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of the class that a file is for, by its path below the package."""
@@ -227,12 +225,15 @@ class Package(Mapping[str, bytes]):
         return self._tops.get(name)
 
     def _read(self, content: bytes) -> StoredText:
+        return self._reading(content).stored
+
+    def _reading(self, content: bytes) -> Reading:
         """Parse a file; of generated ones only what others see."""
         if content not in self._readings:
             text = text_of(content)
             passed = plain_statements(text) if content in self._generated else frozenset[str]()
             self._readings[content] = parse_without(text, passed)
-        return self._readings[content].stored
+        return self._readings[content]
 
     # --- findings -------------------------------------------------------------------------------------------------
 
@@ -242,42 +243,37 @@ class Package(Mapping[str, bytes]):
         Of a merge it is also told if it uses what this build takes away, and what a class may inherit from a library
         that is not read.
         """
-        edited, around = [path for path, one in self._files.items() if one.is_edited], dict(self.around)
-        if only is not None:
-            around = {}
-        if not (edited or around):
+        if not self.users:
             return []
-        found, passed = list[Misfit](), self._passed_statements(edited)
+        misfits, passed = list[Misfit](), self._passed_statements()
         for path, statements in passed.items():
             self._readings[self[path]] = parse_without(text_of(self[path]), statements)
         scopes, lost = Scopes(self.classes()), self._is_lost if only is not None else None
         for path in passed:
             if only is None or self._files[path].key in only:
-                found += self._look(path, scopes, lost)
-        for file in sorted(around):
-            found += self._look_around(file, scopes)
-        return found
+                misfits += self._look(path, scopes, lost)
+        for file in sorted(self.around) if only is None else ():
+            misfits += self._look_around(file, scopes)
+        return misfits
 
-    def _passed_statements(self, edited: Sequence[str]) -> dict[str, frozenset[str]]:
+    def _passed_statements(self) -> dict[str, frozenset[str]]:
         """Return the files to look at, with their statements that mean what they mean in generated texts."""
-        artifacts, found = self._generation.package.artifacts, dict[str, frozenset[str]]()
+        artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
         names, classes = self._missing_classes(), set[str]()
+        edited = [path for path, file in self._files.items() if file.is_edited]
         for path in edited:
-            generated = self._generated_text(path)
-            difference = None if generated is None else compare(text_of(self[path]), generated)
-            if difference is None or difference.is_whole:
-                classes.update(self.class_name(path)[-1:])
-            found[path] = difference.same if difference and not difference.is_whole else frozenset()
-            names |= difference.names if difference else frozenset()
+            difference = compare(text_of(self[path]), self._generated_text(path))
+            classes.update(self.class_name(path)[-1:] if difference.is_whole else ())
+            statements[path], names = difference.same, names | difference.names
         owners = {artifacts[path].owner for path in edited if path in artifacts}
         for path, file in self._files.items():
             if file.is_generated and path in artifacts and (artifacts[path].owner in owners or "/" not in path):
                 text = text_of(self[path])
                 if mentioning([text], names | classes):
-                    found[path] = plain_statements(text)
-        components = (component_of(one) for statements in found.values() for one in mentioning(statements, classes))
+                    statements[path] = plain_statements(text)
+        components = (component_of(one) for same in statements.values() for one in mentioning(same, classes))
         names |= classes | {name for kind, name in filter(None, components) if kind in classes}
-        return {path: statements - mentioning(statements, names) for path, statements in found.items()}
+        return {path: same - mentioning(same, names) for path, same in statements.items()}
 
     @cached_property
     def _is_waiting(self) -> bool:
@@ -291,117 +287,74 @@ class Package(Mapping[str, bytes]):
         known = set(map(_as_file, self))
         return {class_of(path) for path in paths - known - self._files.keys() if path.endswith(".mo")}
 
-    def _generated_text(self, path: str) -> str | None:
-        """Return the text in the place of an edited one that all other generated texts fit; None if there is none."""
-        inputs, place = self._inputs, path if path in self._generation.package.artifacts else _as_file(path)
+    def _generated_text(self, path: str) -> str:
+        """Return the text in the place of an edited one that all other generated texts fit; empty if there is none."""
+        inputs, artifacts = self._inputs, self._generation.package.artifacts
+        place = path if path in artifacts else _as_file(path)
         if not self._is_waiting:
-            is_generated = place in self._generation.package.artifacts
-            return self._generation.package.content(place).decode() if is_generated else None
+            return self._generation.package.content(place).decode() if place in artifacts else ""
         record = inputs.last.files.get(inputs.folder.key(place))
-        return inputs.last.base(record.hashes[0]) if record and len(record.hashes) == 1 else None
+        return (inputs.last.base(record.generated) or "") if record and not record.is_ambiguous else ""
 
     def _is_lost(self, name: str) -> bool:
         """Whether a text that is replaced or deleted declares a name, and the one in its place does not."""
-        return any(self._loses(name, action) for action in self._actions if action.writes)
+        for action in self._actions:
+            key, path = action.origin or action.path, self._inputs.folder.path(action.path)
+            old = self._inputs.files.any_text(key) if action.writes and key.endswith(".mo") else ""
+            if name not in old or name not in declared_names([old]):  # parsing all texts would take too long
+                continue
+            if path not in self or name not in declared_names([text_of(self[path])]):
+                return True
+        return False
 
-    def _loses(self, name: str, action: Action) -> bool:
-        key = action.origin or action.path
-        old = self._inputs.files.any_text(key) if key.endswith(".mo") else ""
-        if name not in old or name not in declared_names([old]):
-            return False
-        path = self._inputs.folder.path(action.path)
-        return path not in self or name not in declared_names([text_of(self[path])])
-
-    def _look(self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None) -> list[Misfit]:
+    def _look(self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None) -> Iterator[Misfit]:
         """Look at a file of the package; at a generated one for what others lack."""
-        one, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
-        file = self._inputs.files.path(one.key)
-        if reading.stored is TOO_LONG:
-            return [Misfit(file, _TOO_LONG, one.key)]
-        said = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
-        found = [Misfit(file, finding, one.key, one.is_expected) for finding in _errors(said)]
-        node = scopes.node(name) if not found else None
-        for use, finding in self._uses([node] if node else [], scopes, lost, reading.passed):
-            if not one.is_generated:
-                found.append(Misfit(file, finding, one.key, one.is_expected, use, self._renamed_by(use)))
-            elif (owner := scopes.node(use.owner.split("."))) and self._is_edited(Path(owner.file)):
-                message = f"it has no `{use.part}`, which {shown(file)}:{use.line} mentions"
-                new = msgspec.structs.replace(finding, message=message, line=owner.definition.name.line)
-                found.append(Misfit(Path(owner.file), new, self._inputs.files.key(Path(owner.file)), is_broken=True))
-        return found
+        file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
+        place = self._inputs.files.path(file.key)
+        findings = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
+        node = scopes.node(name)
+        for use, finding in _faults(reading, findings, [node] if node else [], scopes, lost):
+            if not file.is_generated:
+                is_broken = file.is_expected and finding.severity is Severity.ERROR
+                yield Misfit(place, finding, file.key, is_broken, use)
+            elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self.users:
+                message = f"it has no `{use.part}`, which {shown(place)}:{use.line} mentions"
+                finding = msgspec.structs.replace(finding, message=message, line=owner.definition.name.line)
+                yield Misfit(Path(owner.file), finding, self._inputs.files.key(Path(owner.file)), is_broken=True)
 
-    def _look_around(self, path: Path, scopes: Scopes) -> list[Misfit]:
-        """Look at a file of the user's outside of the package."""
-        text = self._read(self.around[path])
-        if text is TOO_LONG:
-            return [Misfit(path, _TOO_LONG)]
-        around = tuple(text.within.split(".")) if text.within else ()
-        expected = place_of(path, self.around)[1]
-        if text.is_broken or (expected and around != expected):
-            name = ".".join((*expected, path.parent.name if path.name == "package.mo" else path.stem))
-            said = check_class_file(text_of(self.around[path]), PurePosixPath(path.name), name)[1]
-            return [Misfit(path, finding) for finding in _errors(said)]
-        nodes = [node for node in scopes.users() if node.file == str(path)]
-        uses = self._uses(nodes, scopes)
-        return [Misfit(path, finding, use=use, renamed=self._renamed_by(use)) for use, finding in uses]
+    def _look_around(self, file: Path, scopes: Scopes) -> Iterator[Misfit]:
+        """Look at a file of the user's outside of the package; it may hold several classes, if it is in no package."""
+        reading, package = self._reading(self.around[file]), place_of(file, self.around)[1]
+        findings = list[Diagnostic]()
+        if reading.stored.is_broken or (package and reading.stored.within != ".".join(package)):
+            name = ".".join((*package, class_of_file(file)))
+            findings = check_class_file(reading.text, PurePosixPath(file.name), name, reading.stored)[1]
+        nodes = [node for node in scopes.users() if node.file == str(file)]
+        for use, finding in _faults(reading, findings, nodes, scopes):
+            yield Misfit(file, finding, use=use)
 
-    def _is_edited(self, file: Path) -> bool:
-        path = self._path_below(file)
-        return path in self._files and self._files[path].is_edited
 
-    def _uses(
-        self,
-        nodes: Sequence[Node],
-        scopes: Scopes,
-        lost: Callable[[str], bool] | None = None,
-        passed: Container[int] = (),
-    ) -> Iterator[tuple[Unresolved, Diagnostic]]:
-        """Yield each name that means nothing, and what there is to say of it."""
-        for node in nodes:
-            found = unresolved(node, scopes, all_libraries=True, lost=lost, passed=passed)
-            for use in sorted((one for one in found if one.kind not in _LEGAL), key=lambda one: one.line):
-                hint = self._hint(use)
-                yield use, Diagnostic(Severity.ERROR, "unresolved", use.message, line=use.line, hint=hint)
-
-    # --- what to do -----------------------------------------------------------------------------------------------
-
-    @cached_property
-    def _renamed(self) -> dict[str, str]:
-        return renamed_identifiers(self._generation)
-
-    def new_name(self, use: Unresolved) -> str:
-        """Return the name that something has since the last complete build; empty if that is not known."""
-        return new_name(use.part, self._renamed, use.known)
-
-    def _renamed_by(self, use: Unresolved) -> tuple[str, str] | None:
-        pairs = ((old, new) for old, new in self._renamed.items() if use.part.lower().startswith(old.lower()))
-        return next(pairs, None) if self.new_name(use) else None
-
-    def _hint(self, use: Unresolved) -> str:
-        """Return what to do about a name that means nothing."""
-        inputs, target = self._inputs, self._inputs.robot.target
-        if use.part == inputs.last.target.package != target.package and target.name not in use.known:
-            return f"use `{target.package}` instead"
-        if name := self.new_name(use):
-            return f"use `{name}` instead"
-        snapshot, options = self._generation.now.snapshot, inputs.robot.options
-        for name in dict.fromkeys((use.part, next(new_names(use.part, self._renamed), use.part))):
-            if option := inputs.domain.option_for(name, snapshot, target, options):
-                return brings_back(option, name if name != use.part else "")
-        if use.near:
-            return f"did you mean `{use.meant}`?"
-        if use.kind is UnresolvedKind.CLASS and use.is_library:
-            return f'name the library in `uses` if `{use.part}` is one: annotation (uses({use.part}(version="…")))'
-        return "change or remove this use"
+def _faults(
+    reading: Reading,
+    findings: Sequence[Diagnostic],
+    nodes: Sequence[Node],
+    scopes: Scopes,
+    lost: Callable[[str], bool] | None = None,
+) -> Iterator[tuple[Unresolved | None, Diagnostic]]:
+    """Yield what is wrong with a file: what was found already, else each name that means nothing."""
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
+    if reading.stored is TOO_LONG:
+        errors = [_TOO_LONG]
+    yield from ((None, finding) for finding in errors)
+    for node in nodes if not errors else ():
+        uses = unresolved(node, scopes, all_libraries=True, lost=lost, passed=reading.passed)
+        for use in sorted((one for one in uses if one.kind not in _LEGAL), key=lambda one: one.line):
+            yield use, Diagnostic(Severity.ERROR, "unresolved", use.message, line=use.line)
 
 
 def _as_file(path: str) -> str:
     """Return the path of the file that a class has as long as it is no folder."""
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
-
-
-def _errors(findings: Sequence[Diagnostic]) -> list[Diagnostic]:
-    return [finding for finding in findings if finding.severity is Severity.ERROR]
 
 
 def find_misfits(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> list[Misfit]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Reason
+from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_names import class_of
 from urdfsync.modelica.files import text_of
@@ -35,34 +36,31 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     not: he is told the new name. What a file that he keeps mentions stays whatever it is, and so does what is mentioned
     or shown by what stays.
     """
-    inputs, files, before = generation.inputs, generation.inputs.files, generation.inputs.last.package
-    leaving = {one.path: one for one in actions if one.reason is Reason.DELETE}
-    edited = {action.path for action in actions if action.reason in USERS}
-    own = files.classes(inputs.folder) - {action.path for action in actions if not action.handed_to_user}
-    texts = {key: merged.get(key) or files.any_text(key) for key in sorted(edited | own)}
-    all_words = {word for text in texts.values() for word in code_words(text)}
-    all_words |= {word for content in inputs.users_files.mentioning.values() for word in code_words(text_of(content))}
-    kept = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
-    kept_words = {word for key in kept & texts.keys() for word in code_words(texts[key])}
-    left = set(generation.moves.values())
-    used = set()
-    for path, action in leaving.items():
+    inputs, before = generation.inputs, generation.inputs.last.package
+    package = Package(generation, actions, merged)
+    words = {inputs.files.key(file): code_words(text_of(content)) for file, content in package.users.items()}
+    all_words = set().union(*words.values())
+    decided = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
+    kept_words = set().union(*(words[key] for key in decided & words.keys()))
+    pending = {one.path: one.role for one in actions if one.reason is Reason.DELETE}
+    needed = set[str]()
+    for path, role in pending.items():
         was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts
-        is_record = action.role is Role.RECORD and path not in left
-        if class_of(path) in (all_words if is_record or was_needed else kept_words) and path.endswith(".mo"):
-            used.add(path)
-    found = set(used)
-    while used:
-        needed = [files.any_text(path) for path in used]
-        words = {word for text in needed for word in code_words(text)}
-        used = {
+        is_record = role is Role.RECORD and path not in generation.moves.values()
+        if path.endswith(".mo") and class_of(path) in (all_words if is_record or was_needed else kept_words):
+            needed.add(path)
+    found = set(needed)
+    while needed:
+        texts = [*map(inputs.files.any_text, needed)]
+        mentioned = set().union(*map(code_words, texts))
+        needed = {
             path
-            for path in leaving.keys() - found
+            for path in pending.keys() - found
             if (
-                class_of(path) in words
+                class_of(path) in mentioned
                 if path.endswith(".mo")
-                else any(inputs.last.folder.path(path) in one for one in needed)
+                else any(inputs.last.folder.path(path) in text for text in texts)  # such as a mesh
             )
         }
-        found |= used
+        found |= needed
     return frozenset(found)

@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 
 from urdfsync.engine.generation import Generation
 from urdfsync.modelica.files import class_path
-from urdfsync.modelica.parser import parse
+from urdfsync.modelica.statements import parse_without, plain_statements
 from urdfsync.modelica.syntax import declared
 
 
@@ -34,15 +34,17 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     inputs, renamed = generation.inputs, renamed_identifiers(generation)
     if not renamed:
         return {}
-    keys = [key for key, record in inputs.last.files.items() if record.hashes and key.endswith(".mo")]
-    tops = (key for key in keys if "/" not in inputs.last.folder.path(key))
-    texts = (inputs.last.base(inputs.last.files[key].generated) or "" for key in tops)
-    known, declared_before = known_names(generation), declared_names(texts)
-    old = (declared_before | frozenset(map(class_of, keys))) - known
-    # the same name is the class of a link, and of a joint: only names of parts are those of one element alone
-    left = {name: new for name, new in renamed.items() if name in declared_before & known and new in known}
-    left = {name: new for name, new in left.items() if name in renamed.values() and name != inputs.last.target.name}
-    return left | {name: new for name in sorted(old) if (new := new_name(name, renamed, known))}
+    recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
+    files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
+    before = declared_names(inputs.last.base(one.generated) or "" for path, one in files.items() if "/" not in path)
+    now, found = known_names(generation), dict[str, str]()
+    for name in sorted((before | {*map(class_of, files)}) - now):
+        if new := new_name(name, renamed, now):
+            found[name] = new
+    for name, new in renamed.items():  # of classes it may be that of a link and of a joint: only parts are of one alone
+        if name in before & now and name in renamed.values() and new in now and name != inputs.last.target.name:
+            found[name] = new
+    return found
 
 
 def known_names(generation: Generation) -> frozenset[str]:
@@ -60,10 +62,15 @@ def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> s
 def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
     """Yield the names that begin with a new identifier where this one begins with the old one, the likeliest first."""
     for old, new in renamed.items():
-        if part.lower().startswith(old.lower()):
+        if begins_with(part, old):
             first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
             yield from dict.fromkeys((f"{first}{new[1:]}{part[len(old) :]}", f"{new}{part[len(old) :]}"))
             return
+
+
+def begins_with(part: str, identifier: str) -> bool:
+    """Whether a name is made from an identifier: components, classes and connectors begin with it, in either case."""
+    return part.lower().startswith(identifier.lower())
 
 
 def class_of(path: str) -> str:
@@ -73,4 +80,5 @@ def class_of(path: str) -> str:
 
 def declared_names(texts: Iterable[str]) -> frozenset[str]:
     """Return the names of all classes and components that texts declare."""
-    return frozenset(one.path[-1] for text in texts for one in declared(parse(text).classes, ()) if one.path)
+    read = (parse_without(text, plain_statements(text)).stored for text in texts)
+    return frozenset(one.path[-1] for stored in read for one in declared(stored.classes))

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import Decision, decide_package
-from urdfsync.engine.fit import Misfit, Package
+from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_names import known_names, new_name, new_names
+from urdfsync.engine.package_names import known_names, new_name, new_names, renamed_identifiers
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import replace_words
 from urdfsync.modelica.scopes import Scopes
@@ -31,7 +31,7 @@ class RenamedUses(msgspec.Struct, frozen=True):
     """The robots that keep their names until conflicts are resolved."""
     unknown: Collection[str]
     """New names that were given and that no package has."""
-    left: Sequence[tuple[Path, Unresolved, str]]
+    uncertain: Sequence[tuple[Path, Unresolved, str]]
     """Uses of old names that stay, since the new name is not certain to mean the same there: file, use, new name."""
 
 
@@ -44,30 +44,24 @@ def rename_uses(
     UrdfsyncError for a robot that can't be planned.
     """
     before, after = dict[Path, bytes](), dict[Path, bytes]()
-    pending, conflicting, unknown = list[RobotConfig](), list[str](), set(given.values())
-    left = list[tuple[Path, Unresolved, str]]()
+    pending, conflicting, unknown = list[RobotConfig](), list[str](), {*given.values()}
+    uncertain = list[tuple[Path, Unresolved, str]]()
     for robot in robots:
         generation = generate_robot(inspect(config, robot, options))
+        names = [name.lower() for name in known_names(generation)] if unknown else []
+        unknown = {new for new in unknown if not any(name.startswith(new.lower()) for name in names)}
         decision = decide_package(generation)
-        unknown -= _known(unknown, generation)
         if not decision.is_complete:
             conflicting.append(robot.name)
             continue
-        found, uses = _follow(generation, decision, given, after)
-        left += uses
-        before = {**{path: old for path, (old, _) in found.items()}, **before}
-        after |= {path: new for path, (_, new) in found.items()}
-        if found and any(action.writes for action in decision.actions):
+        changed, uses = _follow(generation, decision, given, after)
+        uncertain += uses
+        before = {**{path: old for path, (old, _) in changed.items()}, **before}
+        after |= {path: new for path, (_, new) in changed.items()}
+        if changed and any(action.writes for action in decision.actions):
             pending.append(robot)
-    return RenamedUses(
-        {path: (before[path], after[path]) for path in sorted(after)}, pending, conflicting, unknown, left
-    )
-
-
-def _known(names: Collection[str], generation: Generation) -> set[str]:
-    """Return those of the names with which a name in the package begins."""
-    known = {name.lower() for name in known_names(generation)} if names else set()
-    return {name for name in names if any(one.startswith(name.lower()) for one in known)}
+    texts = {path: (before[path], after[path]) for path in sorted(after)}
+    return RenamedUses(texts, pending, conflicting, unknown, uncertain)
 
 
 def _follow(
@@ -78,44 +72,29 @@ def _follow(
     `contents` are those of files that change for other robots. What a class redeclares by its old name is missed in
     others only once that is renamed: so all is looked through again until nothing is missed.
     """
-    words, old = dict[Path, dict[int, tuple[str, str]]](), dict[Path, bytes]()
+    old, new, renamed = dict[Path, bytes](), {**contents}, renamed_identifiers(generation)
     while True:
-        replaced = {path: dict(places) for path, places in words.items()}  # `words` grows meanwhile
-        new = {path: replace_words(old[path], places) for path, places in replaced.items()}
-        package = Package(generation, decision.actions, decision.texts, {**contents, **new}, given)
-        left, is_done, scopes = list[tuple[Path, Unresolved, str]](), True, Scopes(package.classes())
-        for misfit, use, name in _renamed(package.misfits(), package, given):
-            path = misfit.file
-            if misfit.key in decision.texts:
-                continue  # the build writes it
-            if name not in use.known or _is_users(name, scopes.node(use.owner.split(".")), scopes, package):
-                left.append((path, use, name))
+        package = Package(generation, decision.actions, decision.texts, new, given)
+        scopes, uncertain = Scopes(package.classes()), list[tuple[Path, Unresolved, str]]()
+        words = dict[Path, dict[int, tuple[str, str]]]()
+        for misfit in package.misfits():
+            use = misfit.use
+            if use is None or use.start < 0 or misfit.key in decision.texts:  # the build writes these texts
                 continue
-            old.setdefault(path, package.content_of(path))
-            start = _old_start(use.start, replaced.get(path, {}))
-            words.setdefault(path, {})[start], is_done = (use.part, name), False
-        if is_done:
-            return {path: (old[path], content) for path, content in new.items()}, left
-
-
-def _renamed(
-    misfits: Sequence[Misfit], package: Package, given: Mapping[str, str]
-) -> Iterator[tuple[Misfit, Unresolved, str]]:
-    """Yield each use of an old name with the new one."""
-    for misfit in misfits:
-        if (use := misfit.use) and use.start >= 0:
-            likely = next(new_names(use.part, given), "")
-            if name := package.new_name(use) or new_name(use.part, given, use.known) or likely:
-                yield misfit, use, name
-
-
-def _old_start(start: int, words: Mapping[int, tuple[str, str]]) -> int:
-    """Return where something began before words were replaced; these are known by where they began then."""
-    for place, (old, new) in sorted(words.items()):
-        if place >= start:
-            break
-        start -= len(new) - len(old)
-    return start
+            name = (
+                new_name(use.part, renamed, use.known)
+                or new_name(use.part, given, use.known)
+                or next(new_names(use.part, given), "")
+            )
+            if name not in use.known or _is_users(name, scopes.node(use.owner.split(".")), scopes, package):
+                uncertain += [(misfit.file, use, name)] if name else []
+            else:
+                words.setdefault(misfit.file, {})[use.start] = use.part, name
+        if not words:
+            return {path: (content, new[path]) for path, content in old.items()}, uncertain
+        for path, places in words.items():
+            old.setdefault(path, package.users[path])
+            new[path] = replace_words(package.users[path], places)
 
 
 def _is_users(name: str, owner: Node | None, scopes: Scopes, package: Package) -> bool:
@@ -126,7 +105,7 @@ def _is_users(name: str, owner: Node | None, scopes: Scopes, package: Package) -
         if node is not None and node not in seen:
             seen.add(node)
             component = node.components.get(name)
-            if component and package.is_users(Path(node.file)) and "redeclare" not in component.prefixes:
+            if component and Path(node.file) in package.own and "redeclare" not in component.prefixes:
                 return True
             waiting += [node.parent, *(base.node for base in scopes.bases(node))]
     return False

@@ -34,7 +34,7 @@ class Difference(NamedTuple):
     """The difference between an edited text and the generated one."""
 
     same: frozenset[str]
-    """The plain statements that both have."""
+    """The plain statements that both have, and that mean the same but for the names."""
     names: frozenset[str]
     """The names that other statements declare, in either text."""
     is_whole: bool
@@ -71,9 +71,10 @@ def compare(mine: str, generated: str) -> Difference:
         return Difference(same, frozenset(), is_whole=False)
     rests = [*map(parse, texts)]
     paths = (one.path for rest in rests for one in declared(rest.classes))
-    names = {path[-1] for path in paths if path[1:]}  # a class of another name is a fault of its file alone
+    names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
-    return Difference(same, frozenset(names), visible[0] != visible[1])
+    is_whole = visible[0] != visible[1]
+    return Difference(frozenset() if is_whole else same, names, is_whole)
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
