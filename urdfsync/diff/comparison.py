@@ -122,7 +122,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
     last, found = inputs.last.version, result.changes
-    missing = "" if last else "the record of the last build is lost" if inputs.last.is_recorded else "never built"
+    missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and found is not None and (found.changes or found.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))

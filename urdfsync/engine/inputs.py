@@ -71,10 +71,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     domain, store = registry.domain(robot.domain), Store(config.root)
     files = PackageFiles(config, robot)
     folder = Folder(files.key(robot.folder))
-    if options.removes:
-        above, text = Parents(listed=False), Source(b"", "")
-    else:
-        above, text = parents.check(config, robot, domain.uses(robot.options)), None
+    above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
     record, name = store.load(robot.name, strict=not options.full), robot.name
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
@@ -84,13 +81,12 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         place = shown(config.file), robot.lines[""]
         raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))
     templates = source.templates(config, robot, domain)
-    text = text or source.read_source(config, robot, store, options, name)
+    text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, name)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"
         file = shown(store.path(robot.name))
         raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
-    has_record = record is not None
     record = record or Record(
         package=robot.target.package,
         class_=robot.target.name,
@@ -99,7 +95,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         options=option_values(robot.options),
     )
     written = _find_written(store, files, {folder, record.folder})
-    last = LastBuild(name, record, has_record, written, store, files, domain, robot, templates)
+    last = LastBuild(name, record, written, store, files, domain, robot, templates)
     return Inputs(config, robot, options, domain, templates, generator, text, store, last, files, folder, above)
 
 

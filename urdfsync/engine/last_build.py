@@ -29,8 +29,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     """The robot's name then."""
     record: Record
     """Without a model and files if the robot was never built, or if its state is lost."""
-    is_recorded: bool
-    """Whether there is a recorded state."""
     written: Mapping[str, FileRecord | None]
     """Records of files that builds which are not complete have written since, by key; None for a deleted file."""
     _store: Store
