@@ -161,7 +161,7 @@ def _terminated_as_interrupted() -> Iterator[None]:
 
 
 def _parser(given: Sequence[str]) -> arguments.Parser:
-    """The parser of a command, if one comes first; else that of all."""
+    """Return the parser of a command, if one comes first; else that of all."""
     names = given[:1] if given and given[0] in _COMMANDS else _COMMANDS
     parser = arguments.Parser(
         prog="urdfsync",

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import Any
 
 import pytest
-from rich.console import Console
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason
@@ -15,7 +13,7 @@ from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import Result
 from urdfsync.merge import Merge, merge
 from urdfsync.output.conflicts import FULL, LINES, conflict_lines
-from urdfsync.output.console import Console as CommandConsole
+from urdfsync.output.console import Console
 
 pytestmark = pytest.mark.usefixtures("folder")
 
@@ -40,9 +38,7 @@ def rejected(proposal: str | None, why: str) -> Conflict:
     return Conflict(ELBOW, "link elbow", BASE, EDITED, EXPORTED, merged, rejected=why)
 
 
-def seen(
-    *found: Conflict, kind: Reason = Reason.CONFLICT, dry: bool = False, width: int | None = None, **options: Any
-) -> list[str]:
+def seen(*found: Conflict, kind: Reason = Reason.CONFLICT, dry: bool = False, **options: Any) -> list[str]:
     """What a build says of these conflicts, as it appears on a terminal of this width, or in a pipe."""
     actions = Actions(
         Action(
@@ -50,32 +46,29 @@ def seen(
         )
         for one in found
     )
-    return seen_of(actions, found, dry, width, **options)
+    return seen_of(actions, found, dry, **options)
 
 
-def seen_of(
-    actions: Actions, texts: tuple[Conflict, ...] = (), dry: bool = False, width: int | None = None, **options: Any
-) -> list[str]:
+def seen_of(actions: Actions, texts: tuple[Conflict, ...] = (), dry: bool = False, **options: Any) -> list[str]:
     package = Path(actions[0].path).parent.absolute()
     result = Result("arm", "Arm", package, Path.cwd(), actions, dry=dry, conflict_texts=texts)
-    screen = Console(file=io.StringIO(), width=width, force_terminal=width is not None, color_system=None)
-    return [str(line).rstrip() for line in conflict_lines(result, CommandConsole(**options), screen)]
+    return [str(line).rstrip() for line in conflict_lines(result, Console(**options))]
 
 
 # What happened, and what to do
 
 
 def test_what_each_side_changed_and_what_to_do() -> None:
-    assert seen(texts_of(EDITED, EXPORTED), width=100) == [
+    assert seen(texts_of(EDITED, EXPORTED)) == [
         "",
         "  conflict   modelica/Arm/Elbow.mo  link elbow",
-        "    You edited it, and its generated text changed too. The changes fit together: --merge takes both.",
+        "    You edited it, and its generated text changed too.",
+        "    The changes fit together: --merge takes both.",
         "",
         "    you         comments: changed",
         "    the export  component `b`: b 2 → 3",
         "",
-        f"    saved: {SAVED}.base.mo, {SAVED}.generated.mo,",
-        f"    {SAVED}.merge.mo",
+        "    saved in .urdfsync/conflicts/arm: Elbow.base.mo, Elbow.generated.mo, Elbow.merge.mo",
         "    urdfsync resolve modelica/Arm/Elbow.mo --merge",
         "      --merge  both sides' changes",
         "      --edit   both sides in your editor, between markers",
@@ -85,7 +78,7 @@ def test_what_each_side_changed_and_what_to_do() -> None:
 
 
 def test_verbose_shows_what_a_merge_changes() -> None:
-    assert seen(texts_of(EDITED, EXPORTED), width=100, verbose=True)[4:13] == [
+    assert seen(texts_of(EDITED, EXPORTED), verbose=True)[5:14] == [
         "    --- mine",
         "    +++ merge",
         "    @@ -3,4 +3,4 @@",
@@ -101,7 +94,7 @@ def test_verbose_shows_what_a_merge_changes() -> None:
 def test_of_many_changes_the_first_are_shown() -> None:
     many = BASE.replace("  Real b", "".join(f"  Real x{number};\n" for number in range(10)) + "  Real b")
     found = Conflict(ELBOW, "link elbow", BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
-    assert seen(found, width=100)[8:11] == [
+    assert seen(found)[9:12] == [
         "                component `x4`: added",
         "                … 5 more changes",
         "    the export  component `b`: b 2 → 3",
@@ -113,7 +106,7 @@ def test_of_a_contradiction_nothing_else_is_shown() -> None:
     generated = generated.replace("b = 2", "b = 3")
     found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
     lines = seen(found)
-    assert lines[2].endswith("Component `a`: you set `a = 7`, the export changes 1 to 9.")
+    assert lines[3].endswith("Component `a`: you set `a = 7`, the export changes 1 to 9.")
     assert not any("b = 3" in line for line in lines)
 
 
@@ -121,7 +114,7 @@ def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> No
     base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
     generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
     found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
-    assert seen(found)[4:15] == [
+    assert seen(found)[5:16] == [
         "    within Arm;",
         "    model Elbow",
         "    <<<<<<< mine",
@@ -156,12 +149,12 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         (
             *(rejected(merge(BASE, EDITED, EXPORTED).proposal, "the merge declares `x` twice"), Reason.CONFLICT),
             f"{CHANGED} --merge would not be right: the merge declares `x` twice.",
-            f"{SAVED}.merge.txt urdfsync resolve {ELBOW} --edit --edit both sides in your editor, between markers",
+            f"Elbow.merge.txt urdfsync resolve {ELBOW} --edit --edit both sides in your editor, between markers",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Reason.UNOWNED),
             "urdfsync did not write the file that is there. There is no base, so it can't be merged.",
-            f"saved: {SAVED}.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --edit both",
+            f"arm: Elbow.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --edit both",
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Reason.CONFLICT),
@@ -184,8 +177,8 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
 def test_why_a_merge_is_not_offered(found: Conflict, kind: Reason, reason: str, after: str) -> None:
     lines = seen(found, kind=kind)
     assert lines[1] == f"  conflict   {found.origin or ELBOW}  link elbow"
-    assert lines[2].endswith(reason)
     words = " ".join(" ".join(lines).split())
+    assert reason in words
     assert after in words
     assert "--merge both sides" not in words
     assert ("--take" in words) is (found.rejected != FOLDER)
@@ -197,7 +190,8 @@ def test_what_is_no_text_can_be_kept_or_taken() -> None:
     assert seen_of(Actions([action])) == [
         "",
         f"  conflict   {path}  package://arm/hand.stl",
-        f"    {CHANGED} It is not a text, so it can't be merged.",
+        f"    {CHANGED}",
+        "    It is not a text, so it can't be merged.",
         f"    urdfsync resolve {path} --keep",
         "      --keep  your file as it is",
         "      --take  the generated file",
@@ -251,7 +245,7 @@ EVIL = "\t\x1b[31m\x07\u202e\x9b2J\r\udcff"
 @pytest.mark.parametrize("width", [None, 80, 120])
 def test_text_of_files_can_not_command_a_terminal(width: int | None) -> None:
     mine, generated = (BASE.replace("a = 1;", f"a = {value}; // {EVIL} {value}") for value in (1, 2))
-    lines = seen(texts_of(mine, generated), width=width)
+    lines = seen(texts_of(mine, generated))
     assert all(line.isprintable() for line in lines)
     assert "\\x1b[31m\\x07\\u202e\\x9b2J\\r\\udcff" in "".join("".join(lines).split())
 

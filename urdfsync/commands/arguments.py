@@ -52,14 +52,14 @@ Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 
 def count(text: str) -> int:
-    """A number of processes or robots."""
+    """Return a number of processes or robots."""
     if not text.isascii() or not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of 1 or more")
     return int(text)
 
 
 def amount(text: str) -> float:
-    """A number greater than 0."""
+    """Return a number greater than 0."""
     try:
         number = float(text)
     except ValueError:
@@ -137,12 +137,12 @@ def add_limits(parser: Parser, what: str, seconds: float) -> None:
 
 
 def configuration(args: argparse.Namespace) -> Config:
-    """The configuration that the arguments name, or the nearest one. Raises ConfigError."""
+    """Return the configuration that the arguments name, or the nearest one. Raises ConfigError."""
     return config.load(args.config or config.find(config.working_folder()))
 
 
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
-    """The robots that the arguments name, or all; warns of what the configuration asks for in vain."""
+    """Return the robots that the arguments name, or all; warn of settings without effect."""
     from urdfsync.config import warnings
 
     robots = configuration.select([*args.robots, *(args.robot or [])])
@@ -151,7 +151,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
 
 
 def select_robot(args: argparse.Namespace, configuration: Config, console: Console) -> RobotConfig:
-    """The robot that the arguments name, or the only one. Raises ConfigError for several."""
+    """Return the robot that the arguments name, or the only one. Raises ConfigError for several."""
     robots = select_robots(args, configuration, console)
     if len(robots) > 1:
         names = ", ".join(robot.name for robot in robots)
@@ -161,7 +161,7 @@ def select_robot(args: argparse.Namespace, configuration: Config, console: Conso
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
-    """How to build, with what is the same for all commands."""
+    """Return how to build: the options that all commands share, and `options`."""
     return BuildOptions(
         package_paths=config.ros_package_path(os.environ),
         progress=console.progress,

@@ -82,7 +82,7 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], request: Buil
 
 
 def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:
-    """What to do with packages that were built for the first time."""
+    """Yield the next steps for packages that were built for the first time."""
     new = [result for result in results if result.is_first and not result.dry and not result.failed]
     if not new:
         return

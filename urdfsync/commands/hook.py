@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import shlex
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
@@ -42,16 +43,16 @@ _ADD_REST = "add the rest, or put it aside with `git stash push --keep-index`:"
 
 
 class CommitFault(msgspec.Struct, frozen=True):
-    """What keeps a commit from passing in one robot."""
+    """A reason why a commit does not pass, in one robot."""
 
     files: RobotFiles
     code: str
     message: str
     step: str = ""
-    """What the user can do; the command for it adds `paths`, or builds."""
+    """A step for the user; the command for it adds `paths`, or builds."""
     paths: Collection[str] = ()
     result: Result | None = None
-    """What a build did, or would do; None if nothing is to be built."""
+    """The result of a build or a dry run; None if nothing is to be built."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -94,7 +95,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
 
 
 class Commit:
-    """What is being committed, and how git names files: by their path from the top of the repository."""
+    """The files of a commit, named as git does: by their path from the top of the repository."""
 
     def __init__(self) -> None:
         """Raises GitError, and SourceError while files are unmerged."""
@@ -172,11 +173,12 @@ class RobotFiles:
 
     def select(self, paths: Iterable[str]) -> set[str]:
         """Return those of the paths that are the robot's, or a state of a robot that is no more."""
-        found = {path for path in paths if path in self.known or path.startswith((*self.folders, *self.states))}
-        others = {path for path in found - self.known if path.startswith(self.states)}
-        bases = self.states[1]
-        robots = {path: path.removeprefix(bases).partition("/")[0] for path in others if path.startswith(bases)}
-        return found - {path for path in others if robots.get(path, PurePosixPath(path).stem) in self._others}
+        return {path for path in paths if path in self.known or path.startswith(self.folders) or self._is_state(path)}
+
+    def _is_state(self, path: str) -> bool:
+        """Return whether a path is a state, such as `robots/arm.state` or `bases/arm/0`, of no other robot."""
+        place = next((place for place in self.states if path.startswith(place)), None)
+        return place is not None and re.split(r"[./]", path.removeprefix(place))[0] not in self._others
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""

@@ -46,7 +46,7 @@ _LONGEST = 80
 
 
 class Guess(msgspec.Struct, frozen=True):
-    """What is proposed for one robot."""
+    """The proposed table of one robot."""
 
     name: str
     source: str
@@ -146,7 +146,7 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
 def _guess(
     domain: Domain, source: Path, given: Mapping[str, str], root: Path, taken: Collection[str]
 ) -> tuple[Guess, Sequence[Diagnostic]]:
-    """A robot for a source, under names that are not taken; with warnings. Raises SourceError."""
+    """Return a robot for a source, under names that are not taken; with warnings. Raises SourceError."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
@@ -173,7 +173,7 @@ def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool
 
 
 def robot_table(guess: Guess, domain: Domain) -> str:
-    """The table of a robot, with its options: those that are guessed, and the others as comments."""
+    """Return the table of a robot, with its options: those that are guessed, and the others as comments."""
     lines = [
         f"[robots.{guess.name}]",
         _assignment("source", guess.source),

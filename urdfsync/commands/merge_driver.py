@@ -106,5 +106,5 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
 
 
 def _label(given: str, default: str) -> str:
-    """A label of git's as one line; git before 2.44 gives its placeholder as it is."""
+    """Return a label of git's as one line; git before 2.44 gives its placeholder as it is."""
     return default if given in ("", "%X", "%Y") else " ".join(given.split())

@@ -120,7 +120,7 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
 
 
 def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:
-    """The class: the chosen one, else that of the file if its name can be a class, else one after the source."""
+    """Return the class: the chosen one, else that of the file if its name can be a class, else one after the source."""
     name, within = args.class_, args.within
     if name and not is_class_name(name):
         hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"

@@ -93,7 +93,7 @@ def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
 
 def _reason(action: Action) -> str:
-    """Why a file stays."""
+    """Return why a file stays."""
     if action.reason is Reason.NEEDED:
         return "your own files need it"
     return "you edited it" if action.mine != action.base else "its text is not stored, and could not be given back"

@@ -58,12 +58,12 @@ class Comparison(msgspec.Struct, frozen=True):
 
     @property
     def change_class(self) -> ChangeClass:
-        """How far the changes reach."""
+        """Return how far the changes reach."""
         return self.result.changes.change_class if self.result.changes else ChangeClass.NONE
 
     @property
     def in_step(self) -> bool:
-        """Whether both versions give the same package, and the package on disk needs nothing."""
+        """Return whether both versions give the same package, and the package on disk needs nothing."""
         return self.result.in_step and self.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
 
 

@@ -64,7 +64,7 @@ class Revision:
         return content
 
     def holds(self, file: Path) -> bool:
-        """Whether a file is where this repository keeps its files, in whatever revision; a submodule keeps its own."""
+        """Return whether this repository keeps a file of this path, in whatever revision; a submodule keeps its own."""
         place = Path(os.path.realpath(file))
         if self._top not in place.parents:
             return False
@@ -110,7 +110,7 @@ class Revision:
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
-    """Whether the file has this content, or the one that a pointer of Git LFS stands for."""
+    """Return whether the file has this content, or the one that a pointer of Git LFS stands for."""
     try:
         now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
     except OSError:

@@ -1,1 +1,1 @@
-"""What several commands show, to people and to programs."""
+"""Lines for people and values for programs that several commands share."""

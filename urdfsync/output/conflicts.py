@@ -5,10 +5,8 @@ from __future__ import annotations
 import difflib
 import os
 import shlex
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -19,9 +17,6 @@ from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted, reason
 from urdfsync.state.record import Choice
-
-if TYPE_CHECKING:
-    import rich.console
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""
@@ -51,16 +46,16 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
     @property
     def shown(self) -> str:
-        """Where the user's file is, as the user would type it."""
+        """Return where the user's file is, as the user would type it."""
         return shown_path(self.result, self.action.origin or self.action.path)
 
     @property
     def merges(self) -> bool:
-        """Whether `--merge` settles it."""
+        """Return whether `--merge` settles it."""
         return self.offers(Choice.MERGE)
 
     def offers(self, choice: Choice) -> bool:
-        """Whether a choice to merge settles it."""
+        """Return whether a choice to merge settles it."""
         return self.texts is not None and self.texts.merged(choice) is not None
 
 
@@ -108,13 +103,13 @@ def shown_path(result: Result, path: str) -> str:
     return shown(Path(os.path.normpath(result.root / path)))
 
 
-def conflict_lines(result: Result, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
+def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
     conflicts = find_conflicts([result])
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
     for target in conflicts[:full]:
         yield line(("", ""))
-        yield from _full_lines(target, console, screen)
+        yield from _full_lines(target, console)
     if full and conflicts[full:]:
         yield line(("", ""))
     for target in conflicts[full:]:
@@ -133,14 +128,13 @@ def conflict_lines(result: Result, console: Console, screen: rich.console.Consol
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 
-def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Console) -> Iterator[StyledLine]:
+def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
     """Yield one conflict: what happened, the lines at issue, where the versions are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
-    story = f"{_sentence(reason(action, result.changes, brief=True))} {_sentence(describe(target))}"
-    if action.origin:
-        story += f" It will be moved to {shown_path(result, action.path)}."
-    yield from _paragraph(story, "", screen)
+    clauses = [reason(action, result.changes, brief=True), describe(target)]
+    clauses += [f"it will be moved to {shown_path(result, action.path)}"] if action.origin else []
+    yield from (line((f"    {_sentence(clause)}", "")) for clause in clauses)
     if target.texts:
         saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
         lines = [] if console.verbose else _element_lines(target.texts)
@@ -152,7 +146,8 @@ def _full_lines(target: DisputedFile, console: Console, screen: rich.console.Con
             yield line((f"    … {counted(rest, 'more line')}; {see}", "dim"))
         yield line(("", ""))
         if not result.dry:
-            yield from _paragraph(f"saved: {', '.join(saved.values())}", "dim", screen)
+            folder = Path(saved["generated"]).parent
+            yield line((f"    saved in {folder}: {', '.join(Path(path).name for path in saved.values())}", "dim"))
     choices = _choices(target)
     width = max(map(len, choices))
     typed = f"./{name}" if name.startswith("-") else name
@@ -257,13 +252,6 @@ def _command(arguments: Sequence[str], console: Console) -> str:
     if os.name == "nt":
         return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
     return shlex.join(command)
-
-
-def _paragraph(words: str, style: str, screen: rich.console.Console) -> Iterator[StyledLine]:
-    """Yield indented text; a terminal's lines are broken so that they keep the indent."""
-    width = max(screen.width - 4, 20) if screen.is_terminal else len(words)
-    for part in textwrap.wrap(words, width, break_on_hyphens=False):
-        yield line((f"    {part}", style))
 
 
 def _sentence(clause: str) -> str:

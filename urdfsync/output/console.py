@@ -43,23 +43,23 @@ class StyledLine(msgspec.Struct, frozen=True):
     parts: tuple[tuple[str, str], ...]
 
     def __str__(self) -> str:
-        """The line without styles."""
+        """Return the line without styles."""
         return "".join(text for text, _ in self.parts)
 
     def __rich__(self) -> Text:
-        """The line with styles."""
+        """Return the line with styles."""
         from rich.text import Text
 
         return Text.assemble(*self.parts)
 
 
 def line(*parts: tuple[str, str]) -> StyledLine:
-    """One line of pieces of text with their styles. Nothing in it can move the cursor or turn the writing round."""
+    """Return a line of pieces of text with their styles. It can neither move the cursor nor turn the writing round."""
     return StyledLine(tuple((visible(text), style) for text, style in parts))
 
 
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
-    """So many lines, the last of which stands for those that are left out; with `verbose` all of them."""
+    """Return `most` lines, the last of which counts those that are left out; with `verbose` all."""
     rest = len(lines) - most + 1
     if verbose or rest < 2:
         return lines
@@ -67,14 +67,14 @@ def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: b
 
 
 def visible(text: str) -> str:
-    """The text with everything escaped that a terminal would obey instead of showing it."""
+    """Return the text with everything escaped that a terminal would obey instead of showing it."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
-    """Diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
+    """Return diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
     if quiet:
         diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
     total, seen, hidden = Counter(found.code for found in diagnostics), Counter[str](), Counter[str]()
@@ -93,17 +93,17 @@ def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -
 
 
 def is_terminal(stream: IO[str]) -> bool:
-    """Whether people look at the stream, or want it to look as if."""
+    """Return whether people look at the stream, or want it to look as if."""
     return stream.isatty() or bool(os.environ.get("FORCE_COLOR"))
 
 
 def has_marks(stream: IO[str]) -> bool:
-    """Whether signs like ✓ can be shown."""
+    """Return whether signs like ✓ can be shown."""
     return is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
 
 
 def rich_console(stream: IO[str]) -> rich.console.Console:
-    """A console of rich on this stream, with colours if they are understood and wanted."""
+    """Return a console of rich on this stream, with colours if they are understood and wanted."""
     from rich.console import Console
 
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
@@ -124,7 +124,7 @@ def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
 
 
 class Console:
-    """What one command shows, as its options want it."""
+    """The output of one command, as its options want it."""
 
     def __init__(self, *, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
         """`config` is the configuration as the user named it, for commands that are proposed."""
@@ -145,17 +145,17 @@ class Console:
             self.print(findings(diagnostics, quiet=self.quiet, verbose=self.verbose), error=True)
 
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
-        """Diagnostics that belong to no robot and do not stop the command."""
+        """Show diagnostics that belong to no robot and do not stop the command."""
         self._warnings = diagnostics
         self.findings(diagnostics)
 
     def add_robot(self, values: Mapping[str, Any]) -> None:
-        """One more robot of the JSON document; those of a command that fails later are in its document, too."""
+        """Add a robot to the JSON document; those of a command that fails later are in its document, too."""
         self.stop_progress()
         self._robots.append(values)
 
     def end(self, command: str, code: int, diagnostics: Sequence[Diagnostic] = ()) -> None:
-        """The end of a command: what stopped it, or the JSON document of its robots."""
+        """End a command: show what stopped it, or the JSON document of its robots."""
         self.stop_progress()
         if self.json:
             self.write_json(command, code, {"robots": self._robots}, diagnostics)

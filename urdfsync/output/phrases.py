@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 NOT_EXPANDED = "inputs changed since the last build"
-"""What is said of a source that xacro, or a command, would have to make again."""
+"""Words for a source that xacro, or a command, would have to make again."""
 BROKEN = "broken: a file that you edited does not fit"
-"""What is said of a package in which a name means nothing, or a file is no Modelica."""
+"""Words for a package in which a name means nothing, or a file is no Modelica."""
 _NAMED = {
     Reason.UPDATE: "{}",
     Reason.MERGE: "{}; merged with your edits",
@@ -38,7 +38,7 @@ def error_count(diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def summary(result: Result) -> str:
-    """What happened to a robot's package (in a dry run: what would), as the rest of a line that names the robot."""
+    """Return what happened to a package, or would in a dry run, as the rest of a line that names the robot."""
     if result.failed:
         end = "the next build finishes it" if result.unfinished else "nothing was changed"
         return f"{error_count(result.diagnostics)}, {end}"
@@ -54,7 +54,7 @@ def summary(result: Result) -> str:
 
 
 def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
-    """What the check after a build said, as the rest of a line that names the robot."""
+    """Return what the check after a build said, as the rest of a line that names the robot."""
     return {
         Checked.RIGHT: "checked: compiles",
         Checked.INCOMPLETE: "checked in part",
@@ -63,7 +63,7 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def action_counts(result: Result, silent: Container[Reason] = ()) -> list[str]:
-    """A phrase for each reason that is not `silent`, with the number of files, and for what waits."""
+    """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
     reasons = Counter(action.reason for action in result.actions.decided if not action.held)
     reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
     reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0)
@@ -86,7 +86,7 @@ def action_counts(result: Result, silent: Container[Reason] = ()) -> list[str]:
 
 
 def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
-    """Why an action happens, as the end of a sentence that begins with the path, and what it waits for.
+    """Return why an action happens, as the end of a sentence that begins with the path, and what it waits for.
 
     Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, their
     elements are, `link forearm`: the changes are listed beside it.
@@ -116,7 +116,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
 
 
 def generator_change(changes: Changes) -> str:
-    """What else than the model changed: options by their names, if nothing but options did."""
+    """Return what changed beside the model: options by their names, if nothing but options did."""
     if not changes.options:
         return "a template, an option or urdfsync itself changed"
     names = " and ".join(f"`{name}`" for name in changes.options)
@@ -124,7 +124,7 @@ def generator_change(changes: Changes) -> str:
 
 
 def change_lines(changes: Changes, most: int | None = None, *, everything: bool = False) -> list[str]:
-    """What changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`.
+    """Return what changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`.
 
     How much it is comes first, if it is several things. Where that takes more than `most` lines, each element has one.
     """
@@ -140,7 +140,7 @@ def change_lines(changes: Changes, most: int | None = None, *, everything: bool 
 
 
 def change_counts(changes: Changes) -> str:
-    """`+2 −1 ~42 (4 structural and 51 parameter changes)`: elements that come, go and change, unless it is one."""
+    """Return how many elements come, go and change: `+2 −1 ~42 (4 structural and 51 parameter changes)`."""
     marks = {change.element: "~" for change in changes.changes}
     marks |= {one.element: _SIGNS.get(one.kind, "~") for one in changes.changes if len(one.path) == 1}
     elements = Counter(marks.values())

@@ -13,7 +13,7 @@ from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line, rich_console
+from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
 from urdfsync.output.phrases import change_counts, change_lines, counted, reason, summary
 from urdfsync.output.repeated import has_same_changes, show_findings
 
@@ -30,7 +30,7 @@ _CHANGES = 12
 
 
 def action_word(action: Action) -> tuple[str, str]:
-    """What happens to a file in a word, and its style."""
+    """Return what happens to a file in a word, and its style."""
     if action.held:
         return "waiting", "yellow"
     left = _STYLES_LEFT.get(action.reason.status, "dim")
@@ -38,7 +38,7 @@ def action_word(action: Action) -> tuple[str, str]:
 
 
 def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
-    """The first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
+    """Return the first line about a robot, with a mark where it can be shown: `✓ arm: in step`."""
     is_wrong = result.failed or result.checked is Checked.WRONG
     mark = ("✗ ", "bold red") if is_wrong else ("✓ ", "green") if is_fine else ("! ", "yellow")
     marks = [mark] if has_marks(sys.stderr if result.failed else sys.stdout) else []
@@ -46,12 +46,12 @@ def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
 
 
 def file_line(path: str, word: str, style: str, why: str = "") -> StyledLine:
-    """A line for one file: `  update     modelica/Arm/Arm.mo  why`."""
+    """Return a line for one file: `  update     modelica/Arm/Arm.mo  why`."""
     return line((f"  {word:<9}  ", style), (path, ""), (f"  {why}" if why else "", "dim"))
 
 
 def change_line(text: str) -> StyledLine:
-    """A line about a change, with its element in bold: `  link fore: inertial / mass 1 → 1.2 kg (+20 %)`."""
+    """Return a line about a change, with its element in bold: `  link fore: inertial / mass 1 → 1.2 kg (+20 %)`."""
     element, colon, what = text.partition(": ")
     styles = {"added": "green", "removed": "red", "renamed": "cyan", "rounding": "dim", "not modelled": "dim"}
     style = next((styles[word] for word in styles if what.startswith(word)), "")
@@ -82,14 +82,13 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
         lines += result_lines(result, verbose=console.verbose, explain=explain, is_brief=is_brief)
     console.print(lines, error=result.failed)
     if result.conflicts:
-        screen = rich_console(sys.stderr if result.failed else sys.stdout)
-        console.print(conflict_lines(result, console, screen), error=result.failed)
+        console.print(conflict_lines(result, console), error=result.failed)
 
 
 def result_lines(
     result: Result, *, verbose: bool, explain: bool = False, is_brief: bool = False
 ) -> Iterator[StyledLine]:
-    """What changed, files and the diagram: all but headline and conflicts; `explain` names every file.
+    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file.
 
     If `is_brief`, changes are counted.
     """

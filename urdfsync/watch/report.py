@@ -259,7 +259,7 @@ class Report:
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
-            yield from map(LogLine, conflict_lines(result, self._console, self._screen))
+            yield from map(LogLine, conflict_lines(result, self._console))
 
     def _checked(self, event: events.CheckDone, clock: str) -> Iterator[LogLine]:
         """Yield the line of a check, and its findings unless they are those of the last one."""
