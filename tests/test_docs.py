@@ -49,6 +49,14 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
             assert not anchor or anchor in anchors(file), f"{target}#{anchor}"
 
 
+def test_files_of_the_repository_that_pages_name_are_there() -> None:
+    for page in PAGES:
+        for path in re.findall(
+            r"(?<![\w/.])(?:docs|tests|tools|urdfsync)/[\w/]+\.(?:py|md)\b", page.read_text(encoding="utf-8")
+        ):
+            assert (REPOSITORY / path).exists(), f"{page.name}: {path}"
+
+
 def anchors(page: Path) -> set[str]:
     """The names that GitHub gives to the headings of a page."""
     text = re.sub(r"^( *)```.*?^\1```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
