@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 from support import urdfs
 from support.urdfs import joint, link
 
-from urdfsync.diagnostics import Diagnostic, Severity, cut
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError, cut
 from urdfsync.urdf.parse.source import read_robot
 
 LONG = "a" * 100_000
@@ -38,3 +40,11 @@ def test_the_middle_is_left_out() -> None:
     said = Diagnostic(Severity.ERROR, "code", f"link {LONG} is bad", hint="rename it")
     assert said.message.startswith("link aaa")
     assert said.message.endswith("aaa is bad")
+
+
+def test_an_error_that_a_worker_raises_keeps_what_was_read() -> None:
+    error = SourceError(Diagnostic(Severity.ERROR, "xml-syntax", "this is no XML", "arm.urdf"))
+    error.reads = ("/cad/arm.xacro",)
+    copy = pickle.loads(pickle.dumps(error))
+    assert (copy.diagnostics, copy.reads, str(copy)) == (error.diagnostics, error.reads, str(error))
+    assert str(copy) == "arm.urdf: error: this is no XML [xml-syntax]"

@@ -48,11 +48,11 @@ class FileKind(NamedTuple):
 
 def find_kind(content: bytes) -> FileKind | None:
     """Return what a file is, if it is none that has a robot in it as XML, or one of unknown kind."""
-    found = next((one for one in _PACKED if content.startswith(one[0])), None)
+    packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
-        found = b"", "a tar archive", "tar xf FILE"
-    if found:
-        return FileKind("compressed", f"the file is {found[1]}", f"unpack it (`{found[2]}`), and name what is in it")
+        packed = b"", "a tar archive", "tar xf FILE"
+    if packed:
+        return FileKind("compressed", f"the file is {packed[1]}", f"unpack it (`{packed[2]}`), and name what is in it")
     for code, pattern, message in _OTHERS:
         if match := re.match(pattern, content[:_BEGINNING]):
             return FileKind(code, message, HINTS[code], content.count(b"\n", 0, match.end()) + 1)

@@ -71,11 +71,11 @@ def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:
     """The line, counted from 1, at which each key or table first stands, by its full path."""
-    found: dict[tuple[str, ...], int] = {}
+    lines: dict[tuple[str, ...], int] = {}
     for number, (_, path) in enumerate(_paths(text), start=1):
         for length in range(1, min(len(path), DEEPEST) + 1):
-            found.setdefault(path[:length], number)
-    return found
+            lines.setdefault(path[:length], number)
+    return lines
 
 
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:

@@ -25,25 +25,25 @@ def model_class(package: str, chosen: str) -> str:
 def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
     """Key, message and hint for each fault of the keys `package` and `class`; `chosen` is the class or empty."""
     parts = package.split(".")
-    found = []
+    problems = []
     for key, name in [*(("package", part) for part in parts), *([("class", chosen)] if chosen else [])]:
         if name in KEYWORDS:
-            found.append((key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name)))
+            problems.append((key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name)))
         elif not is_identifier(name):
             hint = "use letters, digits and `_`, a letter first"
-            found.append((key, f"`{key}`: {name!r} is no Modelica identifier", hint))
-    if found:
-        return found
+            problems.append((key, f"`{key}`: {name!r} is no Modelica identifier", hint))
+    if problems:
+        return problems
     for index, part in enumerate(parts):
         in_own_library = part == LIBRARY and index == 0 and len(parts) > 1  # whether it exists is known at the build
         if not may_be_package(part) and not in_own_library:
             message = f"`package`: `{part}` can't be a package: the name is reserved by Modelica, Windows or urdfsync"
-            found.append(("package", message, _example(part)))
+            problems.append(("package", message, _example(part)))
     name = model_class(package, chosen)
-    if not found and not is_class_name(name):
+    if not problems and not is_class_name(name):
         hint = "set `class` to a name that begins with a capital and is not reserved by Modelica or urdfsync"
-        found.append(("class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint))
-    return found
+        problems.append(("class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint))
+    return problems
 
 
 def _example(name: str) -> str:

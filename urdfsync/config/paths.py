@@ -26,8 +26,8 @@ def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
     """The folders that hold packages of ROS 1, by ROS_PACKAGE_PATH, and those of ROS 2, by AMENT_PREFIX_PATH."""
     folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    found = [*filter(None, folders), *(f"{prefix}/share" for prefix in prefixes if prefix)]
-    return tuple(Path(folder).absolute() for folder in found)
+    paths = [*filter(None, folders), *(f"{prefix}/share" for prefix in prefixes if prefix)]
+    return tuple(Path(folder).absolute() for folder in paths)
 
 
 def library_folder() -> Path:

@@ -18,14 +18,14 @@ _SUFFIX = ".jinja"
 
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
     """Search paths that do not exist; files in template folders that no template of the domain or other file names."""
-    found = (one for robot in robots for one in robot.without_ignored(_find_warnings(config, robot)))
-    return tuple(dict.fromkeys(found))
+    warnings = (said for robot in robots for said in robot.without_ignored(_find_warnings(config, robot)))
+    return tuple(dict.fromkeys(warnings))
 
 
 def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
-    gone = [("package_paths", "the folder ", path) for path in robot.package_paths if not is_folder(path)]
-    gone += [("users", "", path) for path in robot.users if not file_type(path)]
-    for key, noun, path in gone:
+    missing = [("package_paths", "the folder ", path) for path in robot.package_paths if not is_folder(path)]
+    missing += [("users", "", path) for path in robot.users if not file_type(path)]
+    for key, noun, path in missing:
         message, line = f"{noun}{shown(path)} of `{key}` does not exist", robot.lines.get(key, 0)
         code, hint = "no-package-path" if key == "package_paths" else "no-users-path", "correct it, or take it out"
         yield Diagnostic(Severity.WARNING, code, message, shown(config.file), line, hint=hint)

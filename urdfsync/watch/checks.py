@@ -32,7 +32,7 @@ class CheckEnded(msgspec.Struct, frozen=True):
     """A check has ended; without findings if it was cancelled."""
 
     job: CheckJob
-    found: BuildCheck | None
+    result: BuildCheck | None
 
 
 class CancelledError(Exception):
@@ -77,23 +77,23 @@ class CheckQueue:
         if job is not None and key is not None and job.key == key:
             return ()
         self._jobs.pop(robot.name, None)  # the files of an older check are not on disk any more
-        found = self._checker.known(key)
-        if found is None:
+        known = self._checker.known(key)
+        if known is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
         # right as before, perhaps for an earlier daemon: there is nothing new to say
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
-        event = self._note(robot, found)
-        return () if was_right and found.checked is Checked.RIGHT else (event,)
+        event = self._note(robot, known)
+        return () if was_right and known.checked is Checked.RIGHT else (event,)
 
     def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
         """Take note of the end of a check, and start the next."""
         self._thread = None
         robot = ended.job.robot
-        if ended.found is None or self._jobs.get(robot.name) is not ended.job:
+        if ended.result is None or self._jobs.get(robot.name) is not ended.job:
             return self._start_next()
         del self._jobs[robot.name]
-        return self._note(robot, ended.found), *self._start_next()
+        return self._note(robot, ended.result), *self._start_next()
 
     def _start_next(self) -> Sequence[events.Event]:
         if self._thread is not None or not self._jobs:
@@ -108,19 +108,19 @@ class CheckQueue:
             if self._jobs.get(job.robot.name) is not job:
                 raise CancelledError
 
-        found = None
+        result = None
         try:
-            found = next(checker.check([job.robot], cancel_here))
+            result = next(checker.check([job.robot], cancel_here))
         except CancelledError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            found = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked: "),))
+            result = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked: "),))
         finally:
-            self._queue.put(CheckEnded(job, found))
+            self._queue.put(CheckEnded(job, result))
 
-    def _note(self, robot: RobotConfig, found: BuildCheck) -> events.CheckDone:
+    def _note(self, robot: RobotConfig, result: BuildCheck) -> events.CheckDone:
         """Return the event of a check that has ended; findings about the machine are told once."""
-        new = tuple(one for one in robot.without_ignored(found.diagnostics) if one not in self._told)
-        self._told.update(one for one in new if is_general(one))
-        self._last[robot.name] = found.checked
-        return events.CheckDone(robot.name, found.checked, round(found.seconds, 3), new)
+        new = tuple(finding for finding in robot.without_ignored(result.diagnostics) if finding not in self._told)
+        self._told.update(filter(is_general, new))
+        self._last[robot.name] = result.checked
+        return events.CheckDone(robot.name, result.checked, round(result.seconds, 3), new)

@@ -65,11 +65,11 @@ def _dependencies(robot: RobotConfig, state: Record, package_paths: Sequence[Pat
         return
     lookup = Lookup(robot.source, (*robot.package_paths, *package_paths))
     try:
-        found = find_dependencies(registry.domain(robot.domain), state.snapshot, lookup, robot.options, {})
+        dependencies = find_dependencies(registry.domain(robot.domain), state.snapshot, lookup, robot.options, {})
     except Exception:  # noqa: BLE001 - no model of the domain, or a mistake in it: the build tells it
         return
-    for dependency in found:
-        others = [name for one in state.imports.get(dependency.key, ()) for name in one.others]
+    for dependency in dependencies:
+        others = [name for imported in state.imports.get(dependency.key, ()) for name in imported.others]
         for path in map(str, dependency.candidates):
             yield path
             if os.path.isfile(path) and os.access(path, os.R_OK):  # noqa: PTH113
@@ -89,8 +89,8 @@ class WatchedPaths(msgspec.Struct, frozen=True):
 
     def robots_for(self, path: str) -> set[str]:
         """Return the robots to which a change of a path matters."""
-        found = {*self.by_path.get(path, ()), *self.by_path.get(_any_file(os.path.dirname(path)), ())}  # noqa: PTH120
-        return found.union(*(robots for tree, robots in self.trees.items() if path.startswith(f"{tree}{os.sep}")))
+        robots = {*self.by_path.get(path, ()), *self.by_path.get(_any_file(os.path.dirname(path)), ())}  # noqa: PTH120
+        return robots.union(*(names for tree, names in self.trees.items() if path.startswith(f"{tree}{os.sep}")))
 
 
 def find_watched_paths(config: Config, paths: Mapping[str, RobotPaths]) -> WatchedPaths:
