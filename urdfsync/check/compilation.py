@@ -214,12 +214,12 @@ def _as_part(finding: Diagnostic) -> Diagnostic:
     return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
 
-def compare(compared: Iterable[Compared], found: Series, expected: Series) -> tuple[Deviation, ...]:
+def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
     """Return how far values are from those expected, at beginning and end; what is no number is infinitely far."""
     deviations: list[Deviation] = []
     for one in compared:
         places = [(name, instant) for name in one.values for instant in (0, -1)]
-        pairs = [(_number(found, *place), _number(expected, *place)) for place in places]
+        pairs = [(_number(series, *place), _number(expected, *place)) for place in places]
         differences = [abs(value - other) for value, other in pairs]
         greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
@@ -247,15 +247,15 @@ def edit_effects(
     Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
     """
 
-    def effect(files: Sequence[str], found: Sequence[Deviation]) -> EditEffect:
-        return EditEffect(tuple(files), tuple(found), tuple(dict.fromkeys(owners[file] for file in files)))
+    def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
+        return EditEffect(tuple(files), tuple(deviations), tuple(dict.fromkeys(owners[file] for file in files)))
 
     changes = [one for one in whole if not agrees(one)]
-    apart = {file: [one for one in found if not agrees(one)] for file, found in single.items()}
-    told = {(one.quantity, one.element, one.unit) for found in apart.values() for one in found}
-    rest = [one for one in changes if (one.quantity, one.element, one.unit) not in told]
+    apart = {file: [one for one in deviations if not agrees(one)] for file, deviations in single.items()}
+    explained = {(one.quantity, one.element, one.unit) for deviations in apart.values() for one in deviations}
+    rest = [one for one in changes if (one.quantity, one.element, one.unit) not in explained]
     quiet = [file for file in files if not apart.get(file)]
-    yield from (effect([file], found) for file, found in apart.items() if found)
+    yield from (effect([file], deviations) for file, deviations in apart.items() if deviations)
     if rest or quiet:
         yield effect(quiet or files, rest)
 
@@ -277,20 +277,20 @@ def explain(
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
-    said = compiler.complaints(problem) or [Complaint(one_line(problem))] * bool(problem.strip())
-    complaints = [one for one in said if one.code == "does-not-compile"] or said
+    every = compiler.complaints(problem) or [Complaint(one_line(problem))] * bool(problem.strip())
+    complaints = [one for one in every if one.code == "does-not-compile"] or every
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
     placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
-    found = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
-    return list(found)[:_MOST_DIAGNOSTICS]
+    findings = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
+    return list(findings)[:_MOST_DIAGNOSTICS]
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
     """Return warnings for a compiler's text about a model that compiles, those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
     own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
-    found = [_diagnostic(one, package, one.code) for one in own]
-    return [msgspec.structs.replace(one, severity=Severity.WARNING) for one in found]
+    findings = [_diagnostic(one, package, one.code) for one in own]
+    return [msgspec.structs.replace(one, severity=Severity.WARNING) for one in findings]
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:

@@ -65,9 +65,9 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     contents = {path: text for path, text in package.users_files.items() if path in unplaced}
     unplaced = files_that_use(contents, [robot.folder.name]).keys() - around.keys()
     users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
-    found = [one for path in sorted(unplaced) for one in _check_place(path, others)]
-    found += _findings(package, [one for one in places if one[0] in using])
-    return NameCheck(own, found, users_files, uses)
+    users = [one for path in sorted(unplaced) for one in _check_place(path, others)]
+    users += _findings(package, [one for one in places if one[0] in using])
+    return NameCheck(own, users, users_files, uses)
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
@@ -87,8 +87,8 @@ def _findings(package: RobotPackage, places: Iterable[tuple[Path, Unresolved]]) 
     alike: dict[tuple[Path, UnresolvedKind, str, str], list[Unresolved]] = {}
     for file, one in places:
         alike.setdefault((file, one.kind, one.owner, one.part), []).append(one)
-    found = [_diagnostic(package, file, uses) for (file, *_), uses in alike.items()]
-    return sorted(found, key=lambda one: (one.file, one.line))
+    findings = [_diagnostic(package, file, uses) for (file, *_), uses in alike.items()]
+    return sorted(findings, key=lambda one: (one.file, one.line))
 
 
 def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:

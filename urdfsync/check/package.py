@@ -194,21 +194,21 @@ def users_models(
     models, libraries, left_out = dict[str, Path](), dict[str, Path](), list[Path]()
     top = robot.target.package.partition(".")[0]
     for path, content in files.items():
-        found = parse(text_of(content))
-        around = tuple(found.within.split(".")) if found.within else ()
+        text = parse(text_of(content))
+        around = tuple(text.within.split(".")) if text.within else ()
         place = path.parent if path.name == "package.mo" else path
-        name = (*around, found.classes[0].name.parts[0]) if len(found.classes) == 1 else ()
+        name = (*around, text.classes[0].name.parts[0]) if len(text.classes) == 1 else ()
         root = place.parents[len(around) - 1] if 0 < len(around) <= len(place.parents) else place
         is_stored = place.with_suffix("").parts[-len(name) :] == name and (
             not around or (root / "package.mo").is_file()
         )
         is_around = bool(name) and name[0] == top and root == robot.output / top
-        if found.is_broken or not name or not is_stored or (name[0] == top and not is_around):
+        if text.is_broken or not name or not is_stored or (name[0] == top and not is_around):
             left_out.append(path)
             continue
         if not is_around:
             libraries[name[0]] = root
-        models |= dict.fromkeys(_models_in(found.classes, around), path)
+        models |= dict.fromkeys(_models_in(text.classes, around), path)
     return UsersModels(models, libraries, tuple(left_out), uses or {})
 
 

@@ -185,19 +185,19 @@ def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] 
     """Return deviations as plain data; JSON has no infinite numbers."""
     if deviations is None:
         return None
-    found = []
+    every = []
     for one in deviations:
         values = {**msgspec.structs.asdict(one), "relative": one.relative}
         for name, value in values.items():
             values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
-        found.append({**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"})
-    return found
+        every.append({**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"})
+    return every
 
 
 def summary(result: CheckResult, strict: bool) -> str:
     """Return the verdict, what compiles, and how far it agrees with the reference, in one line."""
     errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
-    said = [counted(errors, "error")] if errors else []
+    facts = [counted(errors, "error")] if errors else []
     if result.compiled:
         own = [one for one in result.compiled if not one.is_users]
         count, users = len(own), len(result.compiled) - len(own)
@@ -205,19 +205,19 @@ def summary(result: CheckResult, strict: bool) -> str:
         yours = f", and {users} of yours" if users else ""
         if failing := len({name for tool in result.tools for name in tool.failing}):
             yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
-        said.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
+        facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
         if result.freedoms is not None:
-            said.append(f"{counted(result.freedoms, 'degree')} of freedom")
+            facts.append(f"{counted(result.freedoms, 'degree')} of freedom")
         if model.unknowns:
-            said.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
+            facts.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
     elif not errors:
-        said.append("syntax and layout")
+        facts.append("syntax and layout")
     for name, quantities in _KINDS:
         if worst := largest(result.deviations, quantities):
             agreement = f"agree to {worst.relative:.1e}" if worst.difference else "agree exactly"
             place = "" if quantities is MASSES else f" ({worst.element})"
-            said.append(f"{name} {agreement if agrees(worst) else 'differ'}{place}")
-    return f"{verdict(result, strict)}: {'; '.join(said)}; {result.seconds:.1f} s"
+            facts.append(f"{name} {agreement if agrees(worst) else 'differ'}{place}")
+    return f"{verdict(result, strict)}: {'; '.join(facts)}; {result.seconds:.1f} s"
 
 
 def verdict(result: CheckResult, strict: bool) -> str:
@@ -236,12 +236,12 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
     the root carries everything, the last joint.
     """
     for _, quantities in _KINDS:
-        found = [one for one in deviations if one.quantity in quantities]
+        kind = [one for one in deviations if one.quantity in quantities]
         if quantities is EFFORTS:
-            found.reverse()
-        found.sort(key=lambda one: (one.element not in owners, one.quantity is Quantity.REACTION))
-        if names := list(dict.fromkeys(one.element for one in found)):
-            yield found[0], f" (also {listed(names[1:])})" if names[1:] else ""
+            kind.reverse()
+        kind.sort(key=lambda one: (one.element not in owners, one.quantity is Quantity.REACTION))
+        if names := list(dict.fromkeys(one.element for one in kind)):
+            yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
 
 
 def _edited(effect: EditEffect) -> str:

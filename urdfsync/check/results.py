@@ -194,11 +194,11 @@ def largest(deviations: Iterable[Deviation], quantities: Sequence[Quantity]) -> 
 
 def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
     """2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
-    found = {result.status(strict) for result in results}
-    if CheckStatus.FAILED in found:
+    verdicts = {result.status(strict) for result in results}
+    if CheckStatus.FAILED in verdicts:
         return Exit.ERROR
     wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
-    return Exit.OUT_OF_STEP if found & wrong else Exit.IN_STEP
+    return Exit.OUT_OF_STEP if verdicts & wrong else Exit.IN_STEP
 
 
 def listed(names: Sequence[str]) -> str:

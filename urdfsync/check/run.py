@@ -54,7 +54,7 @@ def check_robots(
         futures = {one.name: pool.submit(check_robot, config, one, share, place) for one in robots}
         for robot in robots:
             result = _result(robot, futures, pool, progress)
-            if count > 1 and any(found.code == "out-of-memory" for found in result.diagnostics):
+            if count > 1 and any(one.code == "out-of-memory" for one in result.diagnostics):
                 wait(futures.values())  # alone it may take all that there is
                 whole = msgspec.structs.replace(share, memory=budget)
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)

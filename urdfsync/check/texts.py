@@ -32,7 +32,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
 
     What is generated never gets one.
     """
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
     misnamed: dict[PurePosixPath, set[str]] = {}  # by folder, names in it that no class can have
     declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
@@ -42,7 +42,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             name = culprit.stem if is_file else culprit.name
             message = f"`{name}` can't be the name of a {'class' if is_file else 'package'}"
             hint = f"rename the {'file' if is_file else 'folder'}, or move it elsewhere"
-            found.append(package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint))
+            findings.append(package.diagnostic(_ERROR, "wrong-name", message, str(culprit), hint=hint))
             misnamed.setdefault(culprit.parent, set()).update((name, culprit.name))
             continue
         place = class_path(path)
@@ -51,17 +51,17 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             if part.parts:
                 stored.setdefault(part.parent, set()).add(part.name)
         text, faults = _check_file(package, str(path), ".".join((package.name, *place.parts)))
-        found += faults
+        findings += faults
         if path.name == PACKAGE_FILE and text:
             inside = [one for one in declared(text.classes) if len(one.path) == 2]
             declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
     for folder in sorted(stored):
-        found += _check_folder(package, folder, stored, declarations.get(folder, {}))
+        findings += _check_folder(package, folder, stored, declarations.get(folder, {}))
         if str(folder / _ORDER) in package.texts:
             present = stored[folder] | declarations.get(folder, {}).keys()
             others = misnamed.get(folder, set()) if folder in declarations else None
-            found += _check_order(package, folder, present, others)
-    return sorted(dict.fromkeys(found), key=lambda one: (one.file, one.line))
+            findings += _check_order(package, folder, present, others)
+    return sorted(dict.fromkeys(findings), key=lambda one: (one.file, one.line))
 
 
 def _check_folder(
@@ -99,13 +99,13 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
 
     `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
     """
-    found, package = list[Diagnostic](), PackageTexts("", output, files)
+    findings, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
         ignored = {"repeated", "second-class", *([] if path.name == PACKAGE_FILE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
-        said = _check_file(package, str(path), ".".join(class_path(path).parts))[1]
-        found += [one for one in said if one.code not in ignored]
-    return found
+        faults = _check_file(package, str(path), ".".join(class_path(path).parts))[1]
+        findings += [one for one in faults if one.code not in ignored]
+    return findings
 
 
 def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
@@ -113,9 +113,9 @@ def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]
-    found, said = check_class_file(text, PurePosixPath(path), name)
-    return found, [
-        package.diagnostic(one.severity, one.code, one.message, path, one.line, hint=one.hint) for one in said
+    stored, faults = check_class_file(text, PurePosixPath(path), name)
+    return stored, [
+        package.diagnostic(one.severity, one.code, one.message, path, one.line, hint=one.hint) for one in faults
     ]
 
 
@@ -173,11 +173,11 @@ def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
     hint = "`urdfsync build` brings back what it imported; else put the file there"
     for path in sorted(package.on_disk):
         text, addresses = package.files.text(path), set[str]()
-        for found in _URI.finditer(text):
-            top, folder = found[1], output.joinpath(*found[1].split("."))
+        for match in _URI.finditer(text):
+            top, folder = match[1], output.joinpath(*match[1].split("."))
             is_ours = f"{own}.".startswith(f"{top}.") or top.startswith(f"{own}.")
-            if is_ours and folder.is_dir() and found[0] not in addresses and not (folder / found[2]).exists():
-                addresses.add(found[0])
-                line = text.count("\n", 0, found.start()) + 1
-                message = f"it refers to `{found[0][1:-1]}`, and there is no such file"
+            if is_ours and folder.is_dir() and match[0] not in addresses and not (folder / match[2]).exists():
+                addresses.add(match[0])
+                line = text.count("\n", 0, match.start()) + 1
+                message = f"it refers to `{match[0][1:-1]}`, and there is no such file"
                 yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)

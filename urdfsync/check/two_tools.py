@@ -43,11 +43,11 @@ def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
         return one.severity, one.file, one.line, one.code, "" if one.line else one.message
 
     places = [set(map(place, one.diagnostics)) for one in compilations]
-    found, shared = list[Diagnostic](), set.intersection(*places)
+    findings, shared = list[Diagnostic](), set.intersection(*places)
     for compilation in compilations:
         for one in compilation.diagnostics:
             if place(one) not in shared:
-                found.append(msgspec.structs.replace(one, message=f"{compilation.result.tool} alone: {one.message}"))
+                findings.append(msgspec.structs.replace(one, message=f"{compilation.result.tool} alone: {one.message}"))
             elif compilation is compilations[0]:
-                found.append(one)
-    return found
+                findings.append(one)
+    return findings

@@ -115,9 +115,9 @@ def export(
 def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
     """Write higher derivatives as FMI has them, `der(x,2)`, where OpenModelica 1.27 has `der(der(x))`."""
     corrected = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(content)) as found, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
-        for one in found.infolist():
-            data = found.read(one)
+    with zipfile.ZipFile(io.BytesIO(content)) as exported, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
+        for one in exported.infolist():
+            data = exported.read(one)
             if one.filename == _DESCRIPTION:
                 data = _HIGHER_DERIVATIVE.sub(lambda name: b"der(%b,%d)" % (name[2], name[1].count(b"(")), data)
                 data = data if with_model_exchange else _MODEL_EXCHANGE.sub(b"", data, count=1)

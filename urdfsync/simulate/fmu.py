@@ -146,8 +146,8 @@ def _examine(request: _Request) -> Iterator[_Examined]:
 
     findings = [one_line(str(one))[:_LONGEST_MESSAGE] for one in validate_fmu(request.file)]
     description: Any = read_model_description(request.file, validate=False)
-    known = {one.name for one in description.modelVariables}
-    names = [name for name in request.names if name in known]
+    variables = {one.name for one in description.modelVariables}
+    names = [name for name in request.names if name in variables]
     signals: Any = None
     if request.inputs:
         columns = [("time", float), *((name, float) for name in request.inputs)]
@@ -177,18 +177,18 @@ def _examine(request: _Request) -> Iterator[_Examined]:
     yield _Examined(findings, series, problems)
 
 
-def _differences(found: Series, reference: Series) -> dict[str, float]:
+def _differences(series: Series, reference: Series) -> dict[str, float]:
     """The greatest difference of each variable that both have, relative to its greatest value or 1.
 
     Where the reference has several results at one time, at an event, the nearest counts.
     """
     import numpy as np
 
-    times, expected_times = np.array(found["time"]), np.array(reference["time"])
+    times, expected_times = np.array(series["time"]), np.array(reference["time"])
     first = np.searchsorted(expected_times, times - _SAME_TIME)
     last = np.searchsorted(expected_times, times + _SAME_TIME, side="right")
     differences = {}
-    for name, values in found.items():
+    for name, values in series.items():
         if name != "time":
             expected = np.array(reference[name])
             pairs = zip(values, first, last, strict=True)

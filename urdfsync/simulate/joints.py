@@ -35,20 +35,22 @@ def pattern(layouts: Layouts) -> str:
 
 def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
     """Return what each joint of each robot in a model did, in the order of its layout."""
-    found = []
+    results = []
     for place, layout in robots(layouts, series):
         for axis in layout:
             signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
             values = {name: _values(signal, place, series, parameters) for name, signal in signals.items() if signal}
-            told = {
+            quantities = {
                 name: _quantity(signal, place, values[name], parameters)
                 for name, signal in signals.items()
                 if signal and values[name] is not None
             }
-            passed = [one for name in told for one in _passed(name, told[name], series["time"], values[name])]
-            if told:
-                found.append(JointResult(axis.element, place, **told, passed=tuple(passed)))
-    return found
+            passed = [
+                one for name in quantities for one in _passed(name, quantities[name], series["time"], values[name])
+            ]
+            if quantities:
+                results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
+    return results
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:

@@ -60,8 +60,8 @@ class Model:
         """The numbers in the annotation `experiment` of the model, by the names of Modelica."""
         name = self.node.definition.name
         text = self._text(self.node.file)[name.starts[0] :] if self.node.file and name.starts else ""
-        found = _EXPERIMENT.search(re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0])
-        numbers = {name: float(number) for name, number in _SETTING.findall(found[1])} if found else {}
+        experiment = _EXPERIMENT.search(re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0])
+        numbers = {name: float(number) for name, number in _SETTING.findall(experiment[1])} if experiment else {}
         return {name: number for name, number in numbers.items() if number > 0}
 
     def step(self, stop: float, wanted: float | None) -> float:
@@ -70,7 +70,7 @@ class Model:
 
     def inputs(self) -> list[Input]:
         """Return all inputs, those of base classes first. Raises ConfigError for one that can't be driven."""
-        found: list[Input] = []
+        inputs: list[Input] = []
         for node, component in self._components():
             if component.type.parts[-1] != "RealInput" and "input" not in component.prefixes:
                 continue
@@ -85,8 +85,8 @@ class Model:
             count = int(size[1]) if size else 1
             units = units if len(units) == count else units[:1] * count or [""] * count
             names = [f"{name}[{number}]" for number in range(1, count + 1)] if size else [name]
-            found += map(Input, names, units)
-        return found
+            inputs += map(Input, names, units)
+        return inputs
 
     def driven(self, package: str) -> Driven:
         """Return what makes the inputs follow a table, and the drives of the package follow the inputs as they are.

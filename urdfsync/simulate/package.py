@@ -143,11 +143,11 @@ def run_task(
             raise UrdfsyncError(*errors)
         file = Path(model.node.file)
         outside = None if package.files.folder in file.parents else file
-        said = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
+        complaints = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
         if names_set := ", ".join(task.parameters):
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names_set}"
-            said = [msgspec.structs.replace(one, hint=hint) for one in said]
-        faults += said
+            complaints = [msgspec.structs.replace(one, hint=hint) for one in complaints]
+        faults += complaints
     if faults:
         raise UrdfsyncError(*faults)
     return result

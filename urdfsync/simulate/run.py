@@ -76,8 +76,8 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     (run,) = task.runs
     facts = task, *(sorted(one.items()) for one in (package.files.texts, package.around, changed))
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
-    if key and (known := cache.load(key, SimulationResult)):
-        return known, run, True
+    if key and (earlier := cache.load(key, SimulationResult)):
+        return earlier, run, True
     later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
     later.daemon = True
     later.start()

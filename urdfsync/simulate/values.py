@@ -16,7 +16,7 @@ _SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
 
 def read_values(given: Iterable[str]) -> dict[str, str]:
     """Return the value of each parameter, in Modelica. Raises ConfigError for what is no parameter or no value."""
-    found: dict[str, str] = {}
+    values: dict[str, str] = {}
     for one in given:
         name, is_assigned, value = (part.strip() for part in one.partition("="))
         if not is_assigned:
@@ -26,21 +26,21 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
             _refuse(f"`{name}` can't be a parameter", hint)
         if not _is_literal(value):
             _refuse(f"`{value}` is no value for `{name}`", 'give a number, true, false, a "text" or a vector: {0,1,0}')
-        if name in found:
+        if name in values:
             _refuse(f"`{name}` gets two values", "give one of them")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 def find_unknown(model: str, names: Iterable[str], known: Collection[str]) -> list[Diagnostic]:
     """Return an error for each of some names that is none of the parameters of a model; none if these are not known."""
-    found = []
+    findings = []
     for name in names if known else ():
         if name not in known:
             near = nearest_parameter(name, known)
             hint = f"did you mean `{near}`?" if near else ""
-            found.append(Diagnostic(Severity.ERROR, "set", f"`{model}` has no parameter `{name}`", hint=hint))
-    return found
+            findings.append(Diagnostic(Severity.ERROR, "set", f"`{model}` has no parameter `{name}`", hint=hint))
+    return findings
 
 
 def nearest_parameter(name: str, known: Iterable[str]) -> str:
