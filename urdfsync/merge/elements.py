@@ -42,23 +42,9 @@ ROUNDING = 1e-6
 """Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
 
 _ROLES = (
-    *(
-        "within",
-        "prefixes",
-        "word",
-        "head",
-        "type",
-        "name",
-        "sizes",
-        "connect",
-        "equation",
-        "import",
-        "external",
-        "components",
-    ),
-    *("arguments", "sign", "expression", "value", "condition", "constraint", "description", "annotation"),
-    *("definition", "body", "end", ";"),
-)
+    "within prefixes word head type name sizes connect equation import external components arguments sign expression "
+    "value condition constraint description annotation definition body end ;"
+).split()
 """The order of the roles that the parts of an element have."""
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
@@ -71,20 +57,7 @@ Path: TypeAlias = tuple[str, ...]
 
 def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> list[Piece]:
     """Return the merged text of a class in pieces: texts, and where the sides contradict each other."""
-    return _join(_merge((), base, mine, generated, frozenset()))
-
-
-def _join(pieces: Iterable[Piece]) -> list[Piece]:
-    """Texts that follow each other, in one."""
-    found: list[Piece] = []
-    texts: list[str] = []
-    for piece in pieces:
-        if isinstance(piece, str):
-            texts.append(piece)
-            continue
-        found += ["".join(texts), piece] if texts else [piece]
-        texts = []
-    return [*found, "".join(texts)] if texts else found
+    return _merge((), base, mine, generated, frozenset())
 
 
 def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: frozenset[str]) -> list[Piece]:
@@ -111,11 +84,8 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: fro
 def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
     """Merge a thing that is taken whole from one side; blocks, algorithm sections and strings merge by lines."""
     is_users = base is None or not is_same(base, mine)
-    if (
-        base
-        and (not is_users or _has_lines(path, generated))
-        and all("\n" in node.text for node in (base, mine, generated))
-    ):
+    has_lines = all("\n" in node.text for node in (mine, generated)) and (not is_users or _has_lines(path, generated))
+    if base and has_lines and "\n" in base.text:
         text = merge_whole_lines(base.text, mine.text, generated.text)
         if text is not None and (is_users or is_same(Leaf(text), generated)):
             return [text]
@@ -239,11 +209,8 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
 def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree) -> bool:
     """Whether a side has a thing as base has it, in the same section; layout does not count."""
     old, new = base.find(key), side.find(key)
-    if not (old and new):
-        return False
-    return is_same(old.node, new.node, layout=False) and section_name(base.sections[key]) == section_name(
-        side.sections[key]
-    )
+    is_in_place = old and new and section_name(base.sections[key]) == section_name(side.sections[key])
+    return bool(old and new and is_in_place and is_same(old.node, new.node, layout=False))
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:

@@ -7,6 +7,7 @@ stands there instead is its new version: else both new ones would stay, side by 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Container, Mapping, Sequence
 
 import msgspec
 
@@ -14,7 +15,7 @@ from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_w
 
 _ALIKE = 0.5
 """Share of words that two equations have in common at least, if one is the new version of the other."""
-_MOST_COMPARISONS = 200_000
+_MOST_COMPARISONS = 400_000
 """So many pairs of equations are compared at most: a second."""
 
 
@@ -24,63 +25,48 @@ class TooManyPairsError(Exception):
 
 def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
     """Return the three bodies with one key for each thing. Raises TooManyPairsError."""
-    base, mine, generated = key_by_whole_equation(base, mine, generated)
-    gone = [part for part in base.parts if not mine.find(part.key) and not generated.find(part.key)]
-    if not gone:
-        return base, mine, generated
-    ours, theirs = _Added(mine, base), _Added(generated, base)
+    base, *sides = key_by_whole_equation(base, mine, generated)
+    gone = [part for part in base.parts if not any(side.find(part.key) for side in sides)]
+    new = [[part for part in side.parts if not base.find(part.key)] for side in sides]
+    if sum(map(is_equation, gone)) * max(sum(map(is_equation, parts)) for parts in new) > _MOST_COMPARISONS:
+        raise TooManyPairsError
+    added = [*map(_by_words, new)]
+    # the keys in base of new versions, by the keys that they have in each side
+    keys: list[dict[str, str]] = [{}, {}]
     for part in gone:
-        one, other = ours.find_version(part), theirs.find_version(part)
-        if (one and other) or ((one or other) and is_equation(part)):
-            ours.take(one, part.key)
-            theirs.take(other, part.key)
-    return base, ours.with_keys(), theirs.with_keys()
+        versions = [_find_version(part, parts, taken) for parts, taken in zip(added, keys, strict=True)]
+        if all(versions) or (any(versions) and is_equation(part)):
+            for version, taken in zip(versions, keys, strict=True):
+                taken.update({version.key: part.key} if version else {})
+    mine, generated = (_renamed(side, taken) for side, taken in zip(sides, keys, strict=True))
+    return base, mine, generated
 
 
-class _Added:
-    """The parts of a side that base lacks; each is the new version of one thing at most."""
-
-    def __init__(self, side: SyntaxTree, base: SyntaxTree) -> None:
-        self._side = side
-        self._keys: dict[int, str] = {}
-        """Keys in base of parts that are new versions, by the identity of the part."""
-        self._parts = defaultdict[str, list[Part]](list)
-        """Parts by the first word of their keys, connections also by each of their ends."""
-        for part in side.parts:
-            if not base.find(part.key):
-                kind, *ends = part.key.split()
-                for name in (kind, *set(ends)) if kind == "connect" else (kind,):
-                    self._parts[name].append(part)
-        self._comparisons = 0
-
-    def find_version(self, part: Part) -> Part | None:
-        """What the side has instead of a thing of base."""
+def _by_words(parts: Sequence[Part]) -> Mapping[str, Sequence[Part]]:
+    """Return things by the first words of their keys, connections also by each of their ends."""
+    found = defaultdict[str, list[Part]](list)
+    for part in parts:
         kind, *ends = part.key.split()
-        if is_equation(part):
-            added = self._free(kind)
-            self._comparisons += len(added)
-            if self._comparisons > _MOST_COMPARISONS:
-                raise TooManyPairsError
-            alike = [(_likeness(part, one), one) for one in added]
-            best = max(alike, key=lambda pair: pair[0], default=None)
-            return best[1] if best and best[0] >= _ALIKE else None
-        if kind == "connect":
-            return next((one for end in ends for one in self._free(end) if one.key.startswith("connect ")), None)
-        return next(iter(self._free(kind)), None) if kind == "extends" else None
+        for name in (kind, *set(ends)) if kind == "connect" else (kind,):
+            found[name].append(part)
+    return found
 
-    def _free(self, name: str) -> list[Part]:
-        self._parts[name] = [part for part in self._parts[name] if id(part) not in self._keys]
-        return self._parts[name]
 
-    def take(self, version: Part | None, key: str) -> None:
-        """Name a part as the thing of base that it is a version of."""
-        if version:
-            self._keys[id(version)] = key
+def _find_version(part: Part, added: Mapping[str, Sequence[Part]], taken: Container[str]) -> Part | None:
+    """Return what a side has instead of a thing of base."""
+    kind, *ends = part.key.split()
+    words = ends if kind == "connect" else [kind] if is_equation(part) or kind == "extends" else []
+    free = [one for word in words for one in added.get(word, ()) if one.key not in taken]
+    if not is_equation(part):
+        return next((one for one in free if one.key.startswith(kind)), None)
+    best = max(free, key=lambda one: _likeness(part, one), default=None)
+    return best if best and _likeness(part, best) >= _ALIKE else None
 
-    def with_keys(self) -> SyntaxTree:
-        """Return the body with the keys that were taken."""
-        parts = [msgspec.structs.replace(one, key=self._keys.get(id(one), one.key)) for one in self._side.parts]
-        return self._side.with_parts(parts)
+
+def _renamed(side: SyntaxTree, keys: Mapping[str, str]) -> SyntaxTree:
+    if not keys:
+        return side
+    return side.with_parts([msgspec.structs.replace(one, key=keys.get(one.key, one.key)) for one in side.parts])
 
 
 def _likeness(one: Part, other: Part) -> float:
