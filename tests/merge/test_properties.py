@@ -36,6 +36,7 @@ edits = st.lists(st.sampled_from(KINDS), max_size=4)
 seeds = st.randoms(use_true_random=False)
 
 
+@functools.lru_cache(maxsize=500)
 def said(text: str) -> dict[str, tuple[str, ...]]:
     """What a file says, by statement; none of them is there twice."""
     counted = collections.Counter(one.key for one in statements(text))

@@ -102,6 +102,16 @@ def test_a_text_is_kept_or_not_read(data: st.DataObject) -> None:
             assert written(found) == text
 
 
+def test_what_is_known_hides_no_fault_beside_it() -> None:
+    text = "model A\n  Real x;\n  annotation (Icon);\nend A;\n"
+    known: KnownStatements = {}
+    read_tree(text, known)
+    for new in ("  Real x;\n  Real x;\n", "  Real x;\n  annotation (Icon);\n", "equation\n  Real x;\n"):
+        other = text.replace("  Real x;\n", new)
+        faults = [(one.reason, one.line) for one in parse(other).faults]
+        assert [(one.reason, one.line) for one in find_faults(other, known)] == faults != []
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("below", ["Mechanics/**", pytest.param("**", marks=pytest.mark.large)])
 def test_the_standard_library_and_ours_are_kept(below: str) -> None:

@@ -432,7 +432,7 @@ class Parser(Lexer):
     def _composition(self) -> None:
         """Elements, equations and algorithms up to the class's `end`."""
         names, equations = set[str](), set[str]()
-        around, section = self.open[-1], "public"
+        section = "public"
         while True:
             self._seen = equations if section == "equation" else names
             word, start = self._next_word(), self.at
@@ -446,10 +446,15 @@ class Parser(Lexer):
                 self._each(self._element, names)
             else:
                 self._each(self._equation, equations if section == "equation" else None)
-                around.uses += self._take_names(0)
+                self.open[-1].uses += self._take_names(0)
             self._note_statement(start)
-            if word == "annotation" and self.word not in ("end", ""):
-                self.faults.append(Fault(f"goes on after the annotation of `{around.name}`", self.line))
+            if word == "annotation":
+                self._expect_end()
+
+    def _expect_end(self) -> None:
+        """Note a fault if something comes behind the annotation of a class, which is the last thing in it."""
+        if self.word not in ("end", ""):
+            self.faults.append(Fault(f"goes on after the annotation of `{self.open[-1].name}`", self.line))
 
     # --- elements -------------------------------------------------------------------------------------------------
 

@@ -448,6 +448,8 @@ class _TreeReader(Parser):
                 self._seen.add(key)
             body.add(known.part, self.text, statement.end())
             self.position = body.end
+            if known.part.key == "annotation":
+                self._expect_end()
         body.seen, body.names = self._seen, []
         return self.word
 
