@@ -61,11 +61,11 @@ def conflict_files(conflict: Conflict, folder: str) -> dict[str, tuple[str, str]
     """
     path, merge = PurePosixPath(conflict.path).relative_to(folder), conflict.merge
     stem, suffix = path.with_suffix("").as_posix(), path.suffix
-    found = {} if conflict.base is None else {"base": (f"{stem}.base{suffix}", conflict.base)}
-    found["generated"] = f"{stem}.generated{suffix}", conflict.generated
+    versions = {} if conflict.base is None else {"base": (f"{stem}.base{suffix}", conflict.base)}
+    versions["generated"] = f"{stem}.generated{suffix}", conflict.generated
     if merge is not None:
-        found["merge"] = f"{stem}.merge{'.txt' if merge.text is None else suffix}", merge.proposal
-    return found
+        versions["merge"] = f"{stem}.merge{'.txt' if merge.text is None else suffix}", merge.proposal
+    return versions
 
 
 def find_conflict(
@@ -100,7 +100,7 @@ def resolve(
     is taken only if the file moves with its element, if the user chose it, or if the configuration allows clean merges
     (`merging`).
     """
-    found, texts = [], {}
+    resolved, texts = [], {}
     for action in actions:
         reason, choice, text = _outcome(action, conflicts.get(action.path), choices.get(action.path), merging)
         if text is not None:
@@ -109,8 +109,8 @@ def resolve(
             result = None if text is None else text_hash(text)
             base = action.generated if reason is Reason.KEEP else action.base
             action = msgspec.structs.replace(action, reason=reason, base=base, choice=choice, result=result)
-        found.append(action)
-    return tuple(found), texts
+        resolved.append(action)
+    return tuple(resolved), texts
 
 
 def _outcome(

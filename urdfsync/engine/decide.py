@@ -143,11 +143,11 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         texts = bases[0] if bases else None, package, generated, None
         reason = "you made a folder of the class"
         return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
-    found = find_conflict(action, bases, mine, generated, names)
+    conflict = find_conflict(action, bases, mine, generated, names)
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
-        found = msgspec.structs.replace(found, kept=with_within(found.kept, package))
-    return found
+        conflict = msgspec.structs.replace(conflict, kept=with_within(conflict.kept, package))
+    return conflict
 
 
 def _without_misfits(
@@ -198,7 +198,7 @@ def _renumbered(
     generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
 ) -> frozenset[str]:
     """Return the records of which only numbers change, those in conflict included."""
-    files, found = generation.inputs.files, set()
+    files, keys = generation.inputs.files, set()
     changes = generation.changes.by_element() if generation.changes else {}
     for action in actions:
         if action.role is not Role.RECORD or action.origin is not None:
@@ -207,19 +207,19 @@ def _renumbered(
             generated = generation.package.content(generation.inputs.folder.path(action.path))
             text = merged.get(action.path) or generated.decode()
             if numbers_only(files.text(action.path) or "", text):
-                found.add(action.path)
+                keys.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
             # the record of a whole robot has no changes of its own: a number in its tables may be its structure
             own = changes.get(action.owner, ())
-            is_parameter = own and all(one.change_class.rank <= ChangeClass.PARAMETER.rank for one in own)
+            is_parameter = own and all(change.change_class.rank <= ChangeClass.PARAMETER.rank for change in own)
             if is_parameter and numbers_only(base, conflicts[action.path].generated):
-                found.add(action.path)
-    return frozenset(found)
+                keys.add(action.path)
+    return frozenset(keys)
 
 
 def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
-    found = []
+    errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         text = files.text(key)
@@ -227,9 +227,9 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
             line = text.count("\n", 0, match.start()) + 1
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
-            found.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, line, hint=hint))
-    if found:
-        raise OutputError(*found)
+            errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, line, hint=hint))
+    if errors:
+        raise OutputError(*errors)
 
 
 def _recorded_orders(inputs: Inputs) -> dict[str, tuple[str, ...]]:
@@ -237,21 +237,21 @@ def _recorded_orders(inputs: Inputs) -> dict[str, tuple[str, ...]]:
 
     Without its model they are those of the recorded files: their order is lost then.
     """
-    last, found = inputs.last, dict[str, tuple[str, ...]]()
+    last, orders = inputs.last, dict[str, tuple[str, ...]]()
     if last.record.snapshot is None and not last.record.is_united:
-        return found
+        return orders
     if last.package:
-        found = {last.folder.key(path): names for path, names in last.package.orders.items()}
+        orders = {last.folder.key(path): names for path, names in last.package.orders.items()}
     else:
         for key in last.files:
             folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
             if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
                 order = f"{folder}/package.order"
-                found[order] = (*found.get(order, ()), name)
+                orders[order] = (*orders.get(order, ()), name)
     if "." in last.target.package:
         above, _, name = last.folder.rpartition("/")
-        found[f"{above}/package.order" if above else "package.order"] = (name,)
-    return {key: names for key, names in found.items() if inputs.files.is_inside(key)}
+        orders[f"{above}/package.order" if above else "package.order"] = (name,)
+    return {key: names for key, names in orders.items() if inputs.files.is_inside(key)}
 
 
 def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, list[str]]:
@@ -266,7 +266,7 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
         if names is None or action.generated is not None:
             continue
         if action.reason in (Reason.ORPHAN, Reason.NEEDED) or action.handed_to_user:
-            names[:] = [one for one in names if one != name]
+            names[:] = [line for line in names if line != name]
         elif action.reason is not Reason.UNDO:
             names.append(name)
     return lines
@@ -276,8 +276,8 @@ def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> l
     """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
-    found = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
-    return sorted(name for name in found.difference(names) if is_identifier(name))
+    classes = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
+    return sorted(name for name in classes.difference(names) if is_identifier(name))
 
 
 def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
@@ -302,7 +302,7 @@ def _decide_orders(
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     removable = _removable_lines(recorded, actions)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
-    found, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
+    decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, ())
         if inputs.options.adopts and old is None:
@@ -313,15 +313,15 @@ def _decide_orders(
             reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:
             reason = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
-        found.append(Action(key, reason, Role.ORDER, "package"))
+        decided.append(Action(key, reason, Role.ORDER, "package"))
         if not key.startswith(inside):
             shared.append(SharedFile(files.path(key), None, names, tuple(owned)))
     for file in inputs.parents.shared:
         key = files.key(file.path)
         if file.content is not None:
             files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
-            found.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
+            decided.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, file.names):
             reason = Reason.CREATE if old is None else Reason.UPDATE
-            found.append(Action(key, reason, Role.ORDER, "parent package"))
-    return found, texts, [*shared, *inputs.parents.shared]
+            decided.append(Action(key, reason, Role.ORDER, "parent package"))
+    return decided, texts, [*shared, *inputs.parents.shared]

@@ -59,16 +59,16 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if last.version is None or self.inputs.options.removes:
             return None
         try:
-            found = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
+            differences = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
         except NO_MODEL:
             return None
         if self.inputs.has_same_generator:
-            return found
+            return differences
         options: list[str] = []
         if last.options is not None and last.record.generator == self.inputs.generator and last.target == robot.target:
             names = robot.options.__struct_fields__
             options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
-        return msgspec.structs.replace(found, generator=True, options=tuple(options))
+        return msgspec.structs.replace(differences, generator=True, options=tuple(options))
 
     @cached_property
     def moves(self) -> dict[str, str]:
@@ -102,7 +102,7 @@ def _generate(inputs: Inputs) -> Generation:
     domain, robot, options, last = inputs.domain, inputs.robot, inputs.options, inputs.last
     file = shown(robot.source)
     snapshot, reading = source.read(domain, robot.options, inputs.source.content, file)
-    found = [
+    findings = [
         *inputs.source.diagnostics,
         *reading.diagnostics,
         *source.check_options(inputs.config, robot, domain, snapshot),
@@ -119,10 +119,10 @@ def _generate(inputs: Inputs) -> Generation:
         is_anew=options.full,
         has_moved=inputs.has_moved,
     )
-    lines = {one.key: one.line for one in dependencies}
-    found += imported.diagnostics
+    lines = {dependency.key: dependency.line for dependency in dependencies}
+    findings += imported.diagnostics
     for key, finding in domain.import_findings(imported.imports):
-        found.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
+        findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
     is_complete = not (last.record.open or last.record.is_united or last.written)
     is_same = last.record.generator == inputs.generator and last.options is not None
@@ -135,7 +135,7 @@ def _generate(inputs: Inputs) -> Generation:
             if path in files and len(files[path].hashes) == 1
         }
         package.set_hashes(hashes, last.base)
-    return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(found), imported, package)
+    return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(findings), imported, package)
 
 
 def generated_texts(generation: Generation, content: bytes | None = None) -> Mapping[str, bytes]:

@@ -101,14 +101,14 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 def _find_written(store: Store, files: PackageFiles, folders: Collection[str]) -> dict[str, FileRecord | None]:
     """Return the files below `folders` that builds which are not complete have written or deleted, as was planned."""
-    found: dict[str, FileRecord | None] = {}
+    written: dict[str, FileRecord | None] = {}
     inside = tuple(f"{folder}/" for folder in folders)
-    for one in store.planned_files():
-        if (one.new is None or one.record) and one.path.startswith(inside) and files.is_inside(one.path):
-            state = files.state(one.path)
-            if (state.sha256 if state else None) == one.new:
-                found[one.path] = one.record
-    return found
+    for file in store.planned_files():
+        if (file.new is None or file.record) and file.path.startswith(inside) and files.is_inside(file.path):
+            state = files.state(file.path)
+            if (state.sha256 if state else None) == file.new:
+                written[file.path] = file.record
+    return written
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:

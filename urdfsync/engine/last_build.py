@@ -50,8 +50,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def files(self) -> Mapping[str, FileRecord]:
         """The recorded files by key, with what was written since; those that a build may not touch are left out."""
-        found = {**self.record.files, **self.written}
-        return {key: file for key, file in found.items() if file is not None and self._files.is_inside(key)}
+        records = {**self.record.files, **self.written}
+        return {key: file for key, file in records.items() if file is not None and self._files.is_inside(key)}
 
     @cached_property
     def options(self) -> Any:

@@ -110,9 +110,9 @@ class PackageFiles:
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
         """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if it is neither."""
-        found = self.hash(key, role)
-        if found or not key.endswith(".mo") or key.endswith("/package.mo"):
-            return found
+        sha256 = self.hash(key, role)
+        if sha256 or not key.endswith(".mo") or key.endswith("/package.mo"):
+            return sha256
         path = self._place(key)
         folder = path.rpartition(os.sep)[0]
         tree = self._tree(folder)

@@ -176,36 +176,40 @@ def files_after(
     One that is complete has done all of its actions. Else the files count that are as generated now; what is recorded
     of all others stays that of the last complete build.
     """
-    found = {} if is_complete else dict(recorded)
+    records = {} if is_complete else dict(recorded)
     for action in actions:
         is_generated = action.reason in (Reason.UNCHANGED, Reason.ADOPT) or action.writes
         if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
         if action.generated is not None:
-            found[action.path] = FileRecord((action.generated,))
+            records[action.path] = FileRecord((action.generated,))
         elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED):
+            # of an ambiguous base one hash is left: not that of the file, or the next build would delete it
             hashes = recorded[action.path].hashes
-            # one is left of an ambiguous base: not that of the file, or the next build would delete it
-            found[action.path] = FileRecord((next((one for one in hashes if one != action.mine), hashes[0]),))
-    return found
+            base = next((sha256 for sha256 in hashes if sha256 != action.mine), hashes[0])
+            records[action.path] = FileRecord((base,))
+    return records
 
 
 def pending_choices(actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, UsersChoice]:
     """Return the user's choices that wait, by path; `texts` has what he made of both sides of a file."""
-    waiting = (one for one in actions if one.choice and one.held and one.choice is not Choice.UNDO)
-    return {
-        one.path: UsersChoice(one.choice, one.sides, texts.get(one.path) if one.choice is Choice.EDIT else None)
-        for one in waiting
-        if one.choice
-    }
+    pending = {}
+    for action in actions:
+        if action.choice and action.held and action.choice is not Choice.UNDO:
+            text = texts.get(action.path) if action.choice is Choice.EDIT else None
+            pending[action.path] = UsersChoice(action.choice, action.sides, text)
+    return pending
 
 
 def valid_choices(
     choices: Mapping[str, UsersChoice], actions: Iterable[Action], *, is_pending: bool = False
 ) -> dict[str, UsersChoice]:
-    """Return the choices of which both texts are still those that they were made on, by path.
-
-    An edited file that nothing is new for waits for nothing: a pending choice about it is not urdfsync's.
-    """
-    concerned = (one for one in actions if one.path in choices and not (is_pending and one.reason is Reason.KEEP))
-    return {one.path: choices[one.path] for one in concerned if choices[one.path].sides == one.sides}
+    """Return the choices of which both texts are still those that they were made on, by path."""
+    valid = {}
+    for action in actions:
+        choice = choices.get(action.path)
+        # an edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's
+        is_excluded = is_pending and action.reason is Reason.KEEP
+        if choice and choice.sides == action.sides and not is_excluded:
+            valid[action.path] = choice
+    return valid

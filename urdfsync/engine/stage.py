@@ -145,7 +145,7 @@ def _file_changes(generation: Generation, decision: Decision, records: Mapping[s
 
     `records` are those of the files afterwards.
     """
-    files, found = generation.inputs.files, []
+    files, changes = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
         if action.writes and action.path not in shared:
@@ -153,8 +153,8 @@ def _file_changes(generation: Generation, decision: Decision, records: Mapping[s
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
             old, record = state.sha256 if state else None, records.get(action.path)
-            found.append(FileChange(files.path(action.path), content, old, is_moved, record))
-    return found
+            changes.append(FileChange(files.path(action.path), content, old, is_moved, record))
+    return changes
 
 
 def _content(generation: Generation, decision: Decision, action: Action) -> bytes:
@@ -186,7 +186,8 @@ def _base_changes(
     before = [*last.record.files.values(), *last.written.values()]
     old = {sha256 for file in before if file for sha256 in file.hashes}
     new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
-    needed = {*old, *new, *(text_hash(one.base) for one in aside.values() if one.is_users and one.base)}
+    # what was replaced can be merged again
+    needed = {*old, *new, *(text_hash(text.base) for text in aside.values() if text.is_users and text.base)}
     stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
     missing = dict[str, str]()
     for sha256, key in new.items():
@@ -197,10 +198,10 @@ def _base_changes(
     cleans = decision.is_complete and (is_writing or bool(missing))
     # git may have united lines, which have an order
     is_whole = inputs.options.full or inputs.former_name or last.record.is_united
-    found = list[FileChange]()
+    changes = list[FileChange]()
     for digit, texts in stored.items():
         after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in needed}
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
         if is_whole or texts is None or after.keys() != texts.keys():
-            found += inputs.store.save(inputs.store.base_file(inputs.robot.name, digit), bases.dumps(after))
-    return found
+            changes += inputs.store.save(inputs.store.base_file(inputs.robot.name, digit), bases.dumps(after))
+    return changes

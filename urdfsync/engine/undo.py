@@ -30,17 +30,17 @@ def apply_undo(
 
     Returns the actions, and the texts of what is undone by path.
     """
-    found = list[Action]()
+    applied = list[Action]()
     for action in actions:
         choice = choices[action.path].choice if action.path in choices else None
         if choice is Choice.UNDO:
             action = _undo(inputs, action)
         elif choice in BOTH_SIDES and action.reason is Reason.KEEP:
             action = _reopen(inputs, action)
-        found.append(action)
-    found += _find_deleted(inputs, {action.path for action in found})
-    paths = {one.path: inputs.folder.path(one.path) for one in found if one.reason is Reason.UNDO}
-    return tuple(found), {key: inputs.last.replaced[path].before for key, path in paths.items()}
+        applied.append(action)
+    applied += _find_deleted(inputs, {action.path for action in applied})
+    paths = {action.path: inputs.folder.path(action.path) for action in applied if action.reason is Reason.UNDO}
+    return tuple(applied), {key: inputs.last.replaced[path].before for key, path in paths.items()}
 
 
 def _undo(inputs: Inputs, action: Action) -> Action:
@@ -87,7 +87,7 @@ def put_aside(
     """
     actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
     new = dict(_written_over(inputs, actions, texts, disputed))
-    untouched = [path for path, one in new.items() if not one.is_users]
+    untouched = [path for path, text in new.items() if not text.is_users]
     for path in untouched if len(untouched) > _MANY else ():
         del new[path]
     is_writing = any(action.writes for action in actions)
@@ -97,11 +97,11 @@ def put_aside(
         if action.choice is Choice.KEEP or action.reason is Reason.UNDO
     }
     old = {}
-    for path, one in inputs.last.replaced.items():
+    for path, text in inputs.last.replaced.items():
         after = inputs.files.text(inputs.folder.key(path))
-        is_saved_since = after is not None and one.after not in (None, after)
-        if path not in settled and (not is_writing or (one.is_users and not is_saved_since)):
-            old[path] = one
+        is_saved_since = after is not None and text.after not in (None, after)
+        if path not in settled and (not is_writing or (text.is_users and not is_saved_since)):
+            old[path] = text
     return old | new
 
 
