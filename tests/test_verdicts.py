@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import msgspec
 import pytest
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
@@ -15,6 +16,7 @@ from support.urdfs import ELBOW_ARM
 
 from urdfsync import cli
 from urdfsync.engine import generate
+from urdfsync.state import statefile
 
 pytestmark = NEEDS_GIT
 
@@ -148,6 +150,16 @@ def test_what_no_file_shows_renders_nothing(
 ) -> None:
     change()
     monkeypatch.delattr(generate, "_render")
+    assert verdict() == GREEN
+
+
+def test_options_that_are_known_no_more_may_have_had_an_effect(verdict: Callable[[], Verdict]) -> None:
+    edit("urdfsync.toml", CONFIGURATION, f'{CONFIGURATION}base = "floating"\n')
+    assert verdict() == LATE
+    edit("urdfsync.toml", 'base = "floating"\n', "")
+    record = statefile.loads(Path(STATE).read_text(), STATE)
+    Path(STATE).write_text(statefile.dumps(msgspec.structs.replace(record, options={"bases": "floating"})))
+    assert verdict() == LATE
     assert verdict() == GREEN
 
 

@@ -107,6 +107,8 @@ def test_old_texts_go_with_later_builds_but_are_no_reason_for_one(project: Path)
 
 def test_while_something_is_open_no_text_goes(project: Path) -> None:
     run()
+    resistor(150)
+    run()
     before = stored().keys()
     edit(R1, "end R1", NOTE)
     source('"ohm": 100', '"farad": 1e-6')
