@@ -111,7 +111,7 @@ def test_while_something_is_open_no_text_goes(project: Path) -> None:
     run()
     before = stored().keys()
     edit(R1, "end R1", NOTE)
-    source('"ohm": 100', '"farad": 1e-6')
+    source('"ohm": 150', '"farad": 1e-6')
     assert run(full=True).conflicts
     assert before <= stored().keys()
 
