@@ -174,7 +174,7 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
 def add_robot(repo: Repository) -> None:
     """Commit a second robot, in step."""
     Path("other.json").write_bytes(Path("ladder.json").read_bytes())
-    configure(ROBOT.format("other", "Other").replace("ladder.json", "other.json"))
+    configure(ROBOT.format('"other.v2"', "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
 
@@ -186,7 +186,7 @@ def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Captu
     repo.git("add", "other.json")
     with unchanged(repo.folder / LADDER):
         lines = said(capsys, "build", "--jobs", "2")
-    assert lines[:2] == ["other: out of step: 1 file written", "add to the commit:"]
+    assert lines[:2] == ["other.v2: out of step: 1 file written", "add to the commit:"]
     repo.git("add", ".")
     lines = said(capsys, "build")
     assert lines[0] == "ladder: out of step: 1 file written"

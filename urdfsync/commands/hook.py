@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import shlex
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path, PurePosixPath
@@ -178,7 +177,10 @@ class RobotFiles:
     def _is_state(self, path: str) -> bool:
         """Return whether a path is a state, such as `robots/arm.state` or `bases/arm/0`, of no other robot."""
         place = next((place for place in self.states if path.startswith(place)), None)
-        return place is not None and re.split(r"[./]", path.removeprefix(place))[0] not in self._others
+        if place is None:
+            return False
+        robot, slash, _ = path.removeprefix(place).partition("/")
+        return (robot if slash else PurePosixPath(robot).stem) not in self._others
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""
