@@ -170,7 +170,8 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
     subject = f"{' and '.join(f'`{path}`' for path in unknown)} {'has' if len(unknown) == 1 else 'have'}"
     names = [target.shown for target in find_conflicts(planned)]
     more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
-    hint = f"in conflict: {', '.join(names[:_FEW])}{more}" if names else "no file is in conflict"
+    hint = "correct the errors first" if failed else "no file is in conflict"
+    hint = f"in conflict: {', '.join(names[:_FEW])}{more}" if names else hint
     code = exit_code(failed) if failed else Exit.ERROR
     console.end("resolve", code, [Diagnostic(Severity.ERROR, "no-conflict", f"{subject} no conflict", hint=hint)])
     return code
