@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-import msgspec
-
 from urdfsync import config, registry
 from urdfsync.commands import arguments
-from urdfsync.commands.init import guess_lines, guess_robots, robot_table, write_errors
+from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
-from urdfsync.output.console import Console, line
+from urdfsync.output.console import Console
 from urdfsync.state.transaction import save
 
 
@@ -64,9 +62,5 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     with write_errors(loaded.file):
         save(loaded.file, content, new.encode())
     console.warnings(warnings)
-    if console.json:
-        values = {"config": str(loaded.file), "robots": msgspec.to_builtins(guesses)}
-        console.write_json("add", Exit.IN_STEP, values)
-    elif not console.quiet:
-        console.print([line((shown(loaded.file), "bold"), (" extended", "")), *guess_lines(guesses)])
+    show_guesses(console, "add", loaded.file, "extended", guesses)
     return Exit.IN_STEP

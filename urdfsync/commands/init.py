@@ -23,7 +23,7 @@ from urdfsync.engine import source as source_files
 from urdfsync.engine.result import Exit
 from urdfsync.files import put, shown
 from urdfsync.modelica.names import class_name
-from urdfsync.output.console import Console, StyledLine, line
+from urdfsync.output.console import Console, line
 
 _HEADER = """\
 # Robots that urdfsync keeps in step with their Modelica packages.
@@ -90,10 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     with write_errors(file):
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     console.warnings(warnings)
-    if console.json:
-        console.write_json("init", Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
-    elif not console.quiet:
-        console.print([line((shown(file), "bold"), (" written", "")), *guess_lines(guesses)])
+    show_guesses(console, "init", file, "written", guesses)
     return Exit.IN_STEP
 
 
@@ -225,12 +222,17 @@ def _refuse_existing(file: Path) -> None:
         )
 
 
-def guess_lines(guesses: Sequence[Guess]) -> Iterator[StyledLine]:
-    """Yield what was guessed for each robot, and why."""
+def show_guesses(console: Console, command: str, file: Path, done: str, guesses: Sequence[Guess]) -> None:
+    """Show what was `done` to the configuration, and what was guessed for each robot, and why."""
+    if console.json:
+        console.write_json(command, Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
+        return
+    lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
         name, package = (guess.name, "bold"), (guess.package, "bold")
-        yield line(("  ", ""), name, (f": {guess.source} becomes package ", ""), package)
+        lines.append(line(("  ", ""), name, (f": {guess.source} becomes package ", ""), package))
         for option in guess.options:
-            value = json.dumps(option.value)
-            yield line((f"    {option.option} = {value}", ""), (f"  guessed: {option.reason}", "dim"))
-    yield line(("Look it over, then run `urdfsync build`.", ""))
+            assignment = f"    {option.option} = {json.dumps(option.value)}"
+            lines.append(line((assignment, ""), (f"  guessed: {option.reason}", "dim")))
+    if not console.quiet:
+        console.print([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
