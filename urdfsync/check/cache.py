@@ -47,8 +47,6 @@ class UserCache:
     def __init__(self, folder: Path) -> None:
         self.folder, self.libraries = folder, folder / "libraries"
         self.compiler, self.results = folder / "rumoca", folder / "results"
-        self.fits = folder / "fits"
-        """The facts about edited files that builds remember (`engine.fit_cache`)."""
 
     @classmethod
     def default(cls) -> UserCache:
@@ -104,7 +102,7 @@ class UserCache:
 
         That is what is in folders of ours, and each file of the compiler but for its locks.
         """
-        for folder in (self.libraries, self.results, self.fits, self.compiler):
+        for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
                 continue
             for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too

@@ -81,7 +81,7 @@ def unresolved(
     from there, unless its name is `lost`. `all_libraries` tells that all libraries are known by name: another one is
     missing. Components in the lines `passed` are right.
     """
-    yield from _Walk(scopes, all_libraries, lost, passed)._class(node)
+    yield from _Walk(scopes, all_libraries, lost, passed).find(node)
 
 
 def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
@@ -93,14 +93,16 @@ def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
     return False
 
 
-class _Walk:
-    def __init__(
-        self, scopes: Scopes, all_libraries: bool, lost: Callable[[str], bool] | None, passed: Container[int]
-    ) -> None:
-        self._scopes, self._all_libraries, self._lost, self._passed = scopes, all_libraries, lost, passed
+class _Walk(NamedTuple):
+    """A walk through a class; for the fields see `unresolved`."""
 
-    def _class(self, node: Node) -> Iterator[Unresolved]:
-        scopes, definition = self._scopes, node.definition
+    scopes: Scopes
+    all_libraries: bool
+    lost: Callable[[str], bool] | None
+    passed: Container[int]
+
+    def find(self, node: Node) -> Iterator[Unresolved]:
+        scopes, definition = self.scopes, node.definition
         for used in filter(None, (definition.alias, definition.constraint)):
             yield from self._used(used, node.parent)
         if definition.is_extension:
@@ -115,39 +117,39 @@ class _Walk:
         for name in (name for one in definition.imports for name in one.names.values() or (one.name,)):
             yield from self._missing(name, scopes.lookup(name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
-            if component.name.line not in self._passed:
+            if component.name.line not in self.passed:
                 yield from self._component(component, node)
         yield from self._uses(definition.uses, node)
         for inner in definition.classes:
             child = scopes.node((*node.name, inner.name.parts[0]))
             if child is not None and child.definition is inner:
-                yield from self._class(child)
+                yield from self.find(child)
 
     def _extends_itself(self, node: Node) -> bool:
-        waiting, seen = [one.node for one in self._scopes.bases(node)], {OPAQUE}
+        waiting, seen = [one.node for one in self.scopes.bases(node)], {OPAQUE}
         while waiting and node not in waiting:
             base = waiting.pop()
             if base not in seen:
                 seen.add(base)
-                waiting += [one.node for one in self._scopes.bases(base)]
+                waiting += [one.node for one in self.scopes.bases(base)]
         return bool(waiting)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
         """Yield what is wrong with a class that is used, and with the modifiers beside it."""
-        yield from self._missing(used.type, self._scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
-        yield from self._arguments(used.arguments, self._scopes.types_of(used, scope), scope)
+        yield from self._missing(used.type, self.scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
+        yield from self._arguments(used.arguments, self.scopes.types_of(used, scope), scope)
 
     def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
         for name in names:
-            yield from self._missing(name, self._scopes.lookup(name, scope), scope, UnresolvedKind.ELEMENT)
+            yield from self._missing(name, self.scopes.lookup(name, scope), scope, UnresolvedKind.ELEMENT)
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
-        bases = self._scopes.bases(node)
+        bases = self.scopes.bases(node)
         if "redeclare" in component.prefixes and bases:
-            found = self._scopes.part(bases, component.name.parts[0])
+            found = self.scopes.part(bases, component.name.parts[0])
             yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT)
-        yield from self._arguments(component.arguments, self._scopes.types_in(component, node), node)
+        yield from self._arguments(component.arguments, self.scopes.types_in(component, node), node)
         if component.constraint:
             yield from self._used(component.constraint, node)
         yield from self._uses(component.uses, node)
@@ -160,7 +162,7 @@ class _Walk:
             found: Element | Missing = Element(types)
             for part, start in zip(one.name.parts, one.name.starts, strict=True):
                 if isinstance(found, Element):
-                    found, name = self._scopes.part(found.types, part), Name((part,), one.name.line, starts=(start,))
+                    found, name = self.scopes.part(found.types, part), Name((part,), one.name.line, starts=(start,))
                     yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT)
             for used in filter(None, (one.type, one.constraint)):
                 yield from self._used(used, scope)
@@ -181,15 +183,15 @@ class _Walk:
             return
         # a model inherits components from a library that is not read, but hardly ever classes
         is_class = kind is UnresolvedKind.CLASS and found.number == 0 and scope is not None
-        is_missing = found.is_certain or (is_class and not _is_in_open_package(scope, self._scopes))
-        if not (is_missing or (self._lost and self._lost(found.part))):
+        is_missing = found.is_certain or (is_class and not _is_in_open_package(scope, self.scopes))
+        if not (is_missing or (self.lost and self.lost(found.part))):
             return
         owner = str(found.types[0] if found.types else scope or "")
-        known = self._scopes.names_in(found.types) if found.types else self._scopes.names_around(scope)
+        known = self.scopes.names_in(found.types) if found.types else self.scopes.names_around(scope)
         candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS}
         is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(found.part, sorted(candidates - {found.part}), least)
-        if near or not is_library or self._all_libraries:  # else a compiler tells whether there is a library
+        if near or not is_library or self.all_libraries:  # else a compiler tells whether there is a library
             start = name.starts[found.number] if found.number < len(name.starts) else -1
             yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates, is_library)
