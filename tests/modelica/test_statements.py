@@ -74,6 +74,12 @@ def test_other_bases_and_imports_may_change_all(old: str, new: str) -> None:
     assert compare(GENERATED.replace(old, new), GENERATED).is_whole
 
 
+@pytest.mark.parametrize(("before", "after"), [("/*", "*/"), ('  Real mine "', '"')])
+def test_a_statement_in_a_comment_or_string_is_not_as_generated(before: str, after: str) -> None:
+    mine = GENERATED.replace(f"{ELBOW};\n{TOOL};\n", f"{before};\n{TOOL};\n{after};\n".replace("*/;", "*/"))
+    assert compare(mine, GENERATED).is_whole
+
+
 def test_another_description_of_the_class_changes_nothing() -> None:
     difference = compare(GENERATED.replace('"Arm"', '"Mine"'), GENERATED)
     assert (difference.names, difference.is_whole) == (frozenset(), False)

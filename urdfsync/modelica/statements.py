@@ -38,7 +38,7 @@ class Difference(NamedTuple):
     names: frozenset[str]
     """The names that other statements declare, in either text."""
     is_whole: bool
-    """Whether all names may have another meaning: one class extends or imports what the other does not."""
+    """Whether all names may have another meaning, such as where one extends or imports what the other does not."""
 
 
 class Reading(NamedTuple):
@@ -73,7 +73,11 @@ def compare(mine: str, generated: str) -> Difference:
     paths = (one.path for rest in rests for one in declared(rest.classes))
     names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
-    is_whole = visible[0] != visible[1]
+    read = parse_without(mine, same)
+    is_hidden = not read.passed <= {
+        one.line for one in declared(read.stored.classes)
+    }  # by a comment or string around it
+    is_whole = visible[0] != visible[1] or is_hidden
     return Difference(frozenset() if is_whole else same, names, is_whole)
 
 
