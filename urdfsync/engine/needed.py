@@ -3,30 +3,30 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Mapping, Sequence
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Reason
 from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_files import encode
 from urdfsync.engine.package_names import class_of
-from urdfsync.modelica.files import text_of
-from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.files import code_of, text_of
 from urdfsync.state.record import Choice
 
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 
 
-def code_words(text: str) -> set[str]:
+def code_words(content: bytes) -> set[str]:
     """Return all names and keywords in a text, without those in strings and comments, and without the classes in it.
 
     Left out are the packages that it stands in, too: one may be called like the robot's model. An edited file whose
     element has another name may still declare its class by the old one. The text need not parse.
     """
-    found = [token.text for token in lex(text)[0]]
-    if found[:1] == ["within"]:
-        found = found[[*found, ";"].index(";") :]
-    return set(found) - {name for kind, name in itertools.pairwise(found) if kind in _CLASS_KINDS}
+    code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
+    words = re.findall(r"[^\W\d]\w*", code)
+    return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
 
 
 def mentioned_files(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
@@ -38,7 +38,7 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     """
     inputs, before = generation.inputs, generation.inputs.last.package
     package = Package(generation, actions, merged)
-    words = {inputs.files.key(file): code_words(text_of(content)) for file, content in package.users.items()}
+    words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
     decided = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
     kept_words = set().union(*(words[key] for key in decided & words.keys()))
@@ -52,7 +52,7 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     found = set(needed)
     while needed:
         texts = [*map(inputs.files.any_text, needed)]
-        mentioned = set().union(*map(code_words, texts))
+        mentioned = set().union(*(code_words(encode(text)) for text in texts))
         needed = {
             path
             for path in pending.keys() - found

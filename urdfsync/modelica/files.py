@@ -223,6 +223,11 @@ def text_of(content: bytes) -> str:
     return content.decode(errors="surrogateescape").replace("\r\n", "\n")
 
 
+def code_of(content: bytes) -> bytes:
+    """Return the content of a file without its strings and comments; it need not parse."""
+    return _NO_CODE.sub(rb"\1 ", content)
+
+
 def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes:
     """Replace old words by new ones, by where they begin in `text_of`; all else stays, byte for byte."""
     text, pieces, end = text_of(content), list[str](), 0
@@ -236,7 +241,7 @@ def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes
 
 def _is_used(name: str, content: bytes) -> bool:
     word = name.encode()
-    return has_word(content, word) and has_word(_NO_CODE.sub(rb"\1 ", content), word)
+    return has_word(content, word) and has_word(code_of(content), word)
 
 
 def parse_file(content: bytes) -> StoredText:

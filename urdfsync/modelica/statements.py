@@ -50,7 +50,9 @@ class Reading(NamedTuple):
     """Lines of the components of which only type and name were read."""
 
 
-@functools.lru_cache(maxsize=64)  # row "robot model edited, in the daemon": 200 of the 160 ms that it may cost more
+@functools.lru_cache(
+    maxsize=64
+)  # row "robot model edited, in the daemon": 110 of the 160 ms that 1,000 links may cost more
 def parse_without(text: str, passed: frozenset[str]) -> Reading:
     """Parse a text without some of its plain statements; their components have types and names only.
 
