@@ -44,10 +44,9 @@ class Fault(NamedTuple):
 
 
 class Token(NamedTuple):
-    """One token, the line in which it begins, from 1, and its place in the text, from 0."""
+    """One token, and where it begins in the text, from 0."""
 
     text: str
-    line: int
     start: int
 
 
@@ -87,6 +86,12 @@ class Lexer:
                     self._add_endless("quoted name", start)
         self.position = stop
 
+    def read_all(self) -> Lexer:
+        """Add the tokens of all of the text, with an empty one at its end."""
+        while not self.words or self.words[-1]:
+            self.read_statement()
+        return self
+
     def _add_endless(self, kind: str, start: int) -> None:
         self.endless.append(Fault(f"has a {kind} without an end", self.line_at(start)))
 
@@ -101,19 +106,13 @@ class Lexer:
 
 def words_in(text: str) -> list[str]:
     """Return the tokens of a text as texts alone."""
-    lexer = Lexer(text)
-    while not lexer.words or lexer.words[-1]:
-        lexer.read_statement()
-    return lexer.words[:-1]
+    return Lexer(text).read_all().words[:-1]
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
     """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
-    lexer = Lexer(text)
-    while not lexer.words or lexer.words[-1]:
-        lexer.read_statement()
-    tokens = map(Token, lexer.words, map(lexer.line_at, lexer.starts), lexer.starts)
-    return list(tokens), lexer.endless
+    lexer = Lexer(text).read_all()
+    return list(map(Token, lexer.words, lexer.starts)), lexer.endless
 
 
 def find_markers(text: str) -> list[Fault]:
