@@ -103,7 +103,7 @@ def test_a_text_is_kept_or_not_read(data: st.DataObject) -> None:
 
 
 def test_what_is_known_hides_no_fault_beside_it() -> None:
-    text = "model A\n  Real x;\n  annotation (Icon);\nend A;\n"
+    text = "model A\n  Real y;\n  Real x;\n  annotation (Icon);\nend A;\n"
     known: KnownStatements = {}
     read_tree(text, known)
     for new in ("  Real x;\n  Real x;\n", "  Real x;\n  annotation (Icon);\n", "equation\n  Real x;\n"):
