@@ -190,10 +190,9 @@ def _base_changes(
     needed = {*old, *new, *(text_hash(text.base) for text in aside.values() if text.is_users and text.base)}
     stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
     missing = dict[str, str]()
-    for sha256, key in new.items():
-        path = inputs.folder.path(key)
-        is_text = path in generation.package.artifacts and sha256 not in (stored[sha256[0]] or ())
-        if is_text and generation.package.hash(path) == sha256:
+    for sha256 in new.keys() - {sha256 for texts in stored.values() for sha256 in texts or ()}:
+        path = inputs.folder.path(new[sha256])
+        if path in generation.package.artifacts and generation.package.hash(path) == sha256:
             missing[sha256] = generation.package.content(path).decode()
     cleans = decision.is_complete and (is_writing or bool(missing))
     # git may have united lines, which have an order
