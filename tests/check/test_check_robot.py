@@ -415,6 +415,7 @@ def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
             "Other/Bad.mo": other % ("Bad", "Arm.nothing", "Bad"),
             "Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n",
             "Line.mo": "model Line\n  Cell cell;\nend Line;\n",
+            "Elsewhere.mo": "model Elsewhere\n  Other.Arm arm;\n  Real x = Elbow.y;\nend Elsewhere;\n",
         }
     )
     result = check()

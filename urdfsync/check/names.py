@@ -46,6 +46,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     own = _findings(package, _unresolved(filter(None, map(scopes.node, sorted(sources.own))), scopes))
     places: list[tuple[Path, Unresolved]] = []
     uses: dict[Path, set[Path]] = {}
+    using, top = set[Path](), tuple(robot.target.package.split("."))
     unplaced = set(sources.unread)
     for name, definition in sources.users.items():
         if (path := Path(definition.file)) in package.users_files:
@@ -55,11 +56,12 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
                 unplaced.add(path)
                 continue
             places += _unresolved([node], scopes)
+            if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
+                using.add(path)
             seen = {Path(file) for file in sources.seen.values() if file}
             # each file asks for the packages around it
             around_it = {folder / "package.mo" for folder in path.parents}
             uses.setdefault(path, set()).update(seen - around_it)
-    using = {path for path, seen in uses.items() if any(robot.folder in one.parents for one in seen)}
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:
         using |= more
     contents = {path: text for path, text in package.users_files.items() if path in unplaced}
