@@ -369,10 +369,8 @@ class _OpenBody:
         self.section = ""
         """The words that began the section here, such as `initial equation`."""
         self.sections = Counter[str]()
-        self.seen = set[str]()
-        """What may be only once beside the element or equation that is being read."""
         self.names: list[tuple[str, str]] = []
-        """What this one adds to it."""
+        """What the element or equation that is being read adds to what may be there only once."""
 
     def add(self, part: Part, text: str, stop: int) -> None:
         """Add a part that ends at this place in the text, and the comment behind it."""
@@ -450,11 +448,11 @@ class _TreeReader(Parser):
             self.position = body.end
             if known.part.key == "annotation":
                 self._expect_end()
-        body.seen, body.names = self._seen, []
+        body.names = []
         return self.word
 
     def _once(self, seen: set[str], key: str, reason: str) -> None:
-        if seen is self._body.seen:
+        if seen is self._seen:
             self._body.names.append((key, reason))
         super()._once(seen, key, reason)
 
