@@ -23,7 +23,9 @@ from support.urdfs import ELBOW_ARM
 from urdfsync.check import libraries
 from urdfsync.check.compilers import rumoca
 from urdfsync.check.compilers.compiler import CompileJob, CompileTask
+from urdfsync.engine import fit
 from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.statements import Difference, compare
 
 MODELS, RECORDS = (
     ("Arm.mo", "Links/Fore.mo", "Joints/Elbow.mo"),
@@ -333,6 +335,20 @@ def test_what_is_wrong_is_found_and_nothing_else(project: Path, execute: Execute
     edit = edit_package(project, seed)
     found = errors(edit, execute)
     assert bool(found) is bool(edit.kind), (edit.kind, edit.path, edit.harmless, found, edit.text)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_look_at_what_is_edited_finds_what_one_at_all_finds(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, seed: str
+) -> None:
+    edit = edit_package(project, seed)
+    found = errors(edit, execute)
+
+    def compare_whole(mine: str, generated: str) -> Difference:
+        return compare(mine, generated)._replace(same=frozenset(), is_whole=True)
+
+    monkeypatch.setattr(fit, "compare", compare_whole)
+    assert errors(edit, execute) == found
 
 
 @pytest.mark.slow
