@@ -150,6 +150,8 @@ def test_statements_as_generated_are_looked_at_where_a_declaration_is_gone(arm: 
     for without in ("", f"  /* off;\n{block};\n  */\n"):
         MODEL.write_text(text.replace(f"{block};\n", without))
         assert "Arm has no `elbow`" in execute("build", code=3).err
+    MODEL.write_text(text.replace("  extends UrdfSync.Robots.PartialStationaryRobot;\n", ""))
+    assert "it has no `frame_a`, which modelica/Arm/ArmRun.mo:" in execute("build", code=3).err
     MODEL.write_text(text)
     edit(ELBOW, "PartialRevoluteJoint", "PartialLink")
     assert "Elbow has no `frame_b`" in execute("build", code=3).err
