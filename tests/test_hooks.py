@@ -65,8 +65,8 @@ def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Calla
 
 def command(said: str) -> list[str]:
     """The command that a hook has printed."""
-    (line,) = (line for line in said.splitlines() if line.startswith("  git "))
-    return line.split()
+    (line,) = (line for line in said.splitlines() if "`git add " in line)
+    return line.split("`")[3].split()
 
 
 def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], None]) -> None:
@@ -74,7 +74,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], No
     resistor(120)
     git("add", ".")
     said = commit(code=1)
-    assert "ladder: out of step: 1 file written\nadd to the commit:\n  git add " in said
+    assert "robot `ladder`: out of step: 1 file written; `git add " in said
     git(*command(said)[1:])
     commit()
     assert "120" in git("show", f"HEAD:{RECORD}")
@@ -88,7 +88,7 @@ def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
     git("add", ".")
     resistor(130, before=120)
     said = commit(code=1)
-    assert "ladder: out of step: 1 file written" in said
+    assert "robot `ladder`: out of step: 1 file written" in said
     assert '"ohm": 130}' in Path("ladder.json").read_text()
     git(*command(said)[1:])
     commit()

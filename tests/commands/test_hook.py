@@ -18,9 +18,9 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
-from urdfsync import cli, config
-from urdfsync.commands.hook import is_interrupted
+from urdfsync import cli
 from urdfsync.state.lock import build_lock
+from urdfsync.state.planned import is_interrupted
 
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 
@@ -58,9 +58,15 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int | None = 1) -> l
     return f"{err}{out}".splitlines()
 
 
+def fault(message: str, hint: str = "", *, code: str = "out-of-step", robot: str = "ladder") -> str:
+    """The line about a robot that does not pass."""
+    return f"urdfsync.toml: error: robot `{robot}`: {message}{f'; `{hint}`' if hint else ''} [{code}]"
+
+
 def run(line: str) -> None:
-    """Run a command line that a hook has printed."""
-    for command in map(shlex.split, line.strip().split(" && ")):
+    """Run a command line, or the one that a finding of the hook has."""
+    line = line.split("`")[3] if "`" in line else line
+    for command in map(shlex.split, line.split(" && ")):
         if command[0] == "urdfsync":
             assert cli.main(command[1:]) in (0, 1)
         else:
@@ -72,8 +78,15 @@ BASE = ".urdfsync/bases/ladder/7"
 STATE = f"{BASE} {MANIFEST}"
 STALE = '"ohm": 100}', '"ohm": 120}'
 STAGE, DROP, BUILD = "git add ladder.json", "git rm -q --cached", "urdfsync hook build"
-ADD = f"git add {STATE} {RECORD}"
-OUT, NOT_STAGED = "ladder: out of step: ", "ladder: in step, but not staged: "
+
+
+def add(*paths: str) -> str:
+    """The command that adds files, which counts their paths from the top of the repository."""
+    return " ".join(["git add", *(f":/{path}" for path in paths)])
+
+
+ADD, ADD_SOURCE = add(BASE, MANIFEST, RECORD), add(BASE, MANIFEST, "ladder.json")
+OUT, NOT_STAGED = "out of step: ", "in step, but not staged: "
 
 
 @pytest.mark.parametrize(
@@ -81,17 +94,17 @@ OUT, NOT_STAGED = "ladder: out of step: ", "ladder: in step, but not staged: "
     [
         (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
         (STALE, STAGE, "check", f"{OUT}1 file to write", BUILD),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}2 files", f"git add {STATE}"),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}2 files", f"git add {STATE}"),
-        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}3 files", f"git add {STATE} ladder.json"),
-        (STALE, "git status", "build", f"{OUT}1 file written", f"git add {STATE} ladder.json {RECORD}"),
-        ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", f"git add {RECORD}"),
-        ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", "git add ladder.json"),
-        ((), f"{DROP} step.csv", "build", f"{NOT_STAGED}1 file", "git add step.csv"),
-        ((), f"{DROP} {MANIFEST}", "check", f"{NOT_STAGED}1 file", f"git add {MANIFEST}"),
-        ((), f"{DROP} .urdfsync/.gitignore", "check", f"{NOT_STAGED}1 file", "git add .urdfsync/.gitignore"),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}2 files", add(BASE, MANIFEST)),
+        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}2 files", add(BASE, MANIFEST)),
+        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}3 files", ADD_SOURCE),
+        (STALE, "git status", "build", f"{OUT}1 file written", add(BASE, MANIFEST, "ladder.json", RECORD)),
+        ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", add(RECORD)),
+        ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", add("ladder.json")),
+        ((), f"{DROP} step.csv", "build", f"{NOT_STAGED}1 file", add("step.csv")),
+        ((), f"{DROP} {MANIFEST}", "check", f"{NOT_STAGED}1 file", add(MANIFEST)),
+        ((), f"{DROP} .urdfsync/.gitignore", "check", f"{NOT_STAGED}1 file", add(".urdfsync/.gitignore")),
         ((), f"git rm -q {RECORD}", "check", f"{OUT}1 to restore", BUILD),
-        ((), f"git rm -q {RECORD}", "build", f"{OUT}1 restored because you deleted it", f"git add {RECORD}"),
+        ((), f"git rm -q {RECORD}", "build", f"{OUT}1 restored because you deleted it", add(RECORD)),
     ],
 )  # fmt: skip
 def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_it(
@@ -101,10 +114,10 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
     if change:
         edit("ladder.json", *change)
     run(commands)
-    heading = "build, and see what to add:" if command == BUILD else "add to the commit:"
+    kind = "not-staged" if words.startswith(NOT_STAGED) else "out-of-step"
     index = Path(".git/index").read_bytes()
     with contextlib.nullcontext() if mode == "build" else unchanged(repo.folder):
-        assert said(capsys, mode) == [words, heading, f"  {command}"]
+        assert said(capsys, mode) == [fault(words, command, code=kind)]
     assert Path(".git/index").read_bytes() == index
     if command == BUILD:
         command = said(capsys, "build")[-1]
@@ -135,11 +148,11 @@ def test_a_file_that_is_staged_in_part_is_refused_by_name(repo: Repository, caps
         repo.git("add", ".")
         Path(path).write_bytes(Path(path).read_bytes() + b"\n")
     with unchanged(repo.folder):
-        assert said(capsys, "build") == [
-            f"ladder: staged in part only: {path}",
-            "add the rest, or put it aside with `git stash push --keep-index`:",
-            f"  git add {path}",
-        ]
+        (line,) = said(capsys, "build")
+        assert line.endswith(
+            f"robot `ladder`: staged in part only: {path}; `{add(path)}`, or put the rest aside with "
+            "`git stash push --keep-index` [partly-staged]"
+        )
     run("git stash push --keep-index")
     assert "staged in part" not in "".join(said(capsys, "build", code=None))
 
@@ -148,7 +161,7 @@ def test_a_file_that_git_was_told_not_to_look_at_is_refused_by_name(repo: Reposi
     repo.git("update-index", "--assume-unchanged", RECORD)
     repo.git("update-index", "--skip-worktree", "ladder.json")
     (line,) = said(capsys, "check")
-    assert line.startswith(f"ladder: git is told not to look at ladder.json, {RECORD} (")
+    assert f"git is told not to look at ladder.json, {RECORD}; " in line
     repo.git("update-index", "--no-assume-unchanged", RECORD)
     repo.git("update-index", "--no-skip-worktree", "ladder.json")
     assert said(capsys, "check", code=0) == []
@@ -164,7 +177,7 @@ def test_an_element_that_is_gone_takes_its_files_with_it(repo: Repository, capsy
         Path("modelica/Ladder/notes.txt").write_text("mine")
     line = said(capsys, "build")[-1]
     assert not Path("modelica/Ladder/Elements/R2.mo").exists()
-    assert (line == f"  git add .urdfsync/bases/ladder/2 {MANIFEST} modelica/Ladder") is is_alone
+    assert (f"`{add('.urdfsync/bases/ladder/2', MANIFEST, 'modelica/Ladder')}`" in line) is is_alone
     run(line)
     assert "D  modelica/Ladder/Elements/R2.mo\n" in repo.git("status", "--porcelain")
     assert ("?? modelica/Ladder/notes.txt" in repo.git("status", "--porcelain")) is not is_alone
@@ -185,12 +198,12 @@ def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Captu
         edit(name, '"ohm": 100}', '"ohm": 120}')
     repo.git("add", "other.json")
     with unchanged(repo.folder / LADDER):
-        lines = said(capsys, "build", "--jobs", "2")
-    assert lines[:2] == ["other.v2: out of step: 1 file written", "add to the commit:"]
+        (line,) = said(capsys, "build", "--jobs", "2")
+    assert "robot `other.v2`: out of step: 1 file written; `git add " in line
     repo.git("add", ".")
-    lines = said(capsys, "build")
-    assert lines[0] == "ladder: out of step: 1 file written"
-    run(lines[-1])
+    (line,) = said(capsys, "build")
+    assert line == fault("out of step: 1 file written", ADD)
+    run(line)
     assert said(capsys, "check", code=0) == []
 
 
@@ -217,9 +230,9 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
     for mode in ("check", "build"):
         assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
-    lines = said(capsys, "check")
-    assert lines[0] == "ladder: in step, but not staged: 2 files"
-    run(lines[-1])
+    (line,) = said(capsys, "check")
+    assert "robot `ladder`: in step, but not staged: 2 files; " in line
+    run(line)
     assert said(capsys, "check", code=0) == []
 
 
@@ -227,7 +240,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
 def test_a_configuration_in_a_folder(
     repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    """The paths are those of the folder in which the user called git."""
+    """The commands work in any folder."""
     Path(name).mkdir()
     for file in ("ladder.json", "urdfsync.toml"):
         Path(name, file).write_bytes(Path(file).read_bytes())
@@ -247,18 +260,13 @@ def test_a_configuration_in_a_folder(
     assert said(capsys, "check", f"{repo.folder}/{name}/urdfsync.toml", code=0) == []
     edit(f"{name}/ladder.json", "120", "140")
     repo.git("add", ".")
-    lines = said(capsys, "check")
-    assert lines[:2] == [
-        f"ladder ({'./' if name == '-x' else ''}{name}/urdfsync.toml): out of step: 1 file to write",
-        "ladder (urdfsync.toml): out of step: 1 file to write",
-    ]
-    monkeypatch.setenv("GIT_PREFIX", f"{name}/")
-    assert " ../.urdfsync/robots/ladder.state " in said(capsys, "build")[-1]
+    words = "error: robot `ladder`: out of step: 1 file to write; `urdfsync hook build` [out-of-step]"
+    assert said(capsys, "check") == [f"{name}/urdfsync.toml: {words}", f"urdfsync.toml: {words}"]
 
 
 def test_a_configuration_that_is_not_tracked_is_told(repo: Repository, capsys: Capture) -> None:
     repo.git("rm", "-q", "--cached", "urdfsync.toml")
-    assert said(capsys, "check")[-1] == "  git add urdfsync.toml"
+    assert f"`{add('urdfsync.toml')}`" in said(capsys, "check")[-1]
     repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
     assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
     assert "git add " in said(capsys, "check", "urdfsync.toml")[-1]
@@ -303,7 +311,7 @@ def test_a_further_working_tree_has_an_index_of_its_own(
     resistor(120)
     subprocess.run(["git", "add", "."], check=True)
     monkeypatch.setenv("GIT_LITERAL_PATHSPECS", "1")
-    assert said(capsys, "build")[-1] == f"  {ADD}"
+    assert said(capsys, "build") == [fault("out of step: 1 file written", ADD)]
 
 
 def test_a_source_in_a_submodule_is_staged_with_its_commit(repo: Repository, capsys: Capture) -> None:
@@ -316,7 +324,7 @@ def test_a_source_in_a_submodule_is_staged_with_its_commit(repo: Repository, cap
     edit("sub/ladder.json", '"ohm": 100}', '"ohm": 120}')
     run("git -C sub commit -q -a -m next")
     line = said(capsys, "build")[-1]
-    assert line == f"  {ADD} sub"
+    assert f"`{ADD} :/sub`" in line
     run(line)
     assert said(capsys, "check", code=0) == []
 
@@ -339,12 +347,12 @@ def test_no_commit_passes_after_a_build_that_was_killed(repo: Repository, capsys
     """Not even with all of it staged: a clone would not know what the build was about to write."""
     resistor(120)
     operations = itertools.count(1)
-    while not is_interrupted(config.load(Path("urdfsync.toml")), wait=0):
+    while not is_interrupted(repo.folder / ".urdfsync"):
         crashes.kill(repo.folder, next(operations))
     repo.git("add", ".")
     for mode in ("check", "build"):
         lines = said(capsys, mode, code=2)
-        assert lines[0].startswith("urdfsync.toml: error: the last build was interrupted; run `urdfsync build`")
+        assert lines[0].startswith(".urdfsync: error: the last build was interrupted; run `urdfsync build`")
     run("urdfsync build")
     repo.git("add", "-A")
     assert said(capsys, "check", code=0) == []

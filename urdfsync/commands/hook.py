@@ -9,47 +9,38 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import git, hook, uptodate
+from urdfsync import dependencies, git, hook, uptodate
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import LSTAT, STAT, VARIABLE, Dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError, UrdfsyncError
+from urdfsync.dependencies import VARIABLE, Dependencies
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.engine import parents
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.console import Console, line
+from urdfsync.output.console import Console
 from urdfsync.output.phrases import counted, summary
 from urdfsync.output.results import show_result
-from urdfsync.state import planned
-from urdfsync.state.lock import build_lock
 from urdfsync.state.store import Store
 
 _FEW = 4
-"""So many files are named one by one."""
+"""So many files to add are named one by one."""
 _UNNEEDED = (Reason.ORPHAN, Reason.NEEDED, Reason.FORGET)
 """Actions on files that a clone can do without."""
-_ADD, _BUILD = "add to the commit:", "build, and see what to add:"
-_ADD_REST = "add the rest, or put it aside with `git stash push --keep-index`:"
 
 
-class CommitFault(msgspec.Struct, frozen=True):
+class Fault(msgspec.Struct, frozen=True):
     """A reason why a commit does not pass, in one robot."""
 
-    files: RobotFiles
-    code: str
-    message: str
-    step: str = ""
-    """A step for the user; the command for it adds `paths`, or builds."""
-    paths: Collection[str] = ()
+    diagnostic: Diagnostic
     result: Result | None = None
     """The result of a build or a dry run; None if nothing is to be built."""
 
@@ -73,24 +64,28 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> Exit:
     """Check the configurations that the arguments name, or all that git tracks."""
+    named = [*args.configs, *filter(None, [args.config])]
+    faults, errors = list[Fault](), list[Diagnostic]()
     try:
         commit = Commit()
-        named = [*args.configs, *filter(None, [args.config])]
-        found = commit.paths(named) if named else hook.find_configurations(commit.index)
-        faults, diagnostics = list[CommitFault](), list[Diagnostic]()
-        for path in sorted(found) if commit.touched else ():
+        paths = commit.paths(named) if named else hook.find_configurations(commit.index)
+        for path in sorted(paths) if commit.touched else ():
             try:
                 if not hook.passes(commit.index, path):
-                    faults += _check(commit, path, arguments.request(args, console), args.mode == "build")
+                    faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
             except UrdfsyncError as error:
-                if error.is_locked:
-                    raise
-                if any(one.startswith(path.removesuffix(PurePosixPath(path).name)) for one in commit.touched):
-                    diagnostics += error.diagnostics
-        return _show(commit, faults, diagnostics, named, console)
+                if any(file.startswith(path.removesuffix(PurePosixPath(path).name)) for file in commit.touched):
+                    errors += error.diagnostics
     except git.GitError as error:
         hint = "without a repository, use `urdfsync build --check`"
         raise SourceError(Diagnostic(Severity.ERROR, "git", str(error), hint=hint)) from None
+    results = [fault.result for fault in faults if fault.result]
+    for result in results:
+        if console.json or result.failed or result.conflicts or result.is_broken:
+            show_result(console, result)
+    code = Exit.ERROR if errors else exit_code(results) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
+    console.end("hook", code, [*(fault.diagnostic for fault in faults), *errors])
+    return code
 
 
 class Commit:
@@ -128,180 +123,115 @@ class Commit:
         names |= {os.path.realpath(name) for name in names if os.path.islink(name)}  # noqa: PTH114
         return {path for name in names if (path := self.path(name)) is not None}
 
-    def typed(self, path: str) -> str:
-        """Return a path as one types it where git was called: hooks run at the top."""
-        here = Path(self.index.top, os.environ["GIT_PREFIX"]) if "GIT_PREFIX" in os.environ else Path.cwd()
-        text = os.path.relpath(Path(self.index.top, path), here)
-        return f"./{text}" if text.startswith("-") else text
-
 
 class RobotFiles:
     """The files of one robot as git names them: all that a build of it reads and writes."""
 
-    def __init__(
-        self, commit: Commit, config: Config, robot: RobotConfig, planned: Result, dependencies: Dependencies
-    ) -> None:
-        """`planned` is the result of a dry run, and `dependencies` are what that has read."""
-        self._commit, self.config, self.robot, self.planned = commit, config, robot, planned
-        state = config.root / STATE_FOLDER
-        store = Store(config.root)
-        recorded = [store.path(robot.name), store.expansion(robot.name), *store.base_files(robot.name)]
-        kept = [*recorded, state / ".gitignore", state / ".gitattributes"]
-        self.outputs = commit.paths([*kept, *parents.files(robot)])
+    def __init__(self, commit: Commit, config: Config, robot: RobotConfig, planned: Result, read: Dependencies) -> None:
+        """`planned` is the result of a dry run, and `read` has all paths that it looked at."""
+        self._commit, self._config_file, self.robot, self.planned = commit, config.file, robot, planned
+        state, store = config.root / STATE_FOLDER, Store(config.root)
+        bases = store.base_files(robot.name)
+        recorded = [store.path(robot.name), store.expansion(robot.name), *bases]
+        self.outputs = commit.paths([*recorded, state / ".gitignore", state / ".gitattributes", *parents.files(robot)])
         """Files that a commit has to have if they exist."""
-        found = [path for check, path in dependencies.entries if check in (LSTAT, STAT)]
-        read = [path for path in found if not path.endswith(".mo")]  # the user's models need not be in the commit
-        self.inputs = commit.paths([config.file, *read])
-        """Files that a commit has to have unless git is told to ignore them."""
-        self.known = self.inputs | commit.paths(
-            [robot.source, *(path for check, path in dependencies.entries if check != VARIABLE)]
-        )
-        """These, and files that could have been there."""
+        looked_for = [path for check, path in read.entries if check != VARIABLE]
+        self.known = commit.paths([config.file, robot.source, *looked_for])
+        """These, and files that are read, or could have been there."""
         self.note(planned)
-        self.states = f"{commit.path(state / 'robots')}/", f"{commit.path(state / 'bases')}/"
-        self._others = {one.name for one in config.robots} - {robot.name}
-        folders = [robot.folder, *([robot.templates] if robot.templates else [])]
+        folders = [robot.folder, bases[0].parent, *([robot.templates] if robot.templates else [])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
     def note(self, result: Result) -> None:
         """Add the outputs of a plan or a build."""
-        places = [f"{result.root}/{one.path}" for one in result.actions if one.reason not in _UNNEEDED]
+        places = [f"{result.root}/{action.path}" for action in result.actions if action.reason not in _UNNEEDED]
         whole = [f"{place.removesuffix('.mo')}/package.mo" for place in places]  # of classes that are folders now
         self.outputs |= self._commit.paths([*places, *whole])
         self.known |= self.outputs
 
     def select(self, paths: Iterable[str]) -> set[str]:
-        """Return those of the paths that are the robot's, or a state of a robot that is no more."""
-        return {path for path in paths if path in self.known or path.startswith(self.folders) or self._is_state(path)}
-
-    def _is_state(self, path: str) -> bool:
-        """Return whether a path is a state, such as `robots/arm.state` or `bases/arm/0`, of no other robot."""
-        place = next((place for place in self.states if path.startswith(place)), None)
-        if place is None:
-            return False
-        robot, slash, _ = path.removeprefix(place).partition("/")
-        return (robot if slash else PurePosixPath(robot).stem) not in self._others
+        """Return those of the paths that are the robot's."""
+        return {path for path in paths if path in self.known or path.startswith(self.folders)}
 
     def find_unstaged(self) -> set[str]:
         """Return the files that have to be added to the commit."""
         index = self._commit.index
-        untracked = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
-        return self.select(index.unstaged) | untracked | (self.inputs & index.untracked)
+        outputs = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
+        # what git ignores may be read, and the user's models need not be in the commit
+        inputs = {path for path in self.known & index.untracked if not path.endswith(".mo")}
+        return self.select(index.unstaged) | outputs | inputs
+
+    def find_fault(self) -> Fault | None:
+        """Return why a commit that touches the robot does not pass, before anything is built."""
+        index = self._commit.index
+        if hidden := self.select(index.hidden):
+            message = f"git is told not to look at {', '.join(sorted(hidden))}"
+            return self.fault("hidden", message, "`git help update-index` says how to undo it")
+        if partly := self.select(self._commit.files & index.unstaged):
+            hint = f"{self.adding(partly)}, or put the rest aside with `git stash push --keep-index`"
+            return self.fault("partly-staged", f"staged in part only: {', '.join(sorted(partly))}", hint)
+        if not self.planned.in_step:
+            return self.fault_of_build(self.planned, "`urdfsync hook build`")
+        if unstaged := self.find_unstaged():
+            message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
+            return self.fault("not-staged", message, self.adding(unstaged))
+        return None
+
+    def fault_of_build(self, result: Result, hint: str) -> Fault:
+        """Return the fault of a robot that a build has written, or would have to."""
+        if result.failed or result.conflicts or result.is_broken:
+            return self.fault("out-of-step", summary(result), "", result)
+        return self.fault("out-of-step", f"out of step: {summary(result)}", hint, result)
+
+    def fault(self, code: str, message: str, hint: str, result: Result | None = None) -> Fault:
+        """Return a fault of this robot."""
+        message, place = f"robot `{self.robot.name}`: {message}", shown(self._config_file)
+        return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result)
+
+    def adding(self, paths: Collection[str]) -> str:
+        """Return the command that adds files to the commit, from whichever folder of the repository."""
+        index, names = self._commit.index, set(paths)
+        ignored = names - index.tracked - index.untracked
+        for folder in self.folders if len(names) > _FEW and not ignored else ():
+            inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
+            if len(inside) > 1 and inside <= names:  # nothing else is to add in there
+                names = names - inside | {folder.removesuffix("/")}
+        # hooks run at the top, the user's shell elsewhere; a second colon ends what git takes for its signs
+        from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
+        return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 
 
-def _check(commit: Commit, path: str, options: BuildOptions, writing: bool) -> list[CommitFault]:
-    """Return the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
-    index = commit.index
-    file, key = hook.answer_place(index, path)
+def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool) -> Iterator[Fault]:
+    """Yield the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
+    file, key = hook.answer_place(commit.index, path)
     with Dependencies() as everything:
         config = configuration.load(Path(file))
-        if is_interrupted(config, options.wait):
-            message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
-            raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(config.file), hint=hint))
-        robots = [_plan(commit, config, robot, options, everything) for robot in config.robots]
-    if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
-        needed = {path for one in robots for path in (*(one.known & index.tracked), *one.folders, *one.states)}
-        uptodate.save_answer(file, "hook", key, sorted(needed), everything)
-        return []
-    faults, to_build = [], []
-    for one in robots:
-        if not one.select(commit.touched):
-            continue
-        if hidden := one.select(index.hidden):
-            names = ", ".join(sorted(hidden))
-            message = f"git is told not to look at {names} (`git help update-index` says how to undo it)"
-            faults.append(CommitFault(one, "hidden", message))
-        elif partly := one.select(commit.files & index.unstaged):
-            message = f"staged in part only: {', '.join(sorted(partly))}"
-            faults.append(CommitFault(one, "partly-staged", message, _ADD_REST, partly))
-        elif not one.planned.in_step and writing:
-            to_build.append(one)
-        elif not one.planned.in_step:
-            faults.append(_fault_of_build(one, one.planned, _BUILD))
-        elif unstaged := one.find_unstaged():
-            message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
-            faults.append(CommitFault(one, "not-staged", message, _ADD, unstaged))
-    results = list(build(config, [one.robot for one in to_build], options)) if to_build else []
-    commit.index = git.Index()  # of which builds have changed files
-    for one, result in zip(to_build, results, strict=True):
-        one.note(result)
-        unstaged = one.find_unstaged()
-        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # else all that was written lies elsewhere
-            faults.append(_fault_of_build(one, result, _ADD, unstaged))
-    return faults
-
-
-def is_interrupted(config: Config, wait: float) -> bool:
-    """Return whether a build was killed while it wrote: a clone would not know what it was about to write.
-
-    Waits so many seconds for a build that is still writing. Raises LockedError.
-    """
-    folder = config.root / STATE_FOLDER
-    if planned.is_interrupted(folder):
-        with build_lock(folder, wait) as lock:
-            lock.acquire()
-    return planned.is_interrupted(folder)
-
-
-def _plan(
-    commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions, everything: Dependencies
-) -> RobotFiles:
-    """Plan a build of one robot in the working tree, and find its files; add what was read to `everything`."""
-    dry = msgspec.structs.replace(options, dry=True, trusted=True)
-    with Dependencies() as dependencies:
-        (result,) = build(config, [robot], dry)
-    for (check, path), found in dependencies.entries.items():
-        everything.add(check, path, found)
-    everything.complete = everything.complete and dependencies.complete
-    return RobotFiles(commit, config, robot, result, dependencies)
-
-
-def _fault_of_build(files: RobotFiles, result: Result, step: str, paths: Collection[str] = ()) -> CommitFault:
-    if result.failed or result.conflicts or result.is_broken:
-        return CommitFault(files, "out-of-step", summary(result), result=result)
-    return CommitFault(files, "out-of-step", f"out of step: {summary(result)}", step, paths, result)
-
-
-def _show(
-    commit: Commit,
-    faults: Sequence[CommitFault],
-    diagnostics: list[Diagnostic],
-    named: Sequence[Path],
-    console: Console,
-) -> Exit:
-    """Show what is wrong with each robot, then commands to copy. Returns the exit code."""
-    code = exit_code([fault.result for fault in faults if fault.result])
-    code = Exit.ERROR if diagnostics else code or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
-    several, lines = len({fault.files.config.file for fault in faults}) > 1, []
-    for fault in faults:
-        name, place = fault.files.robot.name, commit.typed(str(fault.files.config.file))
-        if fault.result and (console.json or not fault.step):
-            show_result(console, fault.result)
-        else:
-            lines.append(f"{name}{f' ({place})' if several else ''}: {fault.message}")
-        if console.json:
-            hint = "; ".join(f"`{command}`" for _, command in _steps(commit, [fault], named))
-            message = f"robot `{name}`: {fault.message}"
-            diagnostics.append(Diagnostic(Severity.ERROR, fault.code, message, place, hint=hint))
-    if not console.json:
-        lines += [text for step, command in _steps(commit, faults, named) for text in (step, f"  {command}")]
-        console.print(line((text, "")) for text in lines)
-    console.end("hook", code, diagnostics)
-    return code
-
-
-def _steps(commit: Commit, faults: Sequence[CommitFault], named: Sequence[Path]) -> Iterator[tuple[str, str]]:
-    """Return what to do about faults, and the commands for it."""
+        robots = [_plan(commit, config, robot, options) for robot in config.robots]
     index = commit.index
-    for step in dict.fromkeys(fault.step for fault in faults if fault.step):
-        if step == _BUILD:
-            yield step, shlex.join(["urdfsync", "hook", "build", *map(str, named)])
-            continue
-        paths = {path for fault in faults if fault.step == step for path in fault.paths}
-        force = ["-f"] if paths - index.tracked - index.untracked else []  # git is told to ignore some
-        pending, folders = index.unstaged | index.untracked, {one for fault in faults for one in fault.files.folders}
-        for folder in folders if len(paths) > _FEW and not force else ():
-            inside = {path for path in pending if path.startswith(folder)}
-            if len(inside) > 1 and inside <= paths:  # nothing else is to add in there
-                paths = paths - inside | {folder.removesuffix("/")}
-        yield step, shlex.join(["git", "add", *force, *sorted(map(commit.typed, paths))])
+    if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
+        needed = {path for robot in robots for path in (*(robot.known & index.tracked), *robot.folders)}
+        uptodate.save_answer(file, "hook", key, sorted(needed), everything)
+        return
+    to_build = []
+    for robot in robots:
+        fault = robot.find_fault() if robot.select(commit.touched) else None
+        if fault and writing and fault.result and not fault.result.failed:
+            to_build.append(robot)
+        elif fault:
+            yield fault
+    results = list(build(config, [robot.robot for robot in to_build], options)) if to_build else []
+    commit.index = git.Index()  # of which builds have changed files
+    for robot, result in zip(to_build, results, strict=True):
+        robot.note(result)
+        unstaged = robot.find_unstaged()
+        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # else all that was written lies elsewhere
+            yield robot.fault_of_build(result, robot.adding(unstaged))
+
+
+def _plan(commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions) -> RobotFiles:
+    """Plan a build of one robot in the working tree, and find its files."""
+    dry = msgspec.structs.replace(options, dry=True, trusted=True)
+    with Dependencies() as read:
+        (result,) = build(config, [robot], dry)
+    dependencies.include(read)
+    return RobotFiles(commit, config, robot, result, read)
