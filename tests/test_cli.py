@@ -213,18 +213,18 @@ def test_text_of_others_can_not_command_a_terminal(monkeypatch: pytest.MonkeyPat
     errors = Terminal()
     monkeypatch.setattr(sys, "stderr", errors)
     found = Diagnostic(Severity.ERROR, "x", f"it says `{EVIL}`", f"{EVIL}.urdf", 3, hint=f"not {EVIL}")
-    Console().end("build", Exit.ERROR, [found])
+    Console().end(Exit.ERROR, [found])
     safe = "a\\x1b[31m\\x07\\u202eb\\x9b2J\\ud800"
     assert errors.getvalue() == f"{safe}.urdf:3: error: it says `{safe}`; not {safe} [x]\n"
 
 
 def test_many_findings_of_one_kind_are_folded(capsys: Capture) -> None:
     many = [Diagnostic(Severity.WARNING, "mesh-not-found", f"mesh {n} not found", "a.urdf", n) for n in range(1, 10)]
-    Console().end("build", Exit.ERROR, many)
+    Console().end(Exit.ERROR, many)
     lines = capsys.readouterr().err.splitlines()
     assert lines[:4] == [f"a.urdf:{n}: warning: mesh {n} not found [mesh-not-found]" for n in range(1, 5)]
     assert lines[4:] == ["and 5 more like these [mesh-not-found]; --verbose shows them"]
-    Console(verbose=True).end("build", Exit.ERROR, many)
+    Console(verbose=True).end(Exit.ERROR, many)
     assert len(capsys.readouterr().err.splitlines()) == 9
 
 

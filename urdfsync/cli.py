@@ -46,8 +46,7 @@ def main(given: Sequence[str] | None = None) -> int:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, given[0], key, answer, dependencies)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
-        Console().end("", Exit.ERROR, [_unforeseen(error)])
-        return Exit.ERROR
+        return Console().end(Exit.ERROR, [_unforeseen(error)])
     return code
 
 
@@ -61,17 +60,17 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
 def tell_unwritten(trouble: str) -> int:
     """Say that not all of the output could be written; returns the exit code."""
     found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {trouble}")
-    Console().end("", Exit.ERROR, [found])
-    return Exit.ERROR
+    return Console().end(Exit.ERROR, [found])
 
 
 def _main(given: list[str]) -> int:
     """Run a command. This is the one place that turns exceptions into exit codes."""
     command = _command(given)
-    console = Console(as_json="--json" in given)
+    console = Console(command, as_json="--json" in given)
     try:
         args = _arguments(given)
-        console = Console(as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=str(args.config or ""))
+        config = str(args.config or "")
+        console = Console(command, as_json=args.json, quiet=args.quiet, verbose=args.verbose, config=config)
         return _call(args, console)
     except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
@@ -88,9 +87,7 @@ def _main(given: list[str]) -> int:
         found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
         found, code = (_unforeseen(error),), Exit.ERROR
-    exit_code = _for_git(given, code)
-    console.end(command, exit_code, found)
-    return exit_code
+    return console.end(_for_git(given, code), found)
 
 
 def _arguments(given: list[str]) -> argparse.Namespace:

@@ -8,7 +8,6 @@ from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.state.transaction import save
@@ -34,7 +33,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Write the new tables behind all others, and show what was guessed. Raises ConfigError, SourceError."""
     loaded, domain = arguments.configuration(args), registry.domain(args.domain)
     taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
@@ -62,5 +61,4 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     with write_errors(loaded.file):
         save(loaded.file, content, new.encode())
     console.warnings(warnings)
-    show_guesses(console, "add", loaded.file, "extended", guesses)
-    return Exit.IN_STEP
+    return show_guesses(console, loaded.file, "extended", guesses)

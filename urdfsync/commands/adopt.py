@@ -15,7 +15,7 @@ from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine
@@ -42,7 +42,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots for the first time, and show what differs from the generated package."""
     configuration = arguments.configuration(args)
     robots = {robot.name: robot for robot in configuration.select(args.robots)}
@@ -52,11 +52,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     for result in build(configuration, list(robots.values()), request):
         results.append(result)
         show_result(console, result)
-        if not (result.failed or result.conflicts or console.json or console.quiet):
-            console.print(_lines(configuration, robots[result.robot], result, looking, verbose=console.verbose))
-    code = exit_code(results)
-    console.end("adopt", code)
-    return code
+        if not (result.failed or result.conflicts):
+            console.tell(_lines(configuration, robots[result.robot], result, looking, verbose=console.verbose))
+    return console.end(exit_code(results))
 
 
 def _lines(

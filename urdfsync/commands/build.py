@@ -14,7 +14,7 @@ from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.results import show_results
@@ -54,7 +54,7 @@ def add(commands: arguments.Commands) -> None:
     )
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots, one after the other, and show each as soon as it is built."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
@@ -63,11 +63,8 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     dry = args.dry_run or args.check
     request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg)
     results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
-    if not console.json and not console.quiet:
-        console.print(_next_steps(results))
-    code = exit_code(results, args.check)
-    console.end("build", code)
-    return code
+    console.tell(_next_steps(results))
+    return console.end(exit_code(results, args.check))
 
 
 def build_and_check(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) -> Iterator[Result]:

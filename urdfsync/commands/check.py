@@ -14,7 +14,6 @@ from urdfsync.check.report import closing_lines, robot_lines, to_json
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.check.tools import BOTH, chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, has_marks
 
 _CHECK_OPTIONS = ("physics", "strict", "jobs", "timeout", "memory", "wait", "executor")
@@ -51,7 +50,7 @@ def add(commands: arguments.Commands) -> None:
     )
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Check the packages of the robots, and show each as soon as it is checked."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
@@ -60,9 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     options = CheckOptions(tools=tools, package_paths=config.ros_package_path(os.environ), **chosen)
     found = run_checks.check_robots(configuration, robots, options, console.progress)
     results = show_results(console, found, args.strict)
-    code = exit_code(results, args.strict)
-    console.end("check", code)
-    return code
+    return console.end(exit_code(results, args.strict))
 
 
 def show_results(console: Console, found: Iterable[CheckResult], strict: bool) -> list[CheckResult]:
@@ -78,6 +75,5 @@ def show_results(console: Console, found: Iterable[CheckResult], strict: bool) -
                 console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
             console.findings(result.diagnostics)
     finally:
-        if not console.json and not console.quiet:
-            console.print(closing_lines(results, strict=strict))
+        console.tell(closing_lines(results, strict=strict))
     return results

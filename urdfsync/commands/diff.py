@@ -18,7 +18,6 @@ from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
-from urdfsync.engine.result import Exit
 from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.outline import effect_rows
@@ -57,7 +56,7 @@ def add(commands: arguments.Commands) -> None:
     other.add_argument("--edits", action="store_true", help="show what you edited in the packages instead")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Show what changed in each source."""
     if args.edits:
         from urdfsync.commands import edits  # the merge takes a while to load
@@ -71,9 +70,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         for found in comparison.compare_sources(robots, args.against, loaded, request, folder):
             comparisons.append(found)
             _show(console, found)
-    code = comparison.exit_code(comparisons)
-    console.end("diff", code)
-    return code
+    return console.end(comparison.exit_code(comparisons))
 
 
 def _configuration(args: argparse.Namespace, folder: Path) -> Config | None:

@@ -27,7 +27,7 @@ _EDITS = 20
 """So many edits of a file are listed at most, without --verbose."""
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Show the edits in the files that the paths mean, or in all. Raises ConfigError if a path means none."""
     configuration, code = arguments.configuration(args), Exit.IN_STEP
     request = arguments.request(args, console, dry=True)
@@ -54,17 +54,15 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             files = [one for one in files if any((root / one.path).is_relative_to(place) for place in named.values())]
         if console.json:
             console.add_robot({"name": robot.name, "failed": False, "files": list(map(edit_values, files))})
-        elif not console.quiet:
-            words = f"{counted(len(files), 'file')} edited" if files else "nothing is edited"
-            console.print([line((robot.name, "bold"), (f": {words}", ""))])
-            for file in files:
-                console.print(edit_lines(file, configuration.root, console.verbose))
+        words = f"{counted(len(files), 'file')} edited" if files else "nothing is edited"
+        console.tell([line((robot.name, "bold"), (f": {words}", ""))])
+        for file in files:
+            console.tell(edit_lines(file, configuration.root, console.verbose))
     if unknown:
         message = f"{min(unknown)!r} is no robot, and no file of a package"
         hint = "name a robot, or a file of its package"
         raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
-    console.end("diff", code)
-    return code
+    return console.end(code)
 
 
 def edit_values(file: EditedFile) -> dict[str, Any]:

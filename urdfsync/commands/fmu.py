@@ -59,7 +59,7 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_limits(parser, "each step", SimulateOptions().timeout)
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Export one model, check it if that is wanted, and write it."""
     configuration = arguments.configuration(args)
     robot = arguments.select_robot(args, configuration, console)
@@ -88,14 +88,11 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     write_file(file, exported.content)
     found = robot.without_ignored(_findings(trial, file)) if trial else ()
     diagnostics = (*exported.diagnostics, *found)
-    if console.json:
-        console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file, diagnostics))
-    elif not console.quiet:
-        console.print(fmu_lines(robot.name, exported, kind, trial, file))
+    console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file, diagnostics))
+    console.tell(fmu_lines(robot.name, exported, kind, trial, file))
     console.findings(diagnostics)
     code = Exit.OUT_OF_STEP if found else Exit.IN_STEP
-    console.end("fmu", code)
-    return code
+    return console.end(code)
 
 
 def _findings(trial: Trial, file: Path) -> list[Diagnostic]:

@@ -62,7 +62,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("configs", nargs="*", type=Path, metavar="CONFIG", help=configs)
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Check the configurations that the arguments name, or all that git tracks."""
     named = [*args.configs, *filter(None, [args.config])]
     faults, errors = list[Fault](), list[Diagnostic]()
@@ -84,8 +84,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         if console.json or result.failed or result.conflicts or result.is_broken:
             show_result(console, result)
     code = Exit.ERROR if errors else exit_code(results) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
-    console.end("hook", code, [*(fault.diagnostic for fault in faults), *errors])
-    return code
+    return console.end(code, [*(fault.diagnostic for fault in faults), *errors])
 
 
 class Commit:

@@ -79,7 +79,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Write the configuration, and show what was guessed."""
     file = config.working_folder() / (args.config or config.FILE_NAME)
     _refuse_existing(file)
@@ -90,8 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     with write_errors(file):
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     console.warnings(warnings)
-    show_guesses(console, "init", file, "written", guesses)
-    return Exit.IN_STEP
+    return show_guesses(console, file, "written", guesses)
 
 
 def guess_robots(
@@ -222,11 +221,8 @@ def _refuse_existing(file: Path) -> None:
         )
 
 
-def show_guesses(console: Console, command: str, file: Path, done: str, guesses: Sequence[Guess]) -> None:
-    """Show what was `done` to the configuration, and what was guessed for each robot, and why."""
-    if console.json:
-        console.write_json(command, Exit.IN_STEP, {"config": str(file), "robots": msgspec.to_builtins(guesses)})
-        return
+def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Guess]) -> int:
+    """End a command: show what was `done` to the configuration, and what was guessed for each robot, and why."""
     lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
         name, package = (guess.name, "bold"), (guess.package, "bold")
@@ -234,5 +230,6 @@ def show_guesses(console: Console, command: str, file: Path, done: str, guesses:
         for option in guess.options:
             assignment = f"    {option.option} = {json.dumps(option.value)}"
             lines.append(line((assignment, ""), (f"  guessed: {option.reason}", "dim")))
-    if not console.quiet:
-        console.print([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
+    console.tell([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
+    values = {"config": str(file), "robots": msgspec.to_builtins(guesses)}
+    return console.end(Exit.IN_STEP, values=values)

@@ -26,17 +26,15 @@ def add(commands: arguments.Commands) -> None:
     )
 
 
-def run(_args: argparse.Namespace, console: Console) -> Exit:
+def run(_args: argparse.Namespace, console: Console) -> int:
     """Print the folder and the line for the shell; to `eval`, only the latter."""
     folder = str(config.library_folder())
     if os.name == "nt":
         command = f"set MODELICAPATH={folder};%MODELICAPATH%"
     else:
         command = f'export MODELICAPATH={shlex.quote(folder)}"${{MODELICAPATH:+:$MODELICAPATH}}"'
-    if console.json:
-        console.write_json("library", Exit.IN_STEP, {"folder": folder, "line": command})
-    elif sys.stdout.isatty():
+    if not console.json and sys.stdout.isatty():
         console.print([line((folder, "")), line((command, ""))])
-    else:
+    elif not console.json:
         sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
-    return Exit.IN_STEP
+    return console.end(Exit.IN_STEP, values={"folder": folder, "line": command})

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfsync import git
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console, line
@@ -53,16 +53,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "either --install or BASE MINE OTHER is needed")
     if args.install:
         return _install(console)
-    try:
-        found = _merge(args)
-    except (UrdfsyncError, OSError) as error:
-        console.end("merge-driver", arguments.DRIVER_ERROR, findings_of(error))
-        return arguments.DRIVER_ERROR
-    console.end("merge-driver", 1 if found else 0, found)
-    return 1 if found else 0
+    conflict = _merge(args)
+    return console.end(1 if conflict else 0, conflict)
 
 
-def _install(console: Console) -> Exit:
+def _install(console: Console) -> int:
     """Enter the command into the settings of the clone, and say which line `.gitattributes` needs, if it does.
 
     Raises UrdfsyncError if that can't be.
@@ -76,12 +71,10 @@ def _install(console: Console) -> Exit:
         attribute = git.run("check-attr", "-z", "merge", "--", "any.mo").split("\0")[2]
     except git.GitError as error:
         raise UrdfsyncError(Diagnostic(Severity.ERROR, "git", str(error), hint="run it in a clone")) from None
-    if not (console.json or console.quiet):
-        console.print([line((f"git merges with urdfsync in {top}", ""))])
+    console.tell([line((f"git merges with urdfsync in {top}", ""))])
     hint, file = "add the line `*.mo merge=urdfsync` to it, and commit it", shown(Path(top, ".gitattributes"))
     note = Diagnostic(Severity.NOTE, "no-attribute", "it does not say which files these are", file, hint=hint)
-    console.end("merge-driver", Exit.IN_STEP, [note] if attribute != "urdfsync" else [])
-    return Exit.IN_STEP
+    return console.end(Exit.IN_STEP, [note] if attribute != "urdfsync" else [])
 
 
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:

@@ -54,7 +54,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Write the record to its file or to the standard output."""
     file = None if args.output == Path("-") else args.output
     domain = registry.domain(args.domain)
@@ -76,20 +76,15 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))
     record = generated.content(artifact.path).decode()
     values = {"class": target.name, "within": target.package}
-    if file is None:
-        if console.json:
-            console.write_json("record", Exit.IN_STEP, values | {"text": record})
-            return Exit.IN_STEP
+    if file is not None:
+        is_written = _write(record, source, file, force=args.force)
+        console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {target.name}", ""))])
+        return console.end(Exit.IN_STEP, values=values | {"file": str(file), "written": is_written})
+    if not console.json:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
         sys.stdout.write(record)
-        return Exit.IN_STEP
-    is_written = _write(record, source, file, force=args.force)
-    if console.json:
-        console.write_json("record", Exit.IN_STEP, values | {"file": str(file), "written": is_written})
-    elif not console.quiet:
-        console.print([line((f"{file} {'written' if is_written else 'unchanged'}: record {target.name}", ""))])
-    return Exit.IN_STEP
+    return console.end(Exit.IN_STEP, values=values | {"text": record})
 
 
 def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:

@@ -14,7 +14,7 @@ from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines
@@ -46,7 +46,7 @@ def add(commands: arguments.Commands) -> None:
     mode.add_argument("--yes", action="store_true", help="do not ask")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Show what goes, ask, and take it away: package and recorded state first, then the table."""
     configuration = arguments.configuration(args)
     robots = configuration.select([args.robot])
@@ -63,9 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             if not result.failed:
                 _take_out(configuration, name)
             _show(console, result, "removed", with_files=args.yes)
-    code = exit_code([result])
-    console.end("remove", code)
-    return code
+    return console.end(exit_code([result]))
 
 
 def _show(console: Console, result: Result, words: str, *, with_files: bool) -> None:

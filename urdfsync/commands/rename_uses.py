@@ -20,7 +20,7 @@ from urdfsync.output.results import show_results
 from urdfsync.state.transaction import save
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Show the lines that change; if the user agrees, write them and build the robots whose names are new by that."""
     given = dict(_pair(args.parser, text) for text in args.rename_uses)
     loaded = arguments.configuration(args)
@@ -38,11 +38,9 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
             )
         )
     console.warnings([*told, *(_notes(found) if console.json else ())])
-    if not (console.json or console.quiet):
-        console.print(_lines(found))
+    console.tell(_lines(found))
     if not found.texts or args.dry_run:
-        console.end("resolve", code)
-        return code
+        return console.end(code)
     if not args.trust:
         outputs = (find_untrusted_output(loaded, one) for one in found.robots)
         if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in found.texts)))]:
@@ -50,15 +48,11 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
     builds = f", and build {', '.join(robot.name for robot in found.robots)}" if found.robots else ""
     if not (args.yes or arguments.is_confirmed(f"Write {count}{builds}?", "written", console)):
-        console.end("resolve", Exit.OUT_OF_STEP)
-        return Exit.OUT_OF_STEP
+        return console.end(Exit.OUT_OF_STEP)
     _write(found.texts)
-    if not (console.json or console.quiet):
-        console.print([line((f"{count} written", ""))])
+    console.tell([line((f"{count} written", ""))])
     results = build_and_check(loaded, found.robots, arguments.request(args, console))
-    code = exit_code(show_results(console, results)) or code
-    console.end("resolve", code)
-    return code
+    return console.end(exit_code(show_results(console, results)) or code)
 
 
 def _pair(parser: argparse.ArgumentParser, text: str) -> tuple[str, str]:

@@ -77,7 +77,7 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Find the files that the user means, and build their robots with the user's choice."""
     if args.rename_uses is not None:
         if args.paths or args.all:
@@ -114,18 +114,17 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     remaining = {path: file for path, file in files.items() if args.dry_run or path not in accepted}
     for path in files.keys() - remaining.keys():
         shutil.rmtree(files[path].parent)
-    if not (args.dry_run or console.json or console.quiet):
+    if not args.dry_run:
         lines = [
             file_line(shown(configuration.root / path), "accepted", "green", _meaning(action))
             for path, action in accepted.items()
         ]
-        console.print(first_lines(lines, _LINES, "file", verbose=console.verbose))
+        console.tell(first_lines(lines, _LINES, "file", verbose=console.verbose))
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:
         is_error = any(one.severity is Severity.ERROR for one in problems)
         code = Exit.ERROR if is_error else Exit.CONFLICT
-    console.end("resolve", code, [*problems, *map(_remains, remaining.values())])
-    return code
+    return console.end(code, [*problems, *map(_remains, remaining.values())])
 
 
 def _choice(args: argparse.Namespace) -> Choice:
@@ -162,7 +161,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
             yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # which a build may have deleted
 
 
-def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> Exit:
+def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> int:
     """Say that paths mean no file that could be resolved."""
     failed = [result for result in planned if result.failed]
     for result in failed:
@@ -173,8 +172,7 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
     hint = "correct the errors first" if failed else "no file is in conflict"
     hint = f"in conflict: {', '.join(names[:_FEW])}{more}" if names else hint
     code = exit_code(failed) if failed else Exit.ERROR
-    console.end("resolve", code, [Diagnostic(Severity.ERROR, "no-conflict", f"{subject} no conflict", hint=hint)])
-    return code
+    return console.end(code, [Diagnostic(Severity.ERROR, "no-conflict", f"{subject} no conflict", hint=hint)])
 
 
 def _compare(

@@ -64,7 +64,7 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_limits(parser, "all of it", SimulateOptions().timeout)
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     configuration = arguments.configuration(args)
     robot = arguments.select_robot(args, configuration, console)
@@ -79,15 +79,12 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
     options = simulate_options(args, tool, method=args.method, variables=tuple(args.variable))
     result = simulate(configuration, robot, options, console.progress)
     write_outputs(files, result)
-    if console.json:
-        console.add_robot(to_json(result, files))
-    elif not console.quiet:
-        console.print(result_lines(result, files))
+    console.add_robot(to_json(result, files))
+    console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(one.severity is Severity.ERROR for one in result.diagnostics)
     code = Exit.ERROR if stopped else Exit.IN_STEP
-    console.end("simulate", code)
-    return code
+    return console.end(code)
 
 
 def simulate_options(args: argparse.Namespace, tool: Tool, **others: Any) -> SimulateOptions:

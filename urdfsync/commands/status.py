@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from urdfsync.commands import arguments
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import (
@@ -53,7 +53,7 @@ def add(commands: arguments.Commands) -> None:
     )
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Show how each robot's package stands."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
@@ -67,9 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> Exit:
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
-    code = exit_code(results, check=True)
-    console.end("status", code)
-    return code
+    return console.end(exit_code(results, check=True))
 
 
 def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:

@@ -55,7 +55,7 @@ def _duration(text: str) -> float:
     return number
 
 
-def run(args: argparse.Namespace, console: Console) -> Exit:
+def run(args: argparse.Namespace, console: Console) -> int:
     """Run the daemon until a signal ends it."""
     from urdfsync.watch.daemon import Daemon, WatchOptions  # not at the top: watchdog takes 45 ms
     from urdfsync.watch.report import Report, show_json

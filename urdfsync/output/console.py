@@ -126,9 +126,12 @@ def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
 class Console:
     """The output of one command, as its options want it."""
 
-    def __init__(self, *, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = "") -> None:
+    def __init__(
+        self, command: str = "", *, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = ""
+    ) -> None:
         """`config` is the configuration as the user named it, for commands that are proposed."""
-        self.json, self.quiet, self.verbose, self.config = as_json, quiet, verbose, config
+        self._command, self.config = command, config
+        self.json, self.quiet, self.verbose = as_json, quiet, verbose
         self._robots: list[Mapping[str, Any]] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
@@ -138,6 +141,11 @@ class Console:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
         write_lines(lines, sys.stderr if error else sys.stdout)
+
+    def tell(self, lines: Iterable[StyledLine]) -> None:
+        """Write lines on the output stream, unless the user wants JSON or errors alone."""
+        if not (self.json or self.quiet):
+            self.print(lines)
 
     def findings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show diagnostics to people."""
@@ -154,28 +162,25 @@ class Console:
         self.stop_progress()
         self._robots.append(values)
 
-    def end(self, command: str, code: int, diagnostics: Sequence[Diagnostic] = ()) -> None:
-        """End a command: show what stopped it, or the JSON document of its robots."""
-        self.stop_progress()
-        if self.json:
-            self.write_json(command, code, {"robots": self._robots}, diagnostics)
-        else:
-            self.findings(diagnostics)
+    def end(self, code: int, diagnostics: Sequence[Diagnostic] = (), values: Mapping[str, Any] | None = None) -> int:
+        """End a command: show what stopped it, or write its JSON document (docs/json.md). Returns the exit code.
 
-    def write_json(
-        self, command: str, code: int, values: Mapping[str, Any], diagnostics: Sequence[Diagnostic] = ()
-    ) -> None:
-        """Write the one JSON document of a command: docs/json.md."""
-        found = [msgspec.structs.asdict(one) for one in (*self._warnings, *diagnostics)]
+        The document has these values, else the robots.
+        """
+        self.stop_progress()
+        if not self.json:
+            self.findings(diagnostics)
+            return code
         document = {
             "version": JSON_VERSION,
-            "command": command,
+            "command": self._command,
             "exit": int(code),
-            **values,
-            "diagnostics": found,
+            **({"robots": self._robots} if values is None else values),
+            "diagnostics": list(map(msgspec.structs.asdict, (*self._warnings, *diagnostics))),
         }
-        indent = None if command == "watch" else 2  # its output is one object per line
+        indent = None if self._command == "watch" else 2  # its output is one object per line
         sys.stdout.write(json.dumps(document, indent=indent) + "\n")
+        return code
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
