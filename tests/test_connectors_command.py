@@ -29,7 +29,7 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(proje
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
     hint = '`frames = ["arm"]` brings it back'
     printed = execute("diff", "arm.urdf", code=1)
-    assert f"link arm frame arm_linkFrame is gone {hint} link hand frame now handFrame" in printed.words
+    assert f"link arm frame arm_linkFrame is gone ({hint}) link hand frame now handFrame" in printed.words
     assert printed.err == "", "what the effects say is not said twice"
     notes = [
         "arm.urdf: note: there is more to connect to: `handFrame` [connector-changed]",
