@@ -20,8 +20,10 @@ _NOTE = "\n  annotation ("
 
 
 def add_component(text: str, _: Random) -> str | None:
-    """A component where everybody puts it: behind all others."""
-    new = f'\n  Modelica.Blocks.Sources.Constant {MARK}Source(k = 3)\n    "Added by hand";\n'
+    """A component where everybody puts it: behind all others. A record can have no block, but a number."""
+    is_record = re.search(r"^record ", text, re.MULTILINE) is not None
+    added = f"Real {MARK}Source = 3" if is_record else f"Modelica.Blocks.Sources.Constant {MARK}Source(k = 3)"
+    new = f'\n  {added}\n    "Added by hand";\n'
     place = next((text.find(word) for word in ("\nequation\n", _NOTE) if word in text), -1)
     return f"{text[:place]}{new}{text[place:]}" if place >= 0 else None
 

@@ -1,7 +1,7 @@
 """The check after a build: syntax, layout, compiling and balance of the package that is on disk.
 
-A package that a check found right is not checked again until something that matters has changed: that takes 10 s for
-an arm. One that is wrong is checked again after each build: whoever builds twice must not be told that all is well.
+A right package is not checked again until an input of the check changes: a check takes 10 s for an arm. A wrong package
+is checked again after each build: a second build must not look right.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class BuildCheck(msgspec.Struct, frozen=True):
     checked: Checked
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
-    """How long it took; 0 if it is that of an earlier one."""
+    """Seconds that the check took; 0 for an earlier check."""
 
 
 class BuildChecker:
@@ -47,7 +47,7 @@ class BuildChecker:
         """Return the fingerprint of all that a check of a robot rests on; None if some of that can't be read."""
         return fingerprint(self._config, robot, self._options)
 
-    def known(self, key: str | None) -> BuildCheck | None:
+    def find_earlier(self, key: str | None) -> BuildCheck | None:
         """Return an earlier check with this key, with findings about the machine alone; None if there is none."""
         result = None if self._options.fresh or key is None else UserCache.default().load(key, CheckResult)
         if result is None:
@@ -60,7 +60,7 @@ class BuildChecker:
 
         Faults of a package, or of its check, come back as diagnostics.
         """
-        earlier = {robot.name: self.known(self.key(robot)) for robot in robots}
+        earlier = {robot.name: self.find_earlier(self.key(robot)) for robot in robots}
         unknown = [robot for robot in robots if earlier[robot.name] is None]
         results = run.check_robots(self._config, unknown, self._options, tell)
         trouble: BuildCheck | None = None  # it ends the checks of all other robots
@@ -83,15 +83,15 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
     count = 0
     try:
         built.extend(results)
-        fresh = [one.robot for one in built if not (one.failed or one.dry or one.checked)]
+        fresh = [result.robot for result in built if not (result.failed or result.dry or result.checked)]
         due = [robots[name] for name in fresh if robots[name].checking]
         checks = BuildChecker(config, request).check(due, request.progress)
         for result in built:
             if robots[result.robot] in due:
                 check = next(checks)
                 findings = robots[result.robot].without_ignored(check.diagnostics)
-                new = tuple(one for one in findings if one not in told)
-                told.update(filter(is_general, new))  # what is about the machine is said once for all robots
+                new = tuple(finding for finding in findings if finding not in told)
+                told.update(filter(is_general, new))  # findings about the machine are said once for all robots
                 diagnostics = (*result.diagnostics, *new)
                 result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=check.checked)
             count += 1
@@ -107,7 +107,7 @@ def is_general(finding: Diagnostic) -> bool:
 
 
 def _judge(result: CheckResult) -> BuildCheck:
-    """Return a result, as far as it matters after a build."""
+    """Return the part of a result that a build shows."""
     if result.failed:
         return BuildCheck(Checked.WRONG, result.diagnostics, result.seconds)
     if result.compiled and not result.gaps:

@@ -132,6 +132,6 @@ def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
         with contextlib.suppress(OSError):  # nobody noted when it was used
             used = max(used, note.lstat().st_mtime)
         is_folder = path.is_dir() and not path.is_symlink()
-        inside = [one.lstat() for one in (path, *(path.rglob("*") if is_folder else ()))]
-        sizes = (max(one.st_size, getattr(one, "st_blocks", 0) * 512) for one in inside)
+        inside = [status.lstat() for status in (path, *(path.rglob("*") if is_folder else ()))]
+        sizes = (max(status.st_size, getattr(status, "st_blocks", 0) * 512) for status in inside)
         yield used, path, sum(sizes)

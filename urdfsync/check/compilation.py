@@ -1,4 +1,4 @@
-"""Compiles and moves versions of one robot's package, each a copy in a folder where the compiler finds it."""
+"""Compiles and simulates versions of one robot's package, each a copy in a folder where the compiler finds it."""
 
 from __future__ import annotations
 
@@ -73,9 +73,9 @@ class Compilation:
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
         self.generated: Series | None = None
-        """How the package moves as it is generated, completed for the comparison; None if it does not."""
+        """The motion of the package as it is generated, completed for the comparison; None without a simulation."""
         self.edited: Series | None = None
-        """How the package on disk moves, if it is edited; None if it does not."""
+        """The motion of the package on disk, if it is edited; None without a simulation."""
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
@@ -122,7 +122,9 @@ class Compilation:
         if self.edited is None or without_edits is None:
             return
         alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
-        single = {file: compare(compared, one, without_edits) for file, one in alone.items() if one is not None}
+        single = {
+            file: compare(compared, series, without_edits) for file, series in alone.items() if series is not None
+        }
         whole = compare(compared, self.edited, without_edits)
         self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
@@ -156,14 +158,16 @@ class Compilation:
                         self.diagnostics += map(_as_part, faults) if task.title in self._users_models else faults
                     continue
                 # another model with the same part has it under another name
-                told = {(one.file, one.line, one.code) for one in self.diagnostics}
+                told = {(finding.file, finding.line, finding.code) for finding in self.diagnostics}
                 warnings = explain_warnings(answer.warnings, self._compiler, files)
-                self.diagnostics += [one for one in warnings if (one.file, one.line, one.code) not in told]
+                self.diagnostics += [
+                    finding for finding in warnings if (finding.file, finding.line, finding.code) not in told
+                ]
                 if is_users or task.title not in self._users_models:
                     compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
         order = [*self._package.models, *users.files]
-        self.result.compiled = tuple(sorted(compiled, key=lambda one: order.index(one.model)))
-        parts = {part for one in compiled if one.is_users for part in users.uses.get(users.files[one.model], ())}
+        self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
+        parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
         for model, faults in failing.items():
             if users.files[model] not in parts:  # else it compiles there, which is what it is for
                 self.diagnostics += map(_as_part, faults)
@@ -216,20 +220,22 @@ def _as_part(finding: Diagnostic) -> Diagnostic:
 
 
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return how far values are from those expected, at beginning and end; what is no number is infinitely far."""
+    """Return the differences from the expected values, at beginning and end; one without a number is infinite."""
     deviations: list[Deviation] = []
-    for one in compared:
-        places = [(name, instant) for name in one.values for instant in (0, -1)]
+    for quantity in compared:
+        places = [(name, instant) for name in quantity.values for instant in (0, -1)]
         pairs = [(_number(series, *place), _number(expected, *place)) for place in places]
         differences = [abs(value - other) for value, other in pairs]
         greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
-        deviations.append(Deviation(one.quantity, one.element, greatest, value, 0.0, one.unit))
+        deviations.append(Deviation(quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit))
     sizes: dict[tuple[str, str], float] = {}
-    for one_found in deviations:
-        kind = one_found.quantity, one_found.unit
-        sizes[kind] = max(sizes.get(kind, 0.0), one_found.value)
-    return tuple(msgspec.structs.replace(one, size=sizes[one.quantity, one.unit]) for one in deviations)
+    for deviation in deviations:
+        kind = deviation.quantity, deviation.unit
+        sizes[kind] = max(sizes.get(kind, 0.0), deviation.value)
+    return tuple(
+        msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit]) for deviation in deviations
+    )
 
 
 def _number(series: Series, name: str, instant: int) -> float:
@@ -243,7 +249,7 @@ def edit_effects(
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
 ) -> Iterator[EditEffect]:
-    """Yield the effects of edits in `files`, each apart if possible; what no single one does, the others do together.
+    """Yield the effects of edits in `files`, each apart if possible; the rest is the effect of the others together.
 
     Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
     """
@@ -251,10 +257,18 @@ def edit_effects(
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
         return EditEffect(tuple(files), tuple(deviations), tuple(dict.fromkeys(owners[file] for file in files)))
 
-    changes = [one for one in whole if not agrees(one)]
-    apart = {file: [one for one in deviations if not agrees(one)] for file, deviations in single.items()}
-    explained = {(one.quantity, one.element, one.unit) for deviations in apart.values() for one in deviations}
-    rest = [one for one in changes if (one.quantity, one.element, one.unit) not in explained]
+    changes = [deviation for deviation in whole if not agrees(deviation)]
+    apart = {
+        file: [deviation for deviation in deviations if not agrees(deviation)] for file, deviations in single.items()
+    }
+    explained = {
+        (deviation.quantity, deviation.element, deviation.unit)
+        for deviations in apart.values()
+        for deviation in deviations
+    }
+    rest = [
+        deviation for deviation in changes if (deviation.quantity, deviation.element, deviation.unit) not in explained
+    ]
     quiet = [file for file in files if not apart.get(file)]
     yield from (effect([file], deviations) for file, deviations in apart.items() if deviations)
     if rest or quiet:
@@ -264,7 +278,7 @@ def edit_effects(
 def explain(
     problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
 ) -> list[Diagnostic]:
-    """Return findings for a compiler's text about `model`, a name below the package; it names files that people know.
+    """Return findings for a compiler's text about `model`, a name below the package, with the files that people know.
 
     `file` is that of a model of the user's outside of the package.
     """
@@ -279,19 +293,19 @@ def explain(
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
     every = compiler.complaints(problem) or [Complaint(one_line(problem))] * bool(problem.strip())
-    complaints = [one for one in every if one.code == "does-not-compile"] or every
-    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
-    placed = [msgspec.structs.replace(one, file=one.file or users_file) for one in own or complaints]
-    findings = dict.fromkeys(_diagnostic(one, package, "does-not-compile") for one in placed)
+    complaints = [complaint for complaint in every if complaint.code == "does-not-compile"] or every
+    own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
+    placed = [msgspec.structs.replace(complaint, file=complaint.file or users_file) for complaint in own or complaints]
+    findings = dict.fromkeys(_diagnostic(complaint, package, "does-not-compile") for complaint in placed)
     return list(findings)[:_MOST_DIAGNOSTICS]
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
     """Return warnings for a compiler's text about a model that compiles, those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
-    own = [one for one in complaints if Path(one.file).is_relative_to(package.folder)]
-    findings = [_diagnostic(one, package, one.code) for one in own]
-    return [msgspec.structs.replace(one, severity=Severity.WARNING) for one in findings]
+    own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
+    findings = [_diagnostic(complaint, package, complaint.code) for complaint in own]
+    return [msgspec.structs.replace(finding, severity=Severity.WARNING) for finding in findings]
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:

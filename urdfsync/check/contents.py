@@ -17,7 +17,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncErro
 from urdfsync.files import shown
 
 MOST_BYTES = 2**29
-"""Of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
+"""The most bytes of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
 RESOURCES = "Resources"
 """The folder of a library with all that is no Modelica."""
 _BLOCK = 4096
@@ -27,9 +27,8 @@ _BLOCK = 4096
 def content_hash(root: Path, without: Collection[str] = ()) -> str:
     """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
 
-    Left out are hidden files, Python's caches, and what has one of the names `without`. What can't be read counts as
-    such: a compiler can't read it either. Raises UrdfsyncError for a link to a folder or out of `root`, whose content
-    nobody knows.
+    Left out are hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
+    file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a link to a folder or out of `root`.
     """
     # strings take half the time of paths: a library has 3,000 files
     top, files, hashed = os.path.realpath(root), list[str](), hashlib.sha256()

@@ -93,8 +93,8 @@ def _domain_code(name: str) -> list[str]:
 
 def _installed() -> list[str]:
     """Return the names and versions of all that is installed, as the folders of their metadata say them."""
-    found = set[str]()
+    folders = set[str]()
     for place in sys.path:
         names = os.listdir(place) if os.path.isdir(place) else []  # noqa: PTH112, PTH208
-        found.update(name for name in names if name.endswith((".dist-info", ".egg-info")))
-    return sorted(found)
+        folders.update(name for name in names if name.endswith((".dist-info", ".egg-info")))
+    return sorted(folders)

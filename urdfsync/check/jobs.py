@@ -67,7 +67,7 @@ class Jobs(msgspec.Struct, frozen=True):
         tasks = [_with_imports(task, needed) for task in tasks]
         job = CompileJob(tuple(roots), tuple(tasks))
         results = compilers.run_job(self.tool, job, cache, self.limits, self.progress)
-        return [_with_originals(one, originals) for one in results]
+        return [_with_originals(result, originals) for result in results]
 
 
 def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
@@ -90,7 +90,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """A library where the compiler can read it, which takes paths in UTF-8 only; else, or if changed, a copy."""
+    """Return where the compiler can read a library: a copy if its path is not UTF-8, or if a file of it changed."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

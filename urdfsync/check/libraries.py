@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import tempfile
@@ -61,11 +62,11 @@ class StandardLibrary(msgspec.Struct, frozen=True):
 
 
 def find_standard_library(environment: Mapping[str, str], configured: Path | None = None) -> StandardLibrary:
-    """The Modelica Standard Library: in the folder that is configured, else in the first that has one that suits.
+    """Find the Modelica Standard Library: in the configured folder, else in the first folder with one that suits.
 
     Raises LibraryError.
     """
-    found: list[StandardLibrary] = []
+    candidates: list[StandardLibrary] = []
     for place in [configured] if configured else library_folders(environment):
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
@@ -74,14 +75,15 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
                 if others:
                     parts[name] = dict(others).get(version, others[0][1])
             if len(parts) == len(STANDARD_LIBRARIES):
-                found.append(StandardLibrary(version, parts))
-    suitable = [library for library in found if library.version >= OLDEST]
+                candidates.append(StandardLibrary(version, parts))
+    suitable = [library for library in candidates if library.version >= OLDEST]
     if suitable:
         return next((library for library in suitable if library.version < NEXT), suitable[0])
     code, message = "no-standard-library", "there is no Modelica Standard Library"
-    if found:
-        place, number = found[0].parts["Modelica"].parent, ".".join(map(str, found[0].version)) or "of unknown version"
-        code, oldest = "standard-library-too-old", ".".join(map(str, OLDEST))
+    if candidates:
+        first, oldest = candidates[0], ".".join(map(str, OLDEST))
+        place, number = first.parts["Modelica"].parent, ".".join(map(str, first.version)) or "of unknown version"
+        code = "standard-library-too-old"
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
     if configured:
         code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
@@ -89,7 +91,7 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
 
 
 def library_folders(environment: Mapping[str, str]) -> list[Path]:
-    """Where libraries are looked for: MODELICAPATH, then where OpenModelica keeps them; each once."""
+    """Return the folders of libraries, each once: those on MODELICAPATH, then those of OpenModelica."""
 
     def paths(name: str) -> list[Path]:
         return [Path(folder) for folder in environment.get(name, "").split(os.pathsep) if folder]
@@ -102,7 +104,7 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
 
 
 def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
-    """Each version of the libraries of the Modelica Standard Library: a compiler with means of its own may take any."""
+    """Return all versions of the Modelica Standard Library's libraries: a compiler with one of its own takes any."""
     return [
         path
         for place in library_folders(environment)
@@ -112,7 +114,7 @@ def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
 
 
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
-    """The library `name` in the first of the folders that has it, in its newest version: a folder or a file."""
+    """Find the library `name` in the first folder that has it, in its newest version: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
 
 
@@ -141,7 +143,7 @@ class Libraries(msgspec.Struct, frozen=True):
 
 
 def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], wanted: Iterable[str] = ()) -> Libraries:
-    """The libraries that the texts of a robot's package need, and `wanted` ones. Raises OutputError."""
+    """Find the libraries that the texts of a robot's package need, and `wanted` ones. Raises OutputError."""
     top, places = robot.target.package.partition(".")[0], search_path(robot)
     others = needed_libraries(texts, top, places, wanted)
     try:
@@ -151,39 +153,39 @@ def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], w
 
 
 def search_path(robot: RobotConfig) -> list[Path]:
-    """The folders in which the libraries of a robot's package are looked for: the one of its package comes first."""
+    """Return the folders in which the libraries of a robot's package are looked for, that of the package first."""
     return [robot.output, *library_folders(os.environ)]
 
 
 def needed_libraries(
     texts: Iterable[bytes], top: str, places: Sequence[Path], wanted: Iterable[str]
 ) -> dict[str, Path]:
-    """Libraries in `places` that the texts of the top-level package `top` name, those `wanted`, and what these name.
+    """Find the libraries in `places` that texts of the top-level package `top` name, `wanted` ones, and what they name.
 
     A library is named in an import, or where its name and a dot begin a name; components of something else do not
     count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
     """
-    known = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
-    known -= {top, LIBRARY, *STANDARD_LIBRARIES}
-    named, waiting, found = set(wanted), list(texts), dict[str, Path]()
+    available = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
+    available -= {top, LIBRARY, *STANDARD_LIBRARIES}
+    named, waiting, needed = set(wanted), list(texts), dict[str, Path]()
     while named or waiting:
-        for name in sorted(named & known):
-            known.remove(name)
+        for name in sorted(named & available):
+            available.remove(name)
             if path := find_library(name, places):
-                found[name] = path
+                needed[name] = path
                 waiting += library_texts(path).values()
         code = _NOISE.sub(b"", waiting.pop()) if waiting else b""
         named = {os.fsdecode(word) for match in _LIBRARY_NAME.finditer(code) for word in match.groups() if word}
-    return dict(sorted(found.items()))
+    return dict(sorted(needed.items()))
 
 
 def library_texts(path: Path) -> Mapping[str, bytes]:
-    """The files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
+    """Read the files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
     return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """A copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
+    """Return a copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
 
     It is made once for each content of the library. The whole is copied as well, without its resources: the compiler
     wants all parts in one folder, and would read all that is in this one. Raises CacheError, and as `copy_library`.
@@ -229,8 +231,8 @@ def _is_in_copy(text: bytes) -> bool:
 
 
 def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
-    """All versions of a library in a folder, the newest first, one without a known version last."""
-    found = []
+    """Return all versions of a library in a folder, the newest first, one without a known version last."""
+    versions = []
     for path in _entries(place):
         stem = path.name.removesuffix(".mo")
         text = path if path.suffix == ".mo" else path / "package.mo"
@@ -238,12 +240,10 @@ def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
             number = re.search(r"\d+(?:\.\d+)*", stem.removeprefix(name))
             written = None if number else _ANNOTATED_VERSION.search(text.read_text("utf-8", "replace"))
             digits = number[0] if number else written[1] if written else ""
-            found.append((tuple(map(int, digits.split("."))) if digits else (), path))
-    return sorted(found, reverse=True)
+            versions.append((tuple(map(int, digits.split("."))) if digits else (), path))
+    return sorted(versions, reverse=True)
 
 
 def _entries(place: Path) -> Iterator[Path]:
-    try:
+    with contextlib.suppress(OSError):  # a folder on a search path need not exist
         yield from list(place.iterdir())
-    except OSError:
-        return  # a folder on a search path need not exist

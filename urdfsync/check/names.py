@@ -67,55 +67,61 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     contents = {path: text for path, text in package.users_files.items() if path in unplaced}
     unplaced = files_that_use(contents, [robot.folder.name]).keys() - around.keys()
     users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
-    users = [one for path in sorted(unplaced) for one in _check_place(path, others)]
-    users += _findings(package, [one for one in places if one[0] in using])
+    users = [finding for path in sorted(unplaced) for finding in _check_place(path, others)]
+    users += _findings(package, [place for place in places if place[0] in using])
     return NameCheck(own, users, users_files, uses)
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
     """Yield why nothing is known of the names in a file of the user."""
     name = ".".join((*place_of(path, files)[1], class_of_file(path)))
-    for one in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
-        if one.severity is Severity.ERROR:
-            yield msgspec.structs.replace(one, severity=Severity.WARNING, file=shown(path))
+    for finding in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
+        if finding.severity is Severity.ERROR:
+            yield msgspec.structs.replace(finding, severity=Severity.WARNING, file=shown(path))
 
 
 def _unresolved(nodes: Iterable[Node], scopes: Scopes) -> list[tuple[Path, Unresolved]]:
-    return [(Path(node.file), one) for node in nodes for one in unresolved(node, scopes)]
+    return [(Path(node.file), fault) for node in nodes for fault in unresolved(node, scopes)]
 
 
 def _findings(package: RobotPackage, places: Iterable[tuple[Path, Unresolved]]) -> list[Diagnostic]:
     """Return one finding for all places in a file that have the same fault."""
     alike: dict[tuple[Path, UnresolvedKind, str, str], list[Unresolved]] = {}
-    for file, one in places:
-        alike.setdefault((file, one.kind, one.owner, one.part), []).append(one)
+    for file, fault in places:
+        alike.setdefault((file, fault.kind, fault.owner, fault.part), []).append(fault)
     findings = [_diagnostic(package, file, uses) for (file, *_), uses in alike.items()]
-    return sorted(findings, key=lambda one: (one.file, one.line))
+    return sorted(findings, key=lambda finding: (finding.file, finding.line))
 
 
 def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
-    one, files = min(places, key=lambda place: place.line), package.files
-    severity, code, hint = Severity.WARNING, one.kind.value, ""
-    if one.kind is UnresolvedKind.NESTED_REDECLARE:
-        message = f"the redeclaration of `{one.part}` inside of another modifier is not checked: rumoca ignores it"
-        hint = f"write a model that says `extends {one.owner}(redeclare … {one.part})`, and use that instead"
-    elif one.kind is UnresolvedKind.DOTTED_MODIFIER:
-        message = f"the modifier of `{one.name}` is not checked: rumoca ignores names with dots in modifiers"
-        first, *rest = one.name.split(".")
+    earliest, files = min(places, key=lambda place: place.line), package.files
+    severity, code, hint = Severity.WARNING, earliest.kind.value, ""
+    if earliest.kind is UnresolvedKind.NESTED_REDECLARE:
+        message = f"the redeclaration of `{earliest.part}` inside of another modifier is not checked: rumoca ignores it"
+        hint = f"write a model that says `extends {earliest.owner}(redeclare … {earliest.part})`, and use that instead"
+    elif earliest.kind is UnresolvedKind.DOTTED_MODIFIER:
+        message = f"the modifier of `{earliest.name}` is not checked: rumoca ignores names with dots in modifiers"
+        first, *rest = earliest.name.split(".")
         hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
     else:
-        severity, code, hint = Severity.ERROR, "unresolved", f"did you mean `{one.meant}`?" if one.meant else ""
-        message = one.message
-        if one.kind is UnresolvedKind.ELEMENT:
+        severity, code, hint = (
+            Severity.ERROR,
+            "unresolved",
+            f"did you mean `{earliest.meant}`?" if earliest.meant else "",
+        )
+        message = earliest.message
+        if earliest.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
-            if one.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                option = package.generation.inputs.domain.option_for(one.part, snapshot, robot.target, robot.options)
+            if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
+                option = package.generation.inputs.domain.option_for(
+                    earliest.part, snapshot, robot.target, robot.options
+                )
                 hint = brings_back(option) or hint
-    lines = sorted({place.line for place in places} - {one.line})
+    lines = sorted({place.line for place in places} - {earliest.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
     if not file.is_relative_to(files.folder):
         hint = "; ".join(filter(None, (hint, also)))
-        return Diagnostic(severity, code, message, shown(file), one.line, hint=hint)
+        return Diagnostic(severity, code, message, shown(file), earliest.line, hint=hint)
     path = file.relative_to(files.folder).as_posix()
     hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
-    return files.diagnostic(severity, code, message, path, one.line, hint=hint)
+    return files.diagnostic(severity, code, message, path, earliest.line, hint=hint)

@@ -45,7 +45,7 @@ class PackageTexts(msgspec.Struct, frozen=True):
     """The files that differ from what is generated."""
 
     def text(self, path: str) -> str:
-        """The text of a file; what is not UTF-8 in it is replaced."""
+        """Return the text of a file; bytes that are not UTF-8 are replaced."""
         return self.texts[path].decode("utf-8", "replace")
 
     def models_not_in(self, generated: Collection[str]) -> list[str]:
@@ -59,13 +59,13 @@ class PackageTexts(msgspec.Struct, frozen=True):
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
     ) -> Diagnostic:
-        """A finding in one of the files, or in a folder; it names the element."""
+        """Return a finding in one of the files, or in a folder; it names the element."""
         owner = self.owners.get(path, "")
         message = f"{owner}: {message}" if owner else message
         return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
 
     def by_hand(self, path: str) -> str:
-        """A hint for a file that was edited; empty for others."""
+        """Return a hint for a file that was edited; empty for others."""
         return "the file was edited by hand" if path in self.edited else ""
 
 
@@ -109,7 +109,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         raise UrdfsyncError(*built.diagnostics)
     generation = generate_robot(inspect(config, robot, options))
     domain, snapshot = generation.inputs.domain, generation.now.snapshot
-    errors = [one for one in built.diagnostics if one.severity is Severity.ERROR]
+    errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
     on_disk, generated = package_texts(robot.folder), generated_texts(generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     models = tuple(domain.models(snapshot, robot.target, robot.options))
@@ -122,7 +122,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         robot=robot,
         generation=generation,
         bench=domain.bench(snapshot, robot.target, robot.options),
-        errors=tuple(dict.fromkeys(one for one in errors if not one.file.endswith(".mo"))),
+        errors=tuple(dict.fromkeys(error for error in errors if not error.file.endswith(".mo"))),
         on_disk=on_disk,
         in_step=in_step,
         conflicting=bool(built.conflicts),
@@ -139,7 +139,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
 
 
 def _words(text: bytes) -> list[str]:
-    """Return what a text says but for comments, blanks and ends of line."""
+    """Return the words of a text, without comments and blanks."""
     return [token.text for token in lex(text.decode(errors="replace"))[0]]
 
 
@@ -214,16 +214,16 @@ def users_models(
 
 def _models_in(classes: Sequence[Class], around: tuple[str, ...]) -> Iterator[str]:
     """Yield the models and blocks in classes that are not partial, by their full names."""
-    for one in classes:
-        name = (*around, one.name.parts[0])
-        if one.kind in ("model", "block") and "partial" not in one.prefixes:
+    for definition in classes:
+        name = (*around, definition.name.parts[0])
+        if definition.kind in ("model", "block") and "partial" not in definition.prefixes:
             yield ".".join(name)
-        elif one.kind == "package":
-            yield from _models_in(one.classes, name)
+        elif definition.kind == "package":
+            yield from _models_in(definition.classes, name)
 
 
 def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
-    """Write the package in `texts` with what is around it below `folder`; gives the top-level package."""
+    """Write the package in `texts` with what is around it below `folder`. Returns the top-level package."""
     place = robot.target.package.replace(".", "/")
     for name, content in {**around, **{f"{place}/{path}": content for path, content in texts.items()}}.items():
         path = folder / name

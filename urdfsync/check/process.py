@@ -91,9 +91,9 @@ def run(
                         process.stdin.flush()
                 _wait(process, limits, started, progress)
             finally:
-                for one in started:
+                for child in started:
                     with contextlib.suppress(psutil.Error):
-                        one.kill()
+                        child.kill()
                 process.kill()
         results = list(_loaded(answers))
         if results and isinstance(results[-1], Exception):
@@ -121,9 +121,9 @@ def _wait(
         used = 0
         with contextlib.suppress(psutil.Error):  # it has just ended
             started.update(psutil.Process(process.pid).children(recursive=True))
-        for one in psutil.Process().children(recursive=True):  # what other threads have started counts as well
+        for child in psutil.Process().children(recursive=True):  # what other threads have started counts as well
             with contextlib.suppress(psutil.Error):
-                used += one.memory_info().rss
+                used += child.memory_info().rss
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"

@@ -39,7 +39,7 @@ _KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
 
 
 def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:
-    """Yield all that there is to say about one robot alone."""
+    """Yield all lines about one robot alone."""
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
@@ -67,11 +67,11 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     advice = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
     reference = result.reference or "the reference"
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
-    for one, others in _by_kind([one for one in deviations if not agrees(one)]):
-        what, amount = _amount(one)
-        yield f"{one.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
-        if one.unit in ("N·m", "N", "kg"):
-            yield f"  its largest {what} by {reference} is {_digits(one.value)} {one.unit}", "dim"
+    for deviation, others in _by_kind([deviation for deviation in deviations if not agrees(deviation)]):
+        what, amount = _amount(deviation)
+        yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
+        if deviation.unit in ("N·m", "N", "kg"):
+            yield f"  its largest {what} by {reference} is {_digits(deviation.value)} {deviation.unit}", "dim"
         advice = ""
 
 
@@ -82,14 +82,14 @@ def _details(result: CheckResult) -> Iterator[str]:
         for model in tool.compiled:
             size = f"{model.unknowns:,} unknowns" if model.unknowns else "compiles"
             yield f"{model.model}: {size}{by}"
-        for one in tool.deviations or ():
-            what, amount = _amount(one)
-            yield f"{one.element}: {what} differs by {amount} ({one.relative:.1e}){by}"
-    for one in result.between or ():
-        what, amount = _amount(one)
-        yield f"{one.element}: {what} differs by {amount} between the compilers"
+        for deviation in tool.deviations or ():
+            what, amount = _amount(deviation)
+            yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
+    for deviation in result.between or ():
+        what, amount = _amount(deviation)
+        yield f"{deviation.element}: {what} differs by {amount} between the compilers"
     for effect in result.effects:
-        yield from (f"{_edited(effect)} {_change(one)}" for one in effect.deviations)
+        yield from (f"{_edited(effect)} {_change(deviation)}" for deviation in effect.deviations)
 
 
 def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
@@ -103,13 +103,15 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
                 worst = max(three, key=relative)
                 outliers.setdefault(_outlier(first.tool, second.tool, reference, *three), []).append(worst)
         for name, deviations in outliers.items():
-            for one, others in _by_kind(deviations):
-                what, amount = _amount(one)
+            for deviation, others in _by_kind(deviations):
+                what, amount = _amount(deviation)
                 who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
-                yield f"{one.element}: {what}: {who}{others}", "bold red"
-        for one, others in _by_kind([one for one in result.between_edited if not agrees(one)]):
-            what, amount = _amount(one)
-            sentence = f"{one.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
+                yield f"{deviation.element}: {what}: {who}{others}", "bold red"
+        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not agrees(deviation)]):
+            what, amount = _amount(deviation)
+            sentence = (
+                f"{deviation.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
+            )
             yield f"{sentence} by {amount}{others}", "bold red"
         largest_difference = max(map(relative, result.between), default=0.0)
         if largest_difference <= TOLERANCE:
@@ -119,7 +121,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 
 def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
-    """Which of three stands alone; empty if none agree.
+    """Return which of three stands alone; empty if no two agree.
 
     The deviations are those of the first and of the second from the reference, then of the second from the first.
     """
@@ -171,11 +173,14 @@ def _tool_values(tool: ToolResult) -> dict[str, Any]:
     return {
         "tool": tool.tool,
         "compiled": [
-            {"model": one.model, "unknowns": one.unknowns or None, "yours": one.is_users} for one in tool.compiled
+            {"model": model.model, "unknowns": model.unknowns or None, "yours": model.is_users}
+            for model in tool.compiled
         ],
         "failing": list(tool.failing),
         "deviations": _all_values(tool.deviations),
-        "edits": [{**msgspec.structs.asdict(one), "deviations": _all_values(one.deviations)} for one in tool.effects],
+        "edits": [
+            {**msgspec.structs.asdict(effect), "deviations": _all_values(effect.deviations)} for effect in tool.effects
+        ],
         "seconds": tool.seconds,
         "megabytes": tool.megabytes,
     }
@@ -186,8 +191,8 @@ def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] 
     if deviations is None:
         return None
     every = []
-    for one in deviations:
-        values = {**msgspec.structs.asdict(one), "relative": one.relative}
+    for deviation in deviations:
+        values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
         for name, value in values.items():
             values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
         every.append({**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"})
@@ -196,10 +201,10 @@ def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] 
 
 def summary(result: CheckResult, strict: bool) -> str:
     """Return the verdict, what compiles, and how far it agrees with the reference, in one line."""
-    errors = sum(one.severity is Severity.ERROR for one in result.diagnostics)
+    errors = sum(finding.severity is Severity.ERROR for finding in result.diagnostics)
     facts = [counted(errors, "error")] if errors else []
     if result.compiled:
-        own = [one for one in result.compiled if not one.is_users]
+        own = [model for model in result.compiled if not model.is_users]
         count, users = len(own), len(result.compiled) - len(own)
         model = max(own or result.compiled, key=lambda model: model.unknowns)
         yours = f", and {users} of yours" if users else ""
@@ -236,11 +241,11 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
     the root carries everything, the last joint.
     """
     for _, quantities in _KINDS:
-        kind = [one for one in deviations if one.quantity in quantities]
+        kind = [deviation for deviation in deviations if deviation.quantity in quantities]
         if quantities is EFFORTS:
             kind.reverse()
-        kind.sort(key=lambda one: (one.element not in owners, one.quantity is Quantity.REACTION))
-        if names := list(dict.fromkeys(one.element for one in kind)):
+        kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
+        if names := list(dict.fromkeys(deviation.element for deviation in kind)):
             yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
 
 
@@ -248,26 +253,26 @@ def _edited(effect: EditEffect) -> str:
     return f"{listed(effect.files)} (edited) {'changes' if len(effect.files) == 1 else 'change'}"
 
 
-def _change(one: Deviation, others: str = "") -> str:
-    what, amount = _amount(one)
-    return f"the {what} of {one.element} by {amount}{others}"
+def _change(deviation: Deviation, others: str = "") -> str:
+    what, amount = _amount(deviation)
+    return f"the {what} of {deviation.element} by {amount}{others}"
 
 
-def _amount(one: Deviation) -> tuple[str, str]:
+def _amount(deviation: Deviation) -> tuple[str, str]:
     """Return the quantity that differs, and by how much: `torque`, `0.4 N·m`.
 
     Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
     """
-    what, unit, value = str(one.quantity), one.unit, one.difference
-    if one.quantity in (Quantity.EFFORT, Quantity.REACTION):
-        what = f"{'reaction ' if one.quantity is Quantity.REACTION else ''}{'force' if unit == 'N' else 'torque'}"
-    if one.quantity is Quantity.ORIENTATION:
+    what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
+    if deviation.quantity in (Quantity.EFFORT, Quantity.REACTION):
+        what = f"{'reaction ' if deviation.quantity is Quantity.REACTION else ''}{'force' if unit == 'N' else 'torque'}"
+    if deviation.quantity is Quantity.ORIENTATION:
         value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
     elif unit == "m":
         value, unit = 1000 * value, "mm"
-    return what, f"{_digits(value)} {unit}" if math.isfinite(one.difference) else "more than any number"
+    return what, f"{_digits(value)} {unit}" if math.isfinite(deviation.difference) else "more than any number"
 
 
 def _digits(value: float) -> str:
-    """A number with three digits that count."""
+    """Return a number with three significant digits."""
     return f"{float(f'{value:.3g}'):.10g}"

@@ -18,7 +18,7 @@ TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
 
 MOST_SINGLE_EDITS = 6
-"""So many edited files are tried one by one at most; more of them are looked at and told together."""
+"""The most edited files that are tried one by one; the effects of more are measured together."""
 
 POSES = (Quantity.POSITION, Quantity.ORIENTATION)
 EFFORTS = (Quantity.EFFORT, Quantity.REACTION)
@@ -137,7 +137,7 @@ class CheckResult(msgspec.Struct):
     @property
     def failed(self) -> bool:
         """Whether something could not be checked, or does not compile."""
-        return any(one.severity is Severity.ERROR for one in self.diagnostics)
+        return any(finding.severity is Severity.ERROR for finding in self.diagnostics)
 
     @property
     def compiled(self) -> tuple[CompiledModel, ...]:
@@ -147,7 +147,7 @@ class CheckResult(msgspec.Struct):
     @property
     def deviations(self) -> list[Deviation]:
         """The deviations from the reference, by all compilers."""
-        return [one for tool in self.tools for one in tool.deviations or ()]
+        return [deviation for tool in self.tools for deviation in tool.deviations or ()]
 
     @property
     def effects(self) -> tuple[EditEffect, ...]:
@@ -169,7 +169,7 @@ class CheckResult(msgspec.Struct):
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
     def status(self, strict: bool) -> CheckStatus:
-        """The result in one word; with `strict`, a difference that comes from an edit counts as well."""
+        """Return the verdict; with `strict`, a difference that comes from an edit counts as well."""
         if self.failed:
             return CheckStatus.FAILED
         if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
@@ -189,11 +189,11 @@ def relative(deviation: Deviation) -> float:
 
 def largest(deviations: Iterable[Deviation], quantities: Sequence[Quantity]) -> Deviation | None:
     """Return the deviation that is greatest relative to its kind; None if nothing of these quantities was compared."""
-    return max((one for one in deviations if one.quantity in quantities), key=relative, default=None)
+    return max((deviation for deviation in deviations if deviation.quantity in quantities), key=relative, default=None)
 
 
 def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
-    """2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
+    """Return 2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
     verdicts = {result.status(strict) for result in results}
     if CheckStatus.FAILED in verdicts:
         return Exit.ERROR
@@ -202,7 +202,7 @@ def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
 
 
 def listed(names: Sequence[str]) -> str:
-    """`a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
+    """Return names in words: `a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
     if len(names) > 3:
         names = [*names[:2], f"{len(names) - 2} more"]
     return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)

@@ -42,8 +42,8 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         key = fingerprint(config, robot, options)
         request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
         package = read_package(config, robot, request)
-        known = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
-        if known is None:
+        earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
+        if earlier is None:
             if folder:
                 _check(config, package, options, result, limits, folder)
             else:
@@ -53,7 +53,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
             is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
             if key and package.in_step and is_same:
                 cache.save(key, None if result.failed or result.differs else result)
-        result = known or result
+        result = earlier or result
         result.add(texts.missing_resources(package))  # files that no fingerprint knows of
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))
@@ -71,11 +71,11 @@ def _check(
     result.freedoms = package.bench.freedoms if package.bench else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.errors)
-    found = inputs.domain.cross_check(inputs.source.content, shown(robot.source))
-    result.add(map(inputs.source.locate, found))
+    contradictions = inputs.domain.cross_check(inputs.source.content, shown(robot.source))
+    result.add(map(inputs.source.locate, contradictions))
     faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
     result.add(faults)
-    if any(one.severity is Severity.ERROR for one in faults):
+    if any(finding.severity is Severity.ERROR for finding in faults):
         result.gaps = ("nothing was compiled, since files have errors",)
         return
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
@@ -83,7 +83,7 @@ def _check(
     needed = find_libraries(config, robot, contents, uses)
     names = check_names(package, needed.standard)
     result.add([*names.package, *names.users])
-    if any(one.severity is Severity.ERROR for one in names.package):
+    if any(finding.severity is Severity.ERROR for finding in names.package):
         result.gaps = ("nothing was compiled, since names in the package do not exist",)
         return
     if problem := _find_missing(config, options, needed, result):

@@ -51,10 +51,10 @@ def check_robots(
         workers(count, options.executor) as pool,
     ):
         place = None if options.executor else Path(folder)
-        futures = {one.name: pool.submit(check_robot, config, one, share, place) for one in robots}
+        futures = {each.name: pool.submit(check_robot, config, each, share, place) for each in robots}
         for robot in robots:
             result = _result(robot, futures, pool, progress)
-            if count > 1 and any(one.code == "out-of-memory" for one in result.diagnostics):
+            if count > 1 and any(finding.code == "out-of-memory" for finding in result.diagnostics):
                 wait(futures.values())  # alone it may take all that there is
                 whole = msgspec.structs.replace(share, memory=budget)
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
@@ -70,7 +70,7 @@ def _result(
     future, what = futures[robot.name], "checking"
     while wait([future], _PAUSE).not_done:
         *_, what = [what, *pool.steps()]
-        progress(what, sum(one.done() for one in futures.values()), len(futures))
+        progress(what, sum(each.done() for each in futures.values()), len(futures))
     if (error := future.exception()) is None:
         return future.result()
     message = f"the check of robot `{robot.name}`: its process ended unexpectedly: {error or type(error).__name__}"

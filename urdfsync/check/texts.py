@@ -28,9 +28,9 @@ _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
 def check_layout(package: PackageTexts) -> list[Diagnostic]:
-    """Return all that is wrong with the files of a package: errors where a tool can't load it, warnings where it may.
+    """Return the faults of a package's files: errors where a tool can't load the package, warnings where it may.
 
-    What is generated never gets one.
+    A generated package has none.
     """
     findings: list[Diagnostic] = []
     stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
@@ -53,15 +53,15 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
         text, faults = _check_file(package, str(path), ".".join((package.name, *place.parts)))
         findings += faults
         if path.name == PACKAGE_FILE and text:
-            inside = [one for one in declared(text.classes) if len(one.path) == 2]
-            declarations[place] = {one.path[1]: one.line for one in reversed(inside)}
+            inside = [declaration for declaration in declared(text.classes) if len(declaration.path) == 2]
+            declarations[place] = {declaration.path[1]: declaration.line for declaration in reversed(inside)}
     for folder in sorted(stored):
         findings += _check_folder(package, folder, stored, declarations.get(folder, {}))
         if str(folder / _ORDER) in package.texts:
             present = stored[folder] | declarations.get(folder, {}).keys()
             others = misnamed.get(folder, set()) if folder in declarations else None
             findings += _check_order(package, folder, present, others)
-    return sorted(dict.fromkeys(findings), key=lambda one: (one.file, one.line))
+    return sorted(dict.fromkeys(findings), key=lambda finding: (finding.file, finding.line))
 
 
 def _check_folder(
@@ -95,16 +95,16 @@ def _check_folder(
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
-    """Return what keeps compilers from reading the files around a package: syntax, `within`, names of packages.
+    """Return the faults that keep compilers from reading the files around a package: syntax, `within`, package names.
 
-    `files` are by their path below the output folder. Other faults of theirs are left to those who make them.
+    `files` are by their path below the output folder. Their other faults concern their authors alone.
     """
     findings, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
         ignored = {"repeated", "second-class", *([] if path.name == PACKAGE_FILE else ["wrong-name"])}
         ignored |= {"wrong-name", "wrong-within"} if _misnamed_part(path) else set()
         faults = _check_file(package, str(path), ".".join(class_path(path).parts))[1]
-        findings += [one for one in faults if one.code not in ignored]
+        findings += [fault for fault in faults if fault.code not in ignored]
     return findings
 
 
@@ -115,7 +115,8 @@ def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText
         return None, [text]
     stored, faults = check_class_file(text, PurePosixPath(path), name)
     return stored, [
-        package.diagnostic(one.severity, one.code, one.message, path, one.line, hint=one.hint) for one in faults
+        package.diagnostic(fault.severity, fault.code, fault.message, path, fault.line, hint=fault.hint)
+        for fault in faults
     ]
 
 
@@ -150,7 +151,7 @@ def _check_order(
 
 
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
-    """The outermost folder around a file, or the file itself, whose name no class can have."""
+    """Return the outermost folder around a file, or the file itself, whose name no class can have."""
     for part in [*reversed(path.parents[:-1]), *([] if path.name == PACKAGE_FILE else [path])]:
         name = part.stem if part is path else part.name
         if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name)):
@@ -159,7 +160,7 @@ def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
 
 
 def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
-    """The text of a file, or the finding that it is not UTF-8."""
+    """Return the text of a file, or the finding that it is not UTF-8."""
     try:
         return normalised(package.texts[path]).decode()
     except UnicodeDecodeError as error:
@@ -168,7 +169,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
 
 
 def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
-    """Files below the package's own folders that its texts refer to and that are not there, once for each text."""
+    """Yield a finding for each file below the package's own folders that a text refers to and that does not exist."""
     own, output = package.robot.target.package, package.robot.output
     hint = "`urdfsync build` brings back what it imported; else put the file there"
     for path in sorted(package.on_disk):

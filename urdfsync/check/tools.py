@@ -19,7 +19,7 @@ def chosen_tools(config: Config, name: str | None = None, *, trusted: bool = Fal
     run what is not the user's. Who gives `--tool omc` has chosen it himself.
     """
     names = COMPILERS if (name or config.check.tool) == BOTH else [name or config.check.tool]
-    return tuple(_tool(config, one, is_trusted=trusted or (bool(name) and not config.check.omc)) for one in names)
+    return tuple(_tool(config, tool, is_trusted=trusted or (bool(name) and not config.check.omc)) for tool in names)
 
 
 def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:

@@ -18,15 +18,17 @@ def run_compilations(
     compilations: Sequence[Compilation], experiment: Experiment | None, result: CheckResult, limits: Limits
 ) -> None:
     """Compile a package with one compiler after the other; the answers go into the result."""
-    for one in compilations:
+    for compilation in compilations:
         begin, peak, limits.peak = time.monotonic(), limits.peak, 0.0
-        one.run(experiment)
-        one.result.seconds, one.result.megabytes = time.monotonic() - begin, limits.peak / 1e6
+        compilation.run(experiment)
+        compilation.result.seconds, compilation.result.megabytes = time.monotonic() - begin, limits.peak / 1e6
         limits.peak = max(peak, limits.peak)
         result.gaps += tuple(
-            f"{one.result.tool}: {gap}" if result.tools else gap for gap in one.gaps if gap not in result.gaps
+            f"{compilation.result.tool}: {gap}" if result.tools else gap
+            for gap in compilation.gaps
+            if gap not in result.gaps
         )
-        result.tools += (one.result,)
+        result.tools += (compilation.result,)
     result.add(_findings(compilations))
     if experiment and len(compilations) > 1:
         first, second = compilations
@@ -39,15 +41,17 @@ def run_compilations(
 def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
     """Return the findings: what all compilers have at the same place once, what one has alone under its name."""
 
-    def place(one: Diagnostic) -> tuple[object, ...]:
-        return one.severity, one.file, one.line, one.code, "" if one.line else one.message
+    def place(finding: Diagnostic) -> tuple[object, ...]:
+        return finding.severity, finding.file, finding.line, finding.code, "" if finding.line else finding.message
 
-    places = [set(map(place, one.diagnostics)) for one in compilations]
+    places = [set(map(place, compilation.diagnostics)) for compilation in compilations]
     findings, shared = list[Diagnostic](), set.intersection(*places)
     for compilation in compilations:
-        for one in compilation.diagnostics:
-            if place(one) not in shared:
-                findings.append(msgspec.structs.replace(one, message=f"{compilation.result.tool} alone: {one.message}"))
+        for finding in compilation.diagnostics:
+            if place(finding) not in shared:
+                findings.append(
+                    msgspec.structs.replace(finding, message=f"{compilation.result.tool} alone: {finding.message}")
+                )
             elif compilation is compilations[0]:
-                findings.append(one)
+                findings.append(finding)
     return findings

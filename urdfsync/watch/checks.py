@@ -77,14 +77,14 @@ class CheckQueue:
         if job is not None and key is not None and job.key == key:
             return ()
         self._jobs.pop(robot.name, None)  # the files of an older check are not on disk any more
-        known = self._checker.known(key)
-        if known is None:
+        earlier = self._checker.find_earlier(key)
+        if earlier is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
         # right as before, perhaps for an earlier daemon: there is nothing new to say
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
-        event = self._note(robot, known)
-        return () if was_right and known.checked is Checked.RIGHT else (event,)
+        event = self._note(robot, earlier)
+        return () if was_right and earlier.checked is Checked.RIGHT else (event,)
 
     def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
         """Take note of the end of a check, and start the next."""

@@ -40,7 +40,7 @@ HAS_STANDARD_LIBRARY = True
 
 _TOLERANCE = 1e-8
 _PATIENCE = 30.0
-"""Seconds in which it has to say its version."""
+"""Seconds in which OpenModelica has to tell its version."""
 _NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -114,27 +114,29 @@ def complaints(problem: str) -> list[Complaint]:
 
     Of an error in a library that has two places, the first one counts, which a notification tells.
     """
-    found, origin = list[Complaint](), Complaint("")
+    result, origin = list[Complaint](), Complaint("")
     messages = list(_MESSAGE.finditer(problem))
-    ends = [*(one.start() for one in messages[1:]), len(problem)]
-    for one, end in zip(messages, ends, strict=bool(messages)):
-        words = one_line(problem[one.end() : end])
+    ends = [*(message.start() for message in messages[1:]), len(problem)]
+    for message, end in zip(messages, ends, strict=bool(messages)):
+        words = one_line(problem[message.end() : end])
         if _BUILDS.search(words):
             words = f"{words}; OpenModelica needs a C compiler, make, and for FMUs cmake: install them"
-        if one["level"] == "Notification":
+        if message["level"] == "Notification":
             if words == "From here:":
-                origin = Complaint("", one["file"] or "", int(one["line"] or 0), int(one["column"] or 0))
+                origin = Complaint("", message["file"] or "", int(message["line"] or 0), int(message["column"] or 0))
             continue
-        if found and not one["file"] and words.startswith(_UNITS_GO_ON):
-            found[-1] = msgspec.structs.replace(found[-1], message=f"{found[-1].message}; {words}")
+        if result and not message["file"] and words.startswith(_UNITS_GO_ON):
+            result[-1] = msgspec.structs.replace(result[-1], message=f"{result[-1].message}; {words}")
             continue
-        place = origin.file or one["file"] or "", origin.line or int(one["line"] or 0)
-        column = origin.column or int(one["column"] or 0)
-        code = "units" if _UNITS in words else "compiler-warning" if one["level"] == "Warning" else "does-not-compile"
-        found.append(Complaint(words, *place, column, code))
+        place = origin.file or message["file"] or "", origin.line or int(message["line"] or 0)
+        column = origin.column or int(message["column"] or 0)
+        code = (
+            "units" if _UNITS in words else "compiler-warning" if message["level"] == "Warning" else "does-not-compile"
+        )
+        result.append(Complaint(words, *place, column, code))
         origin = Complaint("")
-    found = [one for one in found if not _FOLLOWS.match(one.message)] or found
-    return found or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])
+    result = [complaint for complaint in result if not _FOLLOWS.match(complaint.message)] or result
+    return result or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
@@ -164,17 +166,17 @@ def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
     """Return the calls for a task: its text is loaded, then checked or simulated."""
     file = folder / f"task{number}.mo"
     file.write_text(task.source, encoding="utf-8")
-    found = [f"loadFile({quoted(file.as_posix())})"]
+    calls = [f"loadFile({quoted(file.as_posix())})"]
     if export := task.export:
         kind = f'version="{export.version}", fmuType="{export.kind}"'
-        return [*found, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
+        return [*calls, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
     if task.parameters and not task.runs:  # only a result names all parameters
-        return [*found, f'simulate({task.model}, stopTime=1e-6, outputFormat="mat", fileNamePrefix="names{number}")']
+        return [*calls, f'simulate({task.model}, stopTime=1e-6, outputFormat="mat", fileNamePrefix="names{number}")']
     if not task.runs:
-        return [*found, f"checkModel({task.model})"]
+        return [*calls, f"checkModel({task.model})"]
     for each, run in enumerate(task.runs):
-        found.append(f"simulate({task.model}, {_settings(run)}, fileNamePrefix={quoted(f'task{number}_{each}')})")
-    return found
+        calls.append(f"simulate({task.model}, {_settings(run)}, fileNamePrefix={quoted(f'task{number}_{each}')})")
+    return calls
 
 
 def _settings(run: Simulation) -> str:
@@ -205,21 +207,23 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
         raise ImportError(str(error)) from error
     answers, rest = read_answers(done.stdout.decode(errors="replace"))
     if len(answers) < len(calls):
-        said = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or rest.strip().splitlines()[:1]
+        last_words = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or rest.strip().splitlines()[:1]
         if len(calls) == 1:
-            raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *said))))
+            raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *last_words))))
         message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
         hint = f"{job.tasks[0].title}: {REPORT}"
-        raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *said)), hint=hint))
+        raise CompilerError(
+            Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *last_words)), hint=hint)
+        )
     return answers
 
 
 def read_answers(printed: str) -> tuple[list[_Answer], str]:
     """Return the answers in what OpenModelica printed, two values for each call, and the rest, which is none."""
     values, end = list[str](), 0
-    while found := _VALUE.match(printed, end):
-        values.append(found["record"] or found["word"] or _text(found["text"]))
-        end = found.end()
+    while match := _VALUE.match(printed, end):
+        values.append(match["record"] or match["word"] or _text(match["text"]))
+        end = match.end()
     return [_Answer(*pair) for pair in zip(values[::2], values[1::2], strict=False)], printed[end:]
 
 
@@ -240,10 +244,12 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
         return _exported(rest[0], folder)
     if task.parameters:
         return _without_parameters(task, rest, folder)
-    ((said, messages),) = rest
-    counts = _COUNTS.search(said)
-    if "completed successfully" not in said or counts is None:
-        return CompileResult("\n".join(filter(None, map(str.strip, (messages, said)))) or "the model does not compile")
+    ((answer, messages),) = rest
+    counts = _COUNTS.search(answer)
+    if "completed successfully" not in answer or counts is None:
+        return CompileResult(
+            "\n".join(filter(None, map(str.strip, (messages, answer)))) or "the model does not compile"
+        )
     if counts[1] != counts[2]:
         return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
     return CompileResult(unknowns=int(counts[2]), warnings=messages.strip())
@@ -296,12 +302,12 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
     from scipy.io.matlab import MatReadError
 
     try:
-        found: Any = loadmat(file, chars_as_strings=False)
-        letters = np.ascontiguousarray(found["name"].T)
-        places = zip(*found["dataInfo"][:2].astype(int).tolist(), strict=True)
+        content: Any = loadmat(file, chars_as_strings=False)
+        letters = np.ascontiguousarray(content["name"].T)
+        places = zip(*content["dataInfo"][:2].astype(int).tolist(), strict=True)
         texts = letters.view(f"<U{letters.shape[1]}")[:, 0].tolist()
         rows = dict(zip(map(str.strip, texts), places, strict=True))
-        tables = {1: found["data_1"], 2: found["data_2"]}
+        tables = {1: content["data_1"], 2: content["data_2"]}
         times = tables[2][0]
         wanted = re.compile(task.pattern)
         names = dict.fromkeys(("time", *task.values, *(name for name in rows if wanted.fullmatch(name))))
@@ -321,15 +327,15 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
 
 
 def _package_files(job: CompileJob) -> list[Path]:
-    """The files to load so that all roots are there, which are packages or folders of packages.
+    """Return the files that load all roots, which are packages or folders of packages.
 
     The standard library is OpenModelica's own, which goes with it.
     """
-    found: list[Path] = []
+    files: list[Path] = []
     for root in map(Path, job.roots):
         whole = root if root.is_file() else root / "package.mo"
-        found += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
-    return [path for path in found if _library_name(path) not in STANDARD_LIBRARIES]
+        files += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
+    return [path for path in files if _library_name(path) not in STANDARD_LIBRARIES]
 
 
 def _library_name(file: Path) -> str:
@@ -337,10 +343,10 @@ def _library_name(file: Path) -> str:
 
 
 def quoted(text: str) -> str:
-    """A text as a literal of Modelica."""
+    """Return a text as a literal of Modelica."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def _text(literal: str) -> str:
-    """The text of a literal of Modelica, given without its quotes."""
+    """Return the text of a literal of Modelica, given without its quotes."""
     return _ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), literal)

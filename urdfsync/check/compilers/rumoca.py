@@ -70,18 +70,18 @@ def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - se
 def complaints(problem: str) -> list[Complaint]:
     """See `Compiler`. A complaint that only follows from another one is left out."""
     text = _COLOURS.sub("", problem).strip()
-    found = [_placed(one["words"].replace("│", " "), one) for one in _FRAMED.finditer(text)]
-    for piece in () if found else _PIECES.split(text):
+    result = [_placed(match["words"].replace("│", " "), match) for match in _FRAMED.finditer(text)]
+    for piece in () if result else _PIECES.split(text):
         words = _PREFIXES.sub("", piece.strip())
         if not words or words[-1] == ":":  # a heading
             continue
         if place := _PLACE.search(words):
-            found.append(_placed(words[: place.start()], place))
+            result.append(_placed(words[: place.start()], place))
         else:
-            found.append(Complaint(one_line(words)))
-    if not found and text:
-        found.append(Complaint(one_line(text)))
-    return [one for one in found if not one.message.startswith(_SHADOW)] or found[:1]
+            result.append(Complaint(one_line(words)))
+    if not result and text:
+        result.append(Complaint(one_line(text)))
+    return [complaint for complaint in result if not complaint.message.startswith(_SHADOW)] or result[:1]
 
 
 def _placed(words: str, place: re.Match[str]) -> Complaint:
@@ -145,37 +145,37 @@ class _Equations(msgspec.Struct):
 
 
 def _unknowns(model: rumoca.Model) -> int:
-    """Scalar unknowns, counted as the compiler does when it finds a model unbalanced."""
+    """Count the scalar unknowns as the compiler does when it finds a model unbalanced."""
     storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
-    sizes = [math.prod(one.dimensions) for one in storage.value_types]
-    return sum(sizes[one.value_type] for one in storage.variables if one.role in _UNKNOWN)
+    sizes = [math.prod(value_type.dimensions) for value_type in storage.value_types]
+    return sum(sizes[variable.value_type] for variable in storage.variables if variable.role in _UNKNOWN)
 
 
 def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those of some parameters that no equation uses, neither itself nor what is bound to them.
+    """Return the parameters among `names` that no equation uses, neither directly nor through what is bound to them.
 
     rumoca 0.10.2 takes a modifier of a part of a record that is handed down as a whole, and then uses the whole.
     """
     if not names:
         return ()
     storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
-    bound = {one.attributes.binding: number for number, one in enumerate(storage.variables)}
+    bound = {variable.attributes.binding: number for number, variable in enumerate(storage.variables)}
     uses: dict[int, list[int]] = {}
     for place, node in enumerate(storage.expressions.nodes):
         match node:
             case {"coordinate": {"parameter": int(number)}}:
                 uses.setdefault(number, []).append(place)
-    numbers = {one.name: number for number, one in enumerate(storage.variables)}
-    structural = {one.name for one in model.parameters if one.kind == "structural"}
+    numbers = {variable.name: number for number, variable in enumerate(storage.variables)}
+    structural = {parameter.name for parameter in model.parameters if parameter.kind == "structural"}
 
     def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
         # what the structure depends on is evaluated, and then mentioned nowhere; sizes are not even called structural
-        one = storage.variables[number]
-        if one.name in structural or storage.value_types[one.value_type].scalar != "real":
+        variable = storage.variables[number]
+        if variable.name in structural or storage.value_types[variable.value_type].scalar != "real":
             return True
-        found = uses.get(number, [])
-        return any(place not in bound for place in found) or any(
-            is_used(bound[place], above | {number}) for place in found if bound[place] not in above
+        places = uses.get(number, [])
+        return any(place not in bound for place in places) or any(
+            is_used(bound[place], above | {number}) for place in places if bound[place] not in above
         )
 
     return tuple(name for name in names if name in numbers and not is_used(numbers[name]))
@@ -195,8 +195,12 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
     values = {"time": tuple(result.time.tolist()), **series}  # all finite, or it says so itself
-    known = {one.name: one.value for one in model.parameters if one.value is not None and wanted.fullmatch(one.name)}
-    return SimulationResult(values, termination=result.termination or "", parameters=known)
+    parameters = {
+        parameter.name: parameter.value
+        for parameter in model.parameters
+        if parameter.value is not None and wanted.fullmatch(parameter.name)
+    }
+    return SimulationResult(values, termination=result.termination or "", parameters=parameters)
 
 
 def _words(error: Exception) -> str:
