@@ -62,11 +62,10 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
 
     And a note if names are known that can take the places of old ones.
     """
-    inputs, renamed, places = (
-        generation.inputs,
-        renamed_identifiers(generation),
-        dict[tuple[object, ...], list[Misfit]](),
-    )
+    if not misfits:
+        return
+    inputs, renamed = generation.inputs, renamed_identifiers(generation)
+    places = dict[tuple[object, ...], list[Misfit]]()
     outside = {one.file for one in misfits if not one.key}
     folders = {inputs.folder.rpartition("/")[2], inputs.last.folder.rpartition("/")[2]}
     users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
