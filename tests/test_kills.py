@@ -1,7 +1,7 @@
 """Builds that are killed at random times, with random edits in place: the next one finishes them.
 
 The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills, with a new seed.
-The counts are printed. `test_crash` has each operation, full disks and saves.
+The counts are printed. `state/test_crash` has each operation, full disks and saves.
 """
 
 from __future__ import annotations

@@ -359,40 +359,6 @@ def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute)
     assert classes() == set()
 
 
-def test_an_orphan_that_was_deleted_can_be_given_back(orphan: Path, execute: Execute) -> None:
-    mine = orphan.read_text()
-    execute("resolve", str(orphan), "--take")
-    assert classes() == set()
-    edit("ladder.json", "220.5", "330")
-    execute("build")
-    execute("resolve", str(orphan), "--undo")
-    for _ in range(2):
-        assert orphan.read_text() == mine
-        assert classes() == {"R2"}
-        execute("build", "--check")
-    execute("resolve", str(orphan), "--undo", code=2)
-
-
-def test_a_file_that_took_the_place_of_a_deleted_one_stays(orphan: Path, execute: Execute) -> None:
-    execute("resolve", str(orphan), "--take")
-    orphan.write_text("model R2\nend R2;\n")
-    execute("resolve", str(orphan), "--undo", code=2)
-    assert orphan.read_text() == "model R2\nend R2;\n"
-
-
-def test_what_was_not_taken_along_by_a_rename_can_be_given_back(execute: Execute, project: Path) -> None:
-    execute("build")
-    edit(f"{LADDER}/Elements/R1.mo", "equation", "  Real mine;\nequation")
-    edit("ladder.json", '"R1"', '"R8"')
-    renamed = Path(f"{LADDER}/Elements/R8.mo")
-    execute("resolve", f"{LADDER}/Elements/R1.mo", "--take")
-    assert "Real mine;" not in renamed.read_text()
-    execute("resolve", str(renamed), "--undo")
-    assert "Real mine;" in renamed.read_text()
-    assert "end R8;" in renamed.read_text()
-    execute("build", "--check")
-
-
 # Elements with another name
 
 
@@ -424,84 +390,6 @@ def test_a_file_that_moves_can_be_kept_and_gets_its_new_name(moved: Path, execut
 
 
 # Undo, and saves that take back a merge
-
-
-@pytest.fixture
-def merged(clean: Path, execute: Execute) -> Path:
-    """The network's model was merged; what the user had is in `mine.txt`."""
-    (clean / "mine.txt").write_text(Path(MODEL).read_text())
-    lines = execute("build", "--merge").lines
-    assert lines[-1] == f"  merge      {Path(MODEL)}  R3; merged with your edits"
-    return clean
-
-
-def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: Execute) -> None:
-    both = Path(MODEL).read_text()
-    assert execute("resolve", MODEL, "--undo", "--dry-run").lines[0] == "ladder: 1 to give back as you had it"
-    assert Path(MODEL).read_text() == both
-    assert execute("resolve", MODEL, "--undo").lines[0] == "ladder: 1 given back as you had it"
-    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
-    for command in (["build"], ["build", "--merge"], ["build", "--full", "--merge"]):
-        assert execute(*command).lines[0] == "ladder: in step, 16 files, 1 kept because you edited it"
-
-
-@pytest.mark.parametrize("again", ["--merge", "--undo"])
-def test_a_merge_that_was_undone_can_be_made_again(merged: Path, execute: Execute, again: str) -> None:
-    both = Path(MODEL).read_text()
-    execute("resolve", MODEL, "--undo")
-    execute("build")
-    execute("resolve", MODEL, again)
-    assert Path(MODEL).read_text() == both
-    execute("build", "--check")
-    execute("resolve", MODEL, "--undo")
-    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
-
-
-def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: Path) -> None:
-    execute("build")
-    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
-    edit("ladder.json", '"C1"', '"C3"')
-    execute("build", "--merge")
-    for command in (("resolve", MODEL, "--undo"), ("build",)):
-        assert "there is no class `Elements.C1`" in execute(*command, code=3).err
-    for words in (("build", "--check"), ("status",)):
-        assert "broken" in execute(*words, code=1).lines[0]
-
-
-def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
-    edit(MODEL, "Real mine = 1", "Real mine = 2")
-    with unchanged(merged, but=".urdfsync/lock"):
-        assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
-
-
-def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
-    edit("ladder.json", "220.5", "330")
-    execute("build")
-    execute("resolve", MODEL, "--undo")
-    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
-
-
-def test_what_was_taken_can_be_given_back(contradictory: Path, execute: Execute) -> None:
-    mine = Path(MODEL).read_text()
-    execute("resolve", MODEL, "--take")
-    assert MINE not in Path(MODEL).read_text()
-    assert "there is no class `Elements.R2`" in execute("resolve", MODEL, "--undo", code=3).err
-    assert Path(MODEL).read_text() == mine
-
-
-def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -> None:
-    execute("build")
-    more("R3")
-    execute("build")
-    assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
-
-
-def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
-    file = merged / ".urdfsync/replaced/ladder.json"
-    for text in ("", "x", "[]", '{"../x.mo": {"before": "x"}}', "\ud800", "[" * 100_000):
-        file.parent.mkdir(exist_ok=True)
-        file.write_text(text, errors="surrogatepass")
-        execute("build")
 
 
 # What is saved meanwhile

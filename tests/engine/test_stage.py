@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from support.networks import C1, LADDER, MANIFEST, R1, R2, edit, kinds, rename, run, source
+from support.networks import (
+    BASES,
+    C1,
+    LADDER,
+    MANIFEST,
+    R1,
+    R2,
+    RECORD,
+    edit,
+    kinds,
+    mentioned,
+    rename,
+    resistor,
+    run,
+    source,
+    stored,
+)
 
 from urdfsync.engine.actions import Reason
+from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
 
 C2 = f"{LADDER}/Elements/C2.mo"
@@ -130,3 +148,50 @@ def test_what_the_user_does_with_a_file_that_is_his_is_his_business(project: Pat
         path.touch()
     assert not run(full=True).failed
     assert "Elements/C1.mo" not in Path(MANIFEST).read_text()
+
+
+def test_old_texts_go_with_later_builds_but_are_no_reason_for_one(project: Path) -> None:
+    run()
+    first = text_digest(Path(RECORD).read_bytes())
+    resistor(150)
+    run()
+    assert first in stored(), "the state before it mentions it"
+    assert run(full=True, dry=True).in_step
+    for ohm in range(150, 153):
+        resistor(ohm + 1, before=ohm)
+        run()
+        assert mentioned() <= stored().keys()
+    assert first not in stored()
+    assert len(stored()) == len(mentioned()) + 1
+
+
+def test_while_something_is_open_no_text_goes(project: Path) -> None:
+    run()
+    resistor(150)
+    run()
+    before = stored().keys()
+    edit(R1, "end R1", "  // mine\nend R1")
+    source('"ohm": 150', '"farad": 1e-6')
+    assert run(full=True).conflicts
+    assert before <= stored().keys()
+
+
+def test_a_lost_file_of_bases_is_written_anew(project: Path) -> None:
+    run()
+    before = {file.name: file.read_bytes() for file in BASES.iterdir()}
+    for digit in "3a":
+        (BASES / digit).unlink()
+    run()
+    assert {file.name: file.read_bytes() for file in BASES.iterdir()} == before
+
+
+@pytest.mark.parametrize("damage", [lambda _: b"", lambda text: text.replace(b"record", b"records")])
+def test_damaged_lines_are_out_of_step_and_mended(project: Path, damage: Callable[[bytes], bytes]) -> None:
+    run()
+    before = {file.name: file.read_bytes() for file in BASES.iterdir()}
+    for file in BASES.iterdir():
+        file.write_bytes(damage(file.read_bytes()))
+    assert stored().keys() < mentioned()
+    assert not run(dry=True).in_step
+    run()
+    assert {file.name: file.read_bytes() for file in BASES.iterdir()} == before

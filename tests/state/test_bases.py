@@ -1,16 +1,27 @@
-"""The bases: every text that was generated last is at hand, whatever git or a user does with its line."""
+"""The bases as text, and what they are for: every text that was generated last is at hand, whatever git does."""
 
 from __future__ import annotations
 
-import re
 import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
-from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, MANIFEST, R1, RECORD, configure, edit, own_model, resistor, run, source
+from support.networks import (
+    BASES,
+    LADDER,
+    R1,
+    RECORD,
+    configure,
+    edit,
+    mentioned,
+    own_model,
+    resistor,
+    run,
+    source,
+    stored,
+)
 
 from urdfsync.dependencies import LSTAT, Dependencies
 from urdfsync.engine.actions import Reason
@@ -18,19 +29,7 @@ from urdfsync.files import text_digest
 from urdfsync.state import bases, file_operations
 from urdfsync.state.record import Choice
 
-BASES = Path(".urdfsync/bases/ladder")
 NOTE = "  // mine\nend R1"
-
-
-def stored(folder: Path = BASES) -> dict[str, str]:
-    """All texts in the bases of a robot, by their hashes."""
-    return {sha256: text for file in folder.iterdir() for sha256, text in bases.loads(file.read_bytes()).items()}
-
-
-def mentioned() -> set[str]:
-    """The hashes of texts that the recorded state mentions."""
-    lines = re.findall(r"(?m)^file (\w{64})  (?!Resources/)", Path(MANIFEST).read_text())
-    return set(lines)
 
 
 def file_of(path: str) -> Path:
@@ -88,79 +87,6 @@ def test_an_answer_depends_on_all_files_and_one_number_touches_two_at_most(proje
     changed = [file for file in BASES.iterdir() if file.stat().st_mtime_ns != before[file]]
     assert changed == [file_of(RECORD)]
     assert mentioned() <= stored().keys()
-
-
-def test_old_texts_go_with_later_builds_but_are_no_reason_for_one(project: Path) -> None:
-    run()
-    first = text_digest(Path(RECORD).read_bytes())
-    resistor(150)
-    run()
-    assert first in stored(), "the state before it mentions it"
-    assert run(full=True, dry=True).in_step
-    for ohm in range(150, 153):
-        resistor(ohm + 1, before=ohm)
-        run()
-        assert mentioned() <= stored().keys()
-    assert first not in stored()
-    assert len(stored()) == len(mentioned()) + 1
-
-
-def test_while_something_is_open_no_text_goes(project: Path) -> None:
-    run()
-    resistor(150)
-    run()
-    before = stored().keys()
-    edit(R1, "end R1", NOTE)
-    source('"ohm": 150', '"farad": 1e-6')
-    assert run(full=True).conflicts
-    assert before <= stored().keys()
-
-
-def test_a_lost_file_of_bases_is_written_anew(project: Path) -> None:
-    run()
-    before = {file.name: file.read_bytes() for file in BASES.iterdir()}
-    for digit in "3a":
-        (BASES / digit).unlink()
-    run()
-    assert {file.name: file.read_bytes() for file in BASES.iterdir()} == before
-
-
-@pytest.mark.parametrize("damage", [lambda _: b"", lambda text: text.replace(b"record", b"records")])
-def test_damaged_lines_are_out_of_step_and_mended(project: Path, damage: Callable[[bytes], bytes]) -> None:
-    run()
-    before = {file.name: file.read_bytes() for file in BASES.iterdir()}
-    for file in BASES.iterdir():
-        file.write_bytes(damage(file.read_bytes()))
-    assert stored().keys() < mentioned()
-    assert not run(dry=True).in_step
-    run()
-    assert {file.name: file.read_bytes() for file in BASES.iterdir()} == before
-
-
-def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
-    run()
-    before = stored()
-    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
-    run()
-    assert stored(Path(".urdfsync/bases/filter")) == before
-    assert not BASES.exists()
-    execute("remove", "filter", "--yes")
-    assert not Path(".urdfsync/bases").exists()
-
-
-def test_files_for_git_gain_lines_and_keep_those_of_the_user(project: Path) -> None:
-    ignore, attributes = Path(".urdfsync/.gitignore"), Path(".urdfsync/.gitattributes")
-    ignore.parent.mkdir()
-    ignore.write_text("/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt")
-    attributes.write_text("/robots/*.state merge=union\nnotes.txt text\n")
-    run()
-    assert ignore.read_text() == "/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt\n!/.gitattributes\n!/bases/\n"
-    assert attributes.read_text().startswith("/robots/*.state merge=union\nnotes.txt text\n")
-    assert "/bases/** merge=union -diff -text linguist-generated\n" in attributes.read_text()
-    before = ignore.read_bytes(), attributes.read_bytes()
-    resistor(150)
-    run()
-    assert (ignore.read_bytes(), attributes.read_bytes()) == before
 
 
 def test_texts_are_stored_before_the_files_that_were_generated_with_them(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from urdfsync import config
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.state import bases
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 """The fixture `snapshot_of`."""
@@ -20,6 +22,7 @@ LADDER = "modelica/Ladder"
 R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
 RECORD = f"{LADDER}/Elements/R1Parameters.mo"
 MANIFEST = ".urdfsync/robots/ladder.state"
+BASES = Path(".urdfsync/bases/ladder")
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n'
 
 
@@ -85,3 +88,18 @@ def kinds(result: Result, folder: str = "") -> dict[str, Reason]:
     """What happens to each file that does not just stay and does not wait, by its path below a folder."""
     actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.held)
     return {action.path.removeprefix(folder): action.reason for action in actions}
+
+
+def said(result: Result) -> list[str]:
+    """What a build has to say."""
+    return [str(found).replace("\\", "/") for found in result.diagnostics]
+
+
+def stored(folder: Path = BASES) -> dict[str, str]:
+    """All texts in the bases of a robot, by their hashes."""
+    return {sha256: text for file in folder.iterdir() for sha256, text in bases.loads(file.read_bytes()).items()}
+
+
+def mentioned() -> set[str]:
+    """The hashes of texts that the recorded state mentions."""
+    return set(re.findall(r"(?m)^file (\w{64})  (?!Resources/)", Path(MANIFEST).read_text()))

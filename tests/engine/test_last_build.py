@@ -123,14 +123,3 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
     (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
     assert package.name == ("Filter" if move in steps else "Ladder")
     assert Store(project).names() == ["filter" if _rename_robot in steps else "ladder"]
-
-
-def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Execute, project: Path) -> None:
-    execute("build")
-    (project / ".urdfsync/robots/...state").write_text((project / MANIFEST).read_text())
-    _rename_robot(project)
-    (project / MANIFEST).unlink()
-    ignore = (project / ".urdfsync/.gitignore").read_bytes()
-    execute("build")
-    assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
-    assert Store(project).names() == ["filter"]

@@ -1,0 +1,123 @@
+"""Imported files: what is copied, where it is looked for, and what serves while it is missing."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from support.files import unchanged
+from support.networks import LADDER, edit, resistor, run, said, source
+from support.networks import kinds as all_kinds
+
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.result import Result
+
+
+def kinds(result: Result) -> dict[str, Reason]:
+    return all_kinds(result, f"{LADDER}/")
+
+
+def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
+    Path("step.csv").unlink()
+    Path("step.csv").mkdir()
+    assert said(run()) == [
+        "ladder.json:3: warning: table `step.csv` not found; left out; "
+        "add the folder that holds it to `package_paths` [table-not-found]"
+    ]
+    assert not (project / LADDER / "Resources").exists()
+    assert "SignalVoltage" not in (project / LADDER / "Ladder.mo").read_text()
+    assert run().in_step
+    Path("step.csv").rmdir()
+    Path("step.csv").write_text("0,1\n")
+    assert kinds(run()) == {"Resources/step.txt": Reason.CREATE, "Ladder.mo": Reason.UPDATE}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+def test_a_dependency_that_cant_be_opened_is_not_called_missing(project: Path) -> None:
+    Path("step.csv").unlink()
+    os.mkfifo("step.csv")
+    assert said(run()) == [
+        "ladder.json:3: warning: table `step.csv` can't be read: it is no regular file; left out; "
+        "replace it by a table that can be read [table-unreadable]"
+    ]
+
+
+def test_the_copy_serves_where_a_dependency_cant_be_found(project: Path) -> None:
+    run()
+    with unchanged(project / LADDER):
+        Path("step.csv").unlink()
+        assert run().in_step
+        for request in ({"full": True}, {"full": True, "dry": True}):
+            result = run(**request)
+            assert [found.code for found in result.diagnostics] == ["table-not-found-kept"]
+            assert result.in_step
+    resistor(120)
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
+    edit("urdfsync.toml", '"Ladder"', '"Filter"')
+    run()
+    assert Path("modelica/Filter/Resources/step.txt").exists()
+    assert not (project / LADDER).exists()
+
+
+def test_an_edited_copy_is_kept_and_the_older_one_serves_until_its_source_is_back(project: Path) -> None:
+    run()
+    signal, copy = Path("step.csv"), Path(LADDER, "Resources/step.txt")
+    original = copy.read_bytes()
+    copy.write_bytes(b"mine")
+    assert kinds(run(full=True)) == {"Resources/step.txt": Reason.KEEP}
+    edit(signal, "0.1,5", "0.1,7")
+    content = signal.read_bytes()
+    assert kinds(run()) == {"Resources/step.txt": Reason.CONFLICT}
+    assert copy.read_bytes() == b"mine"
+    signal.unlink()
+    assert kinds(run()) == {"Resources/step.txt": Reason.KEEP}
+    copy.write_bytes(original)
+    for request in ({}, {}, {"full": True}):
+        assert run(**request).in_step
+        assert copy.read_bytes() == original
+    signal.write_bytes(content)
+    assert kinds(run()) == {"Resources/step.txt": Reason.UPDATE}
+    assert "0.1 7.0" in copy.read_text()
+    assert run().in_step
+
+
+LFS = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n"
+
+POINTER = "it is a Git LFS pointer; left out; get the file itself with `git lfs pull`"
+
+
+@pytest.mark.parametrize(("bad", "words"), [(b"no numbers\n", "could not convert"), (LFS, POINTER)])
+@pytest.mark.parametrize("before", [False, True], ids=["never converted", "converted before"])
+def test_a_file_that_cant_be_converted_is_told(project: Path, before: bool, bad: bytes, words: str) -> None:
+    good = Path("step.csv").read_bytes()
+    if before:
+        run()
+    Path("step.csv").write_bytes(bad)
+    for _ in range(2):
+        (found,) = run().diagnostics
+        assert found.code == f"table-unreadable{'-kept' * before}"
+        assert before or words in str(found)
+    Path("step.csv").write_bytes(good)
+    assert run().diagnostics == ()
+    assert run().in_step
+
+
+@pytest.mark.parametrize(
+    ("uri", "hint"),
+    [
+        (
+            "package://ladder_data/step.csv",
+            "put it into the package `ladder_data`, or add the folder that holds that to `package_paths`",
+        ),
+        ("modelica://Ladder.Data/step.csv", "put the folder that holds the library `Ladder` on MODELICAPATH"),
+        ("tables/step.csv", "add the folder that holds it to `package_paths`"),
+        ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
+        ("D:/tables/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
+        ("HTTPS://host/step.csv", "urdfsync does not look on the network: download it, and let the source refer to it"),
+    ],
+)
+def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project: Path, uri: str, hint: str) -> None:
+    source('"step.csv"', f'"{uri}"')
+    (found,) = run().diagnostics
+    assert (found.message, found.hint) == (f"table `{uri}` not found; left out", hint)

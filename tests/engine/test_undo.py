@@ -1,0 +1,146 @@
+"""What a build wrote over comes back as it was: a file, a merge that may be made again; but not over a later save."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.files import unchanged
+from support.networks import LADDER, edit
+
+MODEL = f"{LADDER}/Ladder.mo"
+
+
+def more(name: str) -> None:
+    """One more resistor between two nodes that are there: a structural change that renames nothing."""
+    last = '"farad": 4.7e-6}'
+    edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
+
+
+@pytest.fixture
+def deleted(execute: Execute, project: Path) -> Path:
+    """An edited model whose element is gone, and that the user has let a build delete."""
+    execute("build")
+    edit(f"{LADDER}/Elements/R2.mo", "equation", "  Real mine;\nequation")
+    edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
+    execute("build")
+    orphan = project / LADDER / "Elements/R2.mo"
+    (project / "mine.txt").write_text(orphan.read_text())
+    execute("resolve", str(orphan), "--take")
+    return orphan
+
+
+def test_an_orphan_that_was_deleted_can_be_given_back(deleted: Path, execute: Execute) -> None:
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    execute("resolve", str(deleted), "--undo")
+    for _ in range(2):
+        assert deleted.read_text() == Path("mine.txt").read_text()
+        listed = Path(LADDER, "Elements/package.order").read_text().split()
+        assert [name for name in listed if name.startswith("R2")] == ["R2"]
+        execute("build", "--check")
+    execute("resolve", str(deleted), "--undo", code=2)
+
+
+def test_a_file_that_took_the_place_of_a_deleted_one_stays(deleted: Path, execute: Execute) -> None:
+    deleted.write_text("model R2\nend R2;\n")
+    execute("resolve", str(deleted), "--undo", code=2)
+    assert deleted.read_text() == "model R2\nend R2;\n"
+
+
+def test_what_was_not_taken_along_by_a_rename_can_be_given_back(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(f"{LADDER}/Elements/R1.mo", "equation", "  Real mine;\nequation")
+    edit("ladder.json", '"R1"', '"R8"')
+    renamed = Path(f"{LADDER}/Elements/R8.mo")
+    execute("resolve", f"{LADDER}/Elements/R1.mo", "--take")
+    assert "Real mine;" not in renamed.read_text()
+    execute("resolve", str(renamed), "--undo")
+    assert "Real mine;" in renamed.read_text()
+    assert "end R8;" in renamed.read_text()
+    execute("build", "--check")
+
+
+@pytest.fixture
+def merged(project: Path, execute: Execute) -> Path:
+    """The network's model was edited and merged with one more resistor; what the user had is in `mine.txt`."""
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    more("R3")
+    (project / "mine.txt").write_text(Path(MODEL).read_text())
+    lines = execute("build", "--merge").lines
+    assert lines[-1] == f"  merge      {Path(MODEL)}  R3; merged with your edits"
+    return project
+
+
+def test_undo_gives_back_what_was_there_before_the_merge(merged: Path, execute: Execute) -> None:
+    both = Path(MODEL).read_text()
+    assert execute("resolve", MODEL, "--undo", "--dry-run").lines[0] == "ladder: 1 to give back as you had it"
+    assert Path(MODEL).read_text() == both
+    assert execute("resolve", MODEL, "--undo").lines[0] == "ladder: 1 given back as you had it"
+    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
+    for command in (["build"], ["build", "--merge"], ["build", "--full", "--merge"]):
+        assert execute(*command).lines[0] == "ladder: in step, 16 files, 1 kept because you edited it"
+
+
+@pytest.mark.parametrize("again", ["--merge", "--undo"])
+def test_a_merge_that_was_undone_can_be_made_again(merged: Path, execute: Execute, again: str) -> None:
+    both = Path(MODEL).read_text()
+    execute("resolve", MODEL, "--undo")
+    execute("build")
+    execute("resolve", MODEL, again)
+    assert Path(MODEL).read_text() == both
+    execute("build", "--check")
+    execute("resolve", MODEL, "--undo")
+    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
+
+
+def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
+    edit("ladder.json", '"C1"', '"C3"')
+    execute("build", "--merge")
+    for command in (("resolve", MODEL, "--undo"), ("build",)):
+        assert "there is no class `Elements.C1`" in execute(*command, code=3).err
+    for words in (("build", "--check"), ("status",)):
+        assert "broken" in execute(*words, code=1).lines[0]
+
+
+def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
+    edit(MODEL, "Real mine = 1", "Real mine = 2")
+    with unchanged(merged, but=".urdfsync/lock"):
+        assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
+
+
+def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    execute("resolve", MODEL, "--undo")
+    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
+
+
+def test_what_was_taken_can_be_given_back(project: Path, execute: Execute) -> None:
+    execute("build")
+    edit(MODEL, '"Element R2"', '"Element R2, 1 %"')
+    edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
+    mine = Path(MODEL).read_text()
+    execute("resolve", MODEL, "--take")
+    assert "1 %" not in Path(MODEL).read_text()
+    assert "there is no class `Elements.R2`" in execute("resolve", MODEL, "--undo", code=3).err
+    assert Path(MODEL).read_text() == mine
+
+
+def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -> None:
+    execute("build")
+    more("R3")
+    execute("build")
+    assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
+
+
+def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
+    file = merged / ".urdfsync/replaced/ladder.json"
+    for text in ("", "x", "[]", '{"../x.mo": {"before": "x"}}', "\ud800", "[" * 100_000):
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text, errors="surrogatepass")
+        execute("build")

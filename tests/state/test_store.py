@@ -1,0 +1,58 @@
+"""The state folder: what it has of a robot, how that gets there, and what in it is the user's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from support.commands import Execute
+from support.files import unchanged
+from support.networks import BASES, MANIFEST, edit, failure, resistor, run, stored
+
+from urdfsync.state.store import Store
+
+
+def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Execute, project: Path) -> None:
+    execute("build")
+    (project / ".urdfsync/robots/...state").write_text((project / MANIFEST).read_text())
+    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
+    (project / MANIFEST).unlink()
+    ignore = (project / ".urdfsync/.gitignore").read_bytes()
+    execute("build")
+    assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
+    assert Store(project).names() == ["filter"]
+
+
+def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
+    run()
+    before = stored()
+    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
+    run()
+    assert stored(Path(".urdfsync/bases/filter")) == before
+    assert not BASES.exists()
+    execute("remove", "filter", "--yes")
+    assert not Path(".urdfsync/bases").exists()
+
+
+def test_files_for_git_gain_lines_and_keep_those_of_the_user(project: Path) -> None:
+    ignore, attributes = Path(".urdfsync/.gitignore"), Path(".urdfsync/.gitattributes")
+    ignore.parent.mkdir()
+    ignore.write_text("/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt")
+    attributes.write_text("/robots/*.state merge=union\nnotes.txt text\n")
+    run()
+    assert ignore.read_text() == "/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt\n!/.gitattributes\n!/bases/\n"
+    assert attributes.read_text().startswith("/robots/*.state merge=union\nnotes.txt text\n")
+    assert "/bases/** merge=union -diff -text linguist-generated\n" in attributes.read_text()
+    before = ignore.read_bytes(), attributes.read_bytes()
+    resistor(150)
+    run()
+    assert (ignore.read_bytes(), attributes.read_bytes()) == before
+
+
+def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(project: Path) -> None:
+    run()
+    path = Path(MANIFEST)
+    edit(path, "\n", "\r\n")
+    with unchanged(project):
+        assert run().in_step
+    path.write_bytes(b"\xff")
+    assert "not UTF-8" in failure()
