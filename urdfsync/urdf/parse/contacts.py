@@ -22,16 +22,16 @@ _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
-    """Return what the robot says of contacts by link. The first number of each counts.
+    """Return the contact of each link that the robot describes one for. The first number of each field counts.
 
-    One that is faulty or negative is left out, with a warning, as is a stiffness of zero.
+    A faulty or negative number is left out, with a warning, and so is a stiffness of zero.
     """
     links = {link.get("name", ""): link for link in root.iterfind("link")}
     joints = {joint.get("name", "") for joint in root.iterfind("joint")}
     places = list[tuple[Element, str, Mapping[str, tuple[str, ...]]]]()
     for name, link in links.items():
         for contact in link.iterfind("contact"):
-            reader.kept.append((f"link {name}", contact))
+            reader.extensions.append((f"link {name}", contact))
             places.append((link, name, _IN_LINK))
     for gazebo in root.iterfind("gazebo"):
         name = gazebo.get("reference", "")

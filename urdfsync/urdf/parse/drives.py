@@ -27,7 +27,7 @@ _STATES = ("position", "velocity", "acceleration", "effort")
 
 
 class Drive(NamedTuple):
-    """What one element says of the drive of a joint."""
+    """The drive of one joint, as one element describes it."""
 
     path: str
     """For example `transmission wheel_trans / joint wheel`."""
@@ -41,16 +41,18 @@ class Drive(NamedTuple):
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
-    """Yield what a `<transmission>` or `<ros2_control>` says of each joint that it drives.
+    """Yield a drive for each joint of a `<transmission>` or `<ros2_control>`.
 
-    The latter drives by its own transmissions, and joints that have a `<command_interface>`: others are only measured.
+    A `<ros2_control>` drives the joints of its own transmissions, and those with a `<command_interface>`. It only
+    measures its other joints.
     """
     transmissions = [element]
     if element.tag == "ros2_control":
         transmissions = element.findall("transmission")
         for joint in element.findall("joint"):
             interfaces = {interface.get("name", ""): interface for interface in joint.findall("command_interface")}
-            reader.used.update(one for one in joint.findall("state_interface") if one.get("name") in _STATES)
+            states = joint.findall("state_interface")
+            reader.used.update(state for state in states if state.get("name") in _STATES)
             if interfaces and (name := joint.get("name", "")):
                 command = next((command for command in _COMMANDS if command in interfaces), None)
                 if command:
@@ -69,7 +71,7 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
 
 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
-    """Return reduction, offset and rotor of a transmission; None if it says nothing of them."""
+    """Return reduction, offset and rotor of a transmission; None if it names none of them."""
 
     def number(*places: str) -> float | None:
         numbers = reader.numbers(element, places, path, "bad-transmission")
@@ -85,9 +87,9 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
-    """Return the joints with what drives them; of several transmissions of a joint the first counts.
+    """Return the joints with their drives; of several transmissions of a joint the first counts.
 
-    What is said of joints without an axis is left as it is.
+    An element that drives a joint without an axis counts as not modelled.
     """
     joints = list(joints)
     gears, commands, actuated = dict[str, Drive](), dict[str, Command](), set[str]()

@@ -27,9 +27,9 @@ _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind f
 
 
 def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
-    """Read a link, of which `contact` is known, without looking up its materials.
+    """Read a link without looking up its materials; `contact` was read from the whole robot.
 
-    Mass and inertia that are absent are 0, with a warning.
+    An absent mass or inertia is 0, with a warning.
     """
     owner, place = f"link {element.get('name', '')}", f"{path} / inertial"
     part, inertial = element.find("inertial"), None
@@ -55,11 +55,9 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
     """
     number = 0
     for element in link.findall(tag):
-        around = element.find("geometry")
-        shapes, others = list[Element](), list[Element]()
-        for child in around if around is not None else ():
-            (shapes if child.tag in _SHAPES else others).append(child)
-        if not shapes:
+        holder = element.find("geometry")
+        shapes = [] if holder is None else [child for child in holder if child.tag in _SHAPES]
+        if holder is None or not shapes:
             message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
             reader.add(element, "unknown-geometry", message)
             continue
@@ -68,16 +66,15 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         if len(shapes) > 1:
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
-        for child in others:
-            reader.keep(child, place, (), owner)
-        if around is not None and around.attrib:
-            reader.expect(around, f"{place} / geometry", ())
+        for child in holder:
+            if child.tag not in _SHAPES:
+                reader.keep(child, place, (), owner)
         geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind], owner)
         if tag == "collision":
             yield reader.read(element, place, Collision, owner, geometry=geometry)
         else:
-            found = element.find("material")
-            material = None if found is None else read_material(reader, found, f"{place} / material", owner)
+            inner = element.find("material")
+            material = None if inner is None else read_material(reader, inner, f"{place} / material", owner)
             yield reader.read(element, place, Visual, owner, geometry=geometry, material=material)
 
 
@@ -108,7 +105,7 @@ def resolve_materials(
     """Return the links with their materials looked up by name through the whole robot; keys are paths.
 
     As in urdfdom, the first definition of a name counts: those of the robot, which are `materials`, come before those
-    in visuals. `defined` are the names that have a definition, be it without a colour.
+    in visuals. `defined` are the names that have a definition, with a colour or without.
     """
     inline = {
         f"{path} / visual {number} / material": visual.material
@@ -158,8 +155,8 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
         reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
-    # A limit that is absent is 0 for a position, as in urdfdom, and there is none for effort and velocity. Since URDF
-    # 1.2 the former is required, and the latter may be left out.
+    # An absent limit of position is 0, as in urdfdom; an absent one of effort or velocity is no limit. Since URDF 1.2
+    # the limits of position are required, and the others may be left out.
     kind, is_new = JOINT_KINDS[joint.type], reader.version >= (1, 2)
     if limit is None:
         if kind.has_limits:

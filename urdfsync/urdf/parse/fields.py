@@ -34,7 +34,7 @@ _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 _REPEATED = ("visual", "collision")
 _ELSEWHERE = ("transmission",)
 """Fields whose elements do not stand in the element of their struct."""
-# Elements of URDF: in a place where they mean nothing they are no misspelt other element.
+# Elements of URDF. In a place where one means nothing, it is not taken for a misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
@@ -42,34 +42,34 @@ _TEXT_SHOWN = 60
 
 
 class Reader:
-    """Reads elements of one file, each with its path in the robot, such as `joint elbow / limit`."""
+    """A reader of the elements of one file; each has its path in the robot, such as `joint elbow / limit`."""
 
-    def __init__(self, lines: Mapping[Element, int]) -> None:
-        self._lines_of_elements = lines
+    def __init__(self, element_lines: Mapping[Element, int]) -> None:
+        self.element_lines = element_lines
         self.version = 1, 0
-        """Of URDF, as the file says."""
+        """Version of URDF that the file is written in."""
         self.lines: dict[str, int] = {}
-        """By path: see `RobotReading`."""
+        """Line of each path: see `RobotReading`."""
         self.diagnostics: list[Diagnostic] = []
-        """Without the name of the file."""
-        self.kept: list[tuple[str, Element]] = []
-        """The elements that no struct asks for, each with its owner."""
+        """Diagnostics so far, without the name of the file."""
+        self.extensions: list[tuple[str, Element]] = []
+        """Elements that no struct asks for, each with its owner."""
         self.used = set[Element]()
-        """Of the elements in `kept`, and of those in them, the ones that something else reads."""
+        """The elements in `extensions`, or inside of them, that something else reads."""
         self.allowed: Collection[str] = ()
         """Codes of errors that are warnings here."""
 
     @property
     def failed(self) -> bool:
         """Whether an error was found."""
-        return any(found.severity is Severity.ERROR for found in self.diagnostics)
+        return any(entry.severity is Severity.ERROR for entry in self.diagnostics)
 
     def add(self, element: Element, code: str, message: str, hint: str = "") -> None:
         """Add a finding about an element."""
-        found = diagnostic(code, message, self._lines_of_elements[element], hint)
+        entry = diagnostic(code, message, self.element_lines[element], hint)
         if code in self.allowed:
-            found = msgspec.structs.replace(found, severity=Severity.WARNING, hint="a build needs `allow` for it")
-        self.diagnostics.append(found)
+            entry = msgspec.structs.replace(entry, severity=Severity.WARNING, hint="a build needs `allow` for it")
+        self.diagnostics.append(entry)
 
     def extend(self, findings: Iterable[Finding]) -> None:
         """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
@@ -80,7 +80,7 @@ class Reader:
             self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
 
     def drop_newer(self, element: Element, path: str, attributes: Iterable[str], version: tuple[int, int]) -> None:
-        """Take attributes that URDF has since `version` out of an element of an older file, with a warning."""
+        """Remove attributes that came with `version` of URDF from an element of an older file, with a warning."""
         newer = [name for name in attributes if name in element.attrib] if self.version < version else []
         if newer:
             needed, given = (f"{major}.{minor}" for major, minor in (version, self.version))
@@ -89,41 +89,37 @@ class Reader:
         for name in newer:
             del element.attrib[name]
 
-    def line(self, element: Element) -> int:
-        """Return the line of an element."""
-        return self._lines_of_elements[element]
-
     def place(self, element: Element, path: str) -> str:
         """Remember the line of an element; return its path."""
-        self.lines.setdefault(path, self._lines_of_elements[element])
+        self.lines.setdefault(path, self.element_lines[element])
         return path
 
     def children(self, element: Element, path: str, tags: Collection[str], owner: str) -> dict[str, Element]:
         """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`."""
-        found: dict[str, Element] = {}
+        by_tag: dict[str, Element] = {}
         for child in element:
             tag = child.tag
             if tag not in tags:
                 self.keep(child, path, tags, owner)
             elif tag in _REPEATED:
                 continue
-            elif tag not in found:
-                found[tag] = child
+            elif tag not in by_tag:
+                by_tag[tag] = child
                 self.place(child, f"{path} / {tag}")
             else:
                 self.add(child, "duplicate-element", f"{path} has another <{tag}>, and the first counts")
-        return found
+        return by_tag
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
         if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
-        self.kept.append((owner, child))
+        self.extensions.append((owner, child))
 
     def unmodelled(self) -> Iterator[tuple[str, Element]]:
-        """Yield what nothing reads, with its owner: elements as a whole, or of one that is read, those in it."""
-        waiting = self.kept[::-1]
+        """Yield the elements that nothing reads, with their owners: each as a whole, or else those inside of it."""
+        waiting = self.extensions[::-1]
         while waiting:
             owner, element = waiting.pop()
             if element not in self.used:
@@ -132,14 +128,14 @@ class Reader:
             name = element.get("name") or element.get("reference", "")
             waiting += [(owner or f"{element.tag} {name}".rstrip(), child) for child in reversed(element)]
 
-    def find(self, element: Element, way: str) -> Element | None:
-        """Return the first element at the end of a way of tags below an element, and note that it is read."""
+    def find(self, element: Element, tags: str) -> Element | None:
+        """Return the first element at a path of tags below an element, and note that it is read."""
         # ElementTree's own paths know no prefix without a namespace, such as that of drake:gear_ratio
-        tag, _, rest = way.partition("/")
+        tag, _, rest = tags.partition("/")
         for child in element:
-            if child.tag == tag and (found := self.find(child, rest) if rest else child) is not None:
+            if child.tag == tag and (end := self.find(child, rest) if rest else child) is not None:
                 self.used.add(child)
-                return found
+                return end
         return None
 
     def numbers(
@@ -147,11 +143,11 @@ class Reader:
     ) -> tuple[float, ...] | None:
         """Return the numbers at the first of some places; None if there are none or, after a warning, faulty ones.
 
-        A place is a way to an element, of which the attribute behind `@` counts, else `value`, else the text.
+        A place is a path of tags. Of the element there, the attribute behind `@` counts, else `value`, else the text.
         """
         for place in places:
-            way, _, attribute = place.partition("@")
-            holder = self.find(element, way) if way else element
+            tags, _, attribute = place.partition("@")
+            holder = self.find(element, tags) if tags else element
             if holder is None or (attribute and attribute not in holder.attrib):
                 continue
             text = holder.get(attribute or "value") or holder.text or ""
@@ -168,7 +164,7 @@ class Reader:
         for name in element.attrib:
             if name in attributes or ":" in name or name == "xmlns":
                 continue
-            if hint := perhaps(name, [known for known in attributes if known not in element.attrib]):
+            if hint := perhaps(name, [other for other in attributes if other not in element.attrib]):
                 message = f"{path}: the attribute {name!r} is unknown, and has no effect"
                 self.add(element, "unknown-attribute", message, hint)
 
@@ -176,14 +172,14 @@ class Reader:
         """Return a struct from attributes and children, but for the fields that are `given`."""
         attributes, children, required = _schema(struct)
         self.expect(element, path, attributes)
-        own = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
+        read = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
         if not children:
             if len(element):
                 self.children(element, path, (), owner)
-            return struct(*own)
-        values = {**given, **dict(zip(attributes, own, strict=True))}
-        found = self.children(element, path, children, owner)
-        for name, child in found.items():
+            return struct(*read)
+        values = {**given, **dict(zip(attributes, read, strict=True))}
+        elements = self.children(element, path, children, owner)
+        for name, child in elements.items():
             if name in values:
                 continue
             kind, default = children[name]
@@ -198,7 +194,7 @@ class Reader:
                     self._write_as_rpy(child, place)
                 values[name] = self.read(child, place, kind, owner)
         for name in required:
-            if name not in found:
+            if name not in elements:
                 self.add(element, "missing-element", f"{path} has no <{name}>")
                 values[name] = ""
         return struct(**values)
@@ -233,7 +229,7 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
-        # in the place of a required value stands one that no later check complains of
+        # a required value gets one that no later check complains of, so that a fault is told once
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 
@@ -252,7 +248,7 @@ def _schema(
     for field in msgspec.structs.fields(struct):
         kind = get_args(field.type)[0] if get_origin(field.type) is Annotated else field.type
         kinds = (kind, *get_args(kind))
-        structs = [one for one in kinds if isinstance(one, type) and issubclass(one, msgspec.Struct)]
+        structs = [part for part in kinds if isinstance(part, type) and issubclass(part, msgspec.Struct)]
         if field.name in _ELSEWHERE:
             continue
         if structs:
@@ -303,15 +299,15 @@ def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) ->
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a file by line; more than three warnings of one code become one."""
     by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
-    for found in sorted(diagnostics, key=lambda found: (found.line, found.column)):
-        by_code.setdefault((found.severity, found.code), []).append(msgspec.structs.replace(found, file=file))
+    for entry in sorted(diagnostics, key=lambda entry: (entry.line, entry.column)):
+        by_code.setdefault((entry.severity, entry.code), []).append(msgspec.structs.replace(entry, file=file))
     shown: list[Diagnostic] = []
     for (severity, _), group in by_code.items():
         if severity is Severity.ERROR or len(group) <= _SHOWN_ALONE:
             shown += group
             continue
-        lines = list(dict.fromkeys(str(found.line) for found in group[1:]))
+        lines = list(dict.fromkeys(str(entry.line) for entry in group[1:]))
         listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
         more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
         shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
-    return tuple(sorted(shown, key=lambda found: (found.line, found.column)))
+    return tuple(sorted(shown, key=lambda entry: (entry.line, entry.column)))

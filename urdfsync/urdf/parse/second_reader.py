@@ -102,9 +102,9 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
                 parent = parents.get(name)
                 step = scene.get_transform(name, parent) if parent else scene.get_transform(name)
                 places[name] = places[parent] @ step if parent else step
-                found = places[name][:3]
-                if np.abs(found - pose).max() > _TOLERANCE * reach:
-                    place, other = (f"({x:.6g}, {y:.6g}, {z:.6g})" for x, y, z in (pose[:, 3], found[:, 3]))
+                their_pose = places[name][:3]
+                if np.abs(their_pose - pose).max() > _TOLERANCE * reach:
+                    place, other = (f"({x:.6g}, {y:.6g}, {z:.6g})" for x, y, z in (pose[:, 3], their_pose[:, 3]))
                     message = f"with all joints {words} the link is at {place} m, for yourdfpy at {other} m"
                     turned = "" if place != other else ", turned otherwise"
                     yield Finding("second-reader-differs", f"link {name}", f"link {name!r}: {message}{turned}")

@@ -26,7 +26,7 @@ _STATES: Mapping[str, SensorKind] = {
     "force": "force_torque",
     "torque": "force_torque",
 }
-"""Kinds by the beginning of the names of ros2_control's state interfaces."""
+"""Kinds by the beginning of the names of state interfaces of ros2_control."""
 _CAMERA = {
     "width": ("image/width", "image@width"),
     "height": ("image/height", "image@height"),
@@ -55,8 +55,8 @@ _PARTS = ("camera", "ray", "lidar")
 _Numbers = TypeVar("_Numbers", Camera, Lidar)
 
 
-class _Found(NamedTuple):
-    """A sensor with the name of the link or joint that it is at."""
+class _SensorElement(NamedTuple):
+    """An element of a sensor, with the name of the link or joint that the sensor is at."""
 
     element: Element
     name: str
@@ -67,47 +67,50 @@ class _Found(NamedTuple):
 def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: Iterable[Joint]) -> tuple[Sensor, ...]:
     """Return the sensors that the package models.
 
-    Those of a kind that it does not have, or of ros2_control without a frame, are left out. Sensors of one name are
-    told apart by where they are.
+    Sensors of other kinds, and those of ros2_control without a frame, are left out. Sensors of one name get the name of
+    their place before it.
     """
-    above, known = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
-    placed = list[_Found]()
-    for one in _found(root):
-        place = above.get(one.at, one.at) if one.kind == "force_torque" and one.at not in known else one.at
-        path = reader.place(one.element, f"sensor {one.name}")
-        if place in (known if one.kind == "force_torque" else links):
-            placed.append(one._replace(at=place))
+    joints_above, joint_names = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
+    placed = list[_SensorElement]()
+    for source in _find_sensors(root):
+        place, is_wrench = source.at, source.kind == "force_torque"
+        if is_wrench and place not in joint_names:  # gazebo names the link that the joint carries
+            place = joints_above.get(place, place)
+        path = reader.place(source.element, f"sensor {source.name}")
+        if place in (joint_names if is_wrench else links):
+            placed.append(source._replace(at=place))
             continue
-        kind = "joint" if one.kind == "force_torque" else "link"
-        message = f"{path} is at {kind} {one.at!r}, which does not exist: it is left out"
-        reader.add(one.element, "unknown-sensor-place", message)
-    counts = Counter(name for name, _ in {(one.name, one.at) for one in placed})
+        kind = "joint" if is_wrench else "link"
+        message = f"{path} is at {kind} {source.at!r}, which does not exist: it is left out"
+        reader.add(source.element, "unknown-sensor-place", message)
+    counts = Counter(name for name, _ in {(source.name, source.at) for source in placed})
     sensors: dict[tuple[str, str], Sensor] = {}
-    for one in placed:
-        name = one.name if counts[one.name] == 1 else f"{one.at}/{one.name}"
-        sensor = _read(reader, one, name)
-        first = sensors.setdefault((one.name, one.at), sensor)
-        # ros2_control says of a sensor where and of which kind it is, and no number
-        if first.kind != sensor.kind or (first != sensor and one.element.find("state_interface") is None):
-            message = f"{one.at!r} has another sensor {one.name}, and the first counts"
-            reader.add(one.element, "duplicate-element", message, "give each sensor a name of its own")
+    for source in placed:
+        name = source.name if counts[source.name] == 1 else f"{source.at}/{source.name}"
+        sensor = _read(reader, source, name)
+        first = sensors.setdefault((source.name, source.at), sensor)
+        # ros2_control names place and kind of a sensor, and no number
+        if first.kind != sensor.kind or (first != sensor and source.element.find("state_interface") is None):
+            message = f"{source.at!r} has another sensor {source.name}, and the first counts"
+            reader.add(source.element, "duplicate-element", message, "give each sensor a name of its own")
     return tuple(sensors.values())
 
 
-def _found(root: Element) -> Iterator[_Found]:
+def _find_sensors(root: Element) -> Iterator[_SensorElement]:
+    """Yield the sensors of a known kind that have a place, not yet held against the links and joints."""
     for at, element in _elements(root):
         parent = element.find("parent")
         inside = [child.tag for child in element]
         kind = next((_TYPES[word] for word in (element.get("type", ""), *inside) if word in _TYPES), None)
         place = at if parent is None else parent.get("link", at)
         if kind and place:
-            yield _Found(element, element.get("name", "") or f"{place} {kind}", kind, place)
+            yield _SensorElement(element, element.get("name", "") or f"{place} {kind}", kind, place)
     for element in root.iterfind("ros2_control/sensor"):
         states = [state.get("name", "").partition(".")[0] for state in element.findall("state_interface")]
         kind = next((_STATES[state] for state in states if state in _STATES), None)
-        frame = next((one.text for one in element.findall("param") if one.get("name") == "frame_id"), None)
+        frame = next((part.text for part in element.findall("param") if part.get("name") == "frame_id"), None)
         if kind and frame:
-            yield _Found(element, element.get("name", ""), kind, frame.strip())
+            yield _SensorElement(element, element.get("name", ""), kind, frame.strip())
 
 
 def _elements(root: Element) -> Iterator[tuple[str, Element]]:
@@ -120,17 +123,17 @@ def _elements(root: Element) -> Iterator[tuple[str, Element]]:
             yield from ((at, sensor) for sensor in child.findall("sensor"))
 
 
-def _read(reader: Reader, found: _Found, name: str) -> Sensor:
-    element, path = found.element, f"sensor {found.name}"
+def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
+    element, path = source.element, f"sensor {source.name}"
     reader.used.add(element)
     for child in element:
         words = child.get("name", "")
-        is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == found.kind
+        is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == source.kind
         if is_state or child.tag == "parent" or (child.tag == "param" and words == "frame_id"):
             reader.used.add(child)
     rate = reader.numbers(element, ("update_rate", "@update_rate"), path, "bad-sensor")
-    sensor = Sensor(name, found.kind, found.at, _read_origin(reader, found, path), rate[0] if rate else 0.0)
-    match found.kind:
+    sensor = Sensor(name, source.kind, source.at, _read_origin(reader, source, path), rate[0] if rate else 0.0)
+    match source.kind:
         case "camera":
             return msgspec.structs.replace(sensor, camera=_read_fields(reader, element, path, Camera, _CAMERA))
         case "lidar":
@@ -140,17 +143,17 @@ def _read(reader: Reader, found: _Found, name: str) -> Sensor:
     return sensor
 
 
-def _read_origin(reader: Reader, found: _Found, path: str) -> Origin:
+def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
     """Return the place of a sensor on its link: the `<pose>` of gazebo, or the `<origin>` of URDF."""
-    pose, origin = reader.find(found.element, "pose"), reader.find(found.element, "origin")
+    pose, origin = reader.find(source.element, "pose"), reader.find(source.element, "origin")
     if origin is not None:
         return reader.read(origin, f"{path} / origin", Origin, path)
-    numbers = reader.numbers(found.element, ("pose",), path, "bad-sensor", 6)
+    numbers = reader.numbers(source.element, ("pose",), path, "bad-sensor", 6)
     if pose is None or numbers is None:
         return Origin()
-    if (other := pose.get("relative_to")) and other != found.at:
-        message = f"{path}: its pose counts from {found.at!r}, and not from {other!r}"
-        reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {found.at!r}")
+    if (other := pose.get("relative_to")) and other != source.at:
+        message = f"{path}: its pose counts from {source.at!r}, and not from {other!r}"
+        reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {source.at!r}")
     turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
     x, y, z, roll, pitch, yaw = numbers
     return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))
@@ -176,15 +179,15 @@ def _read_fields(
 def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:
     """Return a sensor of force and torque with the axes and the direction of what it shows."""
     words = []
-    for way, known in (("force_torque/frame", _FRAMES), ("force_torque/measure_direction", _DIRECTIONS)):
-        part = reader.find(element, way)
-        word = ((part.text if part is not None else "") or "").strip() or known[0]
-        if word not in known:
-            message = f"{path}: {quoted(word)} is none of {', '.join(known)}: the {known[0]} counts"
+    for tags, choices in (("force_torque/frame", _FRAMES), ("force_torque/measure_direction", _DIRECTIONS)):
+        part = reader.find(element, tags)
+        word = ((part.text if part is not None else "") or "").strip() or choices[0]
+        if word not in choices:
+            message = f"{path}: {quoted(word)} is none of {', '.join(choices)}: the {choices[0]} counts"
             reader.add(element, "bad-sensor", message)
         words.append(word)
-    frame, way = words
+    frame, direction = words
     origin = sensor.origin if frame == "sensor" else Origin()
     return msgspec.structs.replace(
-        sensor, origin=origin, in_parent=frame == "parent", on_child=way == "parent_to_child"
+        sensor, origin=origin, in_parent=frame == "parent", on_child=direction == "parent_to_child"
     )

@@ -37,7 +37,7 @@ _NEWEST = 1, 2
 
 
 class RobotReading(NamedTuple):
-    """What reading a URDF gave: the robot, unless a diagnostic is an error, and the diagnostics.
+    """A URDF as it was read: the robot, unless a diagnostic is an error, and the diagnostics.
 
     `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example
     `link NAME / visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`; shapes count from 1.
@@ -70,14 +70,16 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
     """Yield one note on all elements that are in no model, each with its line as detail; none if there are none."""
-    lines = sorted((reader.line(part), part.tag, part.get("name") or owner) for owner, part in reader.unmodelled())
+    lines = sorted(
+        (reader.element_lines[part], part.tag, part.get("name") or owner) for owner, part in reader.unmodelled()
+    )
     counts = Counter(tag for _, tag, _ in lines)
-    said = [f"{count} <{cut(tag, _LONGEST)}>" for tag, count in counts.items()]
-    if len(said) > _KINDS:
-        said[_KINDS:] = [f"{len(said) - _KINDS} other kinds of elements"]
-    if said:
+    kinds = [f"{count} <{cut(tag, _LONGEST)}>" for tag, count in counts.items()]
+    if len(kinds) > _KINDS:
+        kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds of elements"]
+    if kinds:
         details = tuple(f"line {line}: <{tag}> {name}".rstrip() for line, tag, name in lines)
-        yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(said)}", lines[0][0], details=details)
+        yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(kinds)}", lines[0][0], details=details)
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
@@ -113,11 +115,11 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
     text = root.get("version")
     if text is None:
         return 1, 0
-    found = _VERSION.fullmatch(text)
-    if not found or int(found[1]) != 1:
+    match = _VERSION.fullmatch(text)
+    if not match or int(match[1]) != 1:
         reader.add(root, "bad-version", f"version={quoted(text)} is no version 1.x of URDF")
         return _NEWEST
-    version = 1, int(found[2])
+    version = 1, int(match[2])
     if version > _NEWEST:
         reader.add(root, "newer-version", f"the file is of URDF 1.{version[1]}, and is read as 1.{_NEWEST[1]}")
     return version
@@ -145,24 +147,24 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
         if child.tag not in _MODELLED:
             reader.keep(child, "robot", _MODELLED, "")
         if child.tag in ("gazebo", "ros2_control"):
-            reader.used.add(child)  # each part of it speaks for itself
+            reader.used.add(child)  # its parts are read one by one, or are not modelled
     contacts = read_contacts(reader, root)
 
     def elements(tag: str) -> list[tuple[Element, str]]:
-        found = root.findall(tag)
-        paths = validate.element_paths(tag, [element.get("name", "") for element in found])
-        return [(element, reader.place(element, path)) for element, path in zip(found, paths, strict=True)]
+        children = root.findall(tag)
+        paths = validate.element_paths(tag, [element.get("name", "") for element in children])
+        return [(element, reader.place(element, path)) for element, path in zip(children, paths, strict=True)]
 
     driving = [*elements("transmission"), *elements("ros2_control")]
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    found_links = [
+    all_links = [
         read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
     ]
-    found_joints = [read_joint(reader, *place) for place in elements("joint")]
-    links = [link for link in found_links if link.name]
-    joints = with_drives(reader, (joint for joint in found_joints if joint and joint.name), drives)
-    complete = len(links) == len(found_links) and len(joints) == len(found_joints)
+    all_joints = [read_joint(reader, *place) for place in elements("joint")]
+    links = [link for link in all_links if link.name]
+    joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), drives)
+    complete = len(links) == len(all_links) and len(joints) == len(all_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
     links_with_materials = resolve_materials(reader, by_path, materials, defined)
@@ -171,11 +173,11 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     robot = Robot(name, links_with_materials, tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
-        known = {joint.name for joint in joints}
+        names = {joint.name for joint in joints}
         for drive in drives:
-            if drive.joint not in known:
+            if drive.joint not in names:
                 message = f"{drive.path.partition(' / ')[0]} drives joint {drive.joint!r}, which does not exist"
-                hint = validate.perhaps(drive.joint, known)
+                hint = validate.perhaps(drive.joint, names)
                 reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     return msgspec.structs.replace(robot, joints=tuple(moving))
