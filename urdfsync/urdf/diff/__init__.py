@@ -1,1 +1,1 @@
-"""What the differences of two robots are in the words of URDF, and what follows from them."""
+"""The differences of two robots in the words of URDF, and their effects on the whole robot."""

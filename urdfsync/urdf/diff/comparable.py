@@ -1,4 +1,4 @@
-"""Snapshots as they are compared: under the new names, with drives, extensions keyed by what they are about."""
+"""Snapshots as they are compared: under the new names, with drives, and with extensions keyed by their subjects."""
 
 from __future__ import annotations
 
@@ -15,18 +15,22 @@ from urdfsync.urdf.snapshot import joints_of
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
     """Return the snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
 
-    Each joint that can be driven has an entry `drive` in the place of `actuated`: `driven` or `passive`, as the source
-    has it. One transmission more or less can change it for joints that it does not name.
+    Each joint that can be driven has an entry `drive` in place of `actuated`: `driven` or `passive`, as the source has
+    it. One transmission more or less can change it for joints that the transmission does not name.
     """
-    gone = displaced(renames)
+    displaced_elements = displaced(renames)
 
     def renamed(kind: str, name: str) -> str:
         return renames.get((kind, name), name)
 
-    links = {renamed("link", name): link for name, link in snapshot["links"].items() if ("link", name) not in gone}
+    links = {
+        renamed("link", name): link
+        for name, link in snapshot["links"].items()
+        if ("link", name) not in displaced_elements
+    }
     joints = {}
     for name, joint in snapshot["joints"].items():
-        if ("joint", name) in gone:
+        if ("joint", name) in displaced_elements:
             continue
         joint = {key: value for key, value in joint.items() if key != "actuated"}
         if renames:
@@ -34,15 +38,16 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
             if mimic := joint.get("mimic"):
                 joint["mimic"] = {**mimic, "joint": renamed("joint", mimic["joint"])}
         joints[renamed("joint", name)] = joint
-    robot = joints_of(snapshot["joints"])
-    passive = passive_joints(robot)
-    for one in filter(can_be_driven, robot):
-        if ("joint", one.name) not in gone:
-            joints[renamed("joint", one.name)]["drive"] = "passive" if one.name in passive else "driven"
+    all_joints = joints_of(snapshot["joints"])
+    passive = passive_joints(all_joints)
+    for drivable in filter(can_be_driven, all_joints):
+        name = drivable.name
+        if ("joint", name) not in displaced_elements:
+            joints[renamed("joint", name)]["drive"] = "passive" if name in passive else "driven"
     extensions = {}
     for owner, tags in snapshot["extensions"].items():
         kind, _, name = owner.partition(" ")
-        if (kind, name) not in gone:
+        if (kind, name) not in displaced_elements:
             extensions[f"{kind} {renamed(kind, name)}" if name else owner] = _keyed(tags)
     sensors = {
         name: {**sensor, "at": renamed("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"])}

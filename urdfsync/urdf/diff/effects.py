@@ -1,4 +1,4 @@
-"""What a change does to a robot as a whole: its mass, the connectors of its model, and the variables of its Run."""
+"""Effects of a change on a whole robot: its mass, the connectors of its model, and the variables of its Run."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
 _JUMP = 9.99
+"""Ratio of two masses that is no change of the design: a factor of 10, which rounding may have made smaller."""
 _DRIVE = {
     "axis": "axis",
     "support": "support",
@@ -57,13 +58,13 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
 
 
 def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning if links have ten times their mass, or a tenth of it: one for all of them, at the first."""
+    """Yield one warning, at the first of all links that have ten times their mass, or a tenth of it."""
     before = {renames.get(("link", name), name): link for name, link in old.snapshot["links"].items()}
     jumps = []
     for name, link in new.snapshot["links"].items():
-        one, other = (snapshot.get("inertial", {}).get("mass", 0.0) for snapshot in (before.get(name, {}), link))
-        if min(one, other) > 0 and max(one, other) >= _JUMP * min(one, other):
-            jumps.append((f"link {name}", f"{one:g} kg → {other:g} kg"))
+        mass, new_mass = (snapshot.get("inertial", {}).get("mass", 0.0) for snapshot in (before.get(name, {}), link))
+        if min(mass, new_mass) > 0 and max(mass, new_mass) >= _JUMP * min(mass, new_mass):
+            jumps.append((f"link {name}", f"{mass:g} kg → {new_mass:g} kg"))
     if jumps:
         path, change = jumps[0]
         more = f" (and {len(jumps) - 1} more like it)" if len(jumps) > 1 else ""
@@ -76,8 +77,8 @@ def interface(
 ) -> Sequence[Effect]:
     """Return the connectors and the variables of Run that go or have another name, then those that come.
 
-    With positions in one vector, its order too. `options` are those of the new version; the old one has its own if it
-    says so.
+    If Run has its inputs in one vector, their order is an effect, too. `options` are those of the new version, and of
+    the old one unless it has its own.
     """
     earlier = old.options if isinstance(old.options, Options) else options
     if "package" not in earlier.approach:
@@ -86,37 +87,38 @@ def interface(
         hint = brings_back('approach = ["package", "record"]')
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
-    was, now, every = connector_names(before, earlier), connector_names(after, options), every_connector(after, options)
-    lines, found = connector_options(after, options), list[Effect]()
+    old_names, new_names = connector_names(before, earlier), connector_names(after, options)
+    all_names = every_connector(after, options)
+    lines, changes = connector_options(after, options), list[Effect]()
 
-    def add(element: str, part: str, one: str | None, other: str | None, full: str | None) -> None:
-        """Add what becomes of a name; `full` is what it would be if no option left it out."""
-        if one != other:
-            hint = "" if other or not full else brings_back(lines.get(full, ""), full if full != one else "")
-            found.append(Effect((element, part), one, other, hint=hint))
+    def add(element: str, part: str, old_name: str | None, new_name: str | None, full: str | None) -> None:
+        """Add an effect if a name differs; `full` is the new name that it has if no option leaves it out."""
+        if old_name != new_name:
+            hint = "" if new_name or not full else brings_back(lines.get(full, ""), full if full != old_name else "")
+            changes.append(Effect((element, part), old_name, new_name, hint=hint))
 
     links, new_links = ([link.name for link in tree.links] for tree in (before, after))
-    for old_name, name in _matches("link", links, new_links, renames):
-        frames = was.frames.get(old_name), now.frames.get(name), every.frames.get(name)
-        add(f"link {name or old_name}", "frame", *frames)
+    for link, new_link in _matches("link", links, new_links, renames):
+        frames = old_names.frames.get(link), new_names.frames.get(new_link), all_names.frames.get(new_link)
+        add(f"link {new_link or link}", "frame", *frames)
     joints, new_joints = ([joint.name for joint in tree.joints] for tree in (before, after))
-    for old_name, name in _matches("joint", joints, new_joints, renames):
-        drives = was.drives.get(old_name), now.drives.get(name), every.drives.get(name)
-        element, (one, other, _) = f"joint {name or old_name}", drives
-        if one and other and one.axis == other.axis and one.motion != other.motion:
-            found.append(Effect((element, "motion"), one.motion, other.motion))
+    for joint, new_joint in _matches("joint", joints, new_joints, renames):
+        drives = old_names.drives.get(joint), new_names.drives.get(new_joint), all_names.drives.get(new_joint)
+        element, (drive, new_drive, _) = f"joint {new_joint or joint}", drives
+        if drive and new_drive and drive.axis == new_drive.axis and drive.motion != new_drive.motion:
+            changes.append(Effect((element, "motion"), drive.motion, new_drive.motion))
         for field, part in _DRIVE.items():
-            add(element, part, *(getattr(drive, field, None) for drive in drives))
-    for name in dict.fromkeys([*was.sensors, *now.sensors]):
-        add(f"sensor {name}", "component", was.sensors.get(name), now.sensors.get(name), None)
-        add(f"sensor {name}", "frame", was.sensor_frames.get(name), now.sensor_frames.get(name), None)
-    inputs = [renames.get(("joint", name), name) for name in _driven(was)] if earlier.inputs == "vector" else []
-    new_inputs = _driven(now) if options.inputs == "vector" else []
-    vector, new_vector = input_vector(was), input_vector(now)
+            add(element, part, *(getattr(names, field, None) for names in drives))
+    for name in dict.fromkeys([*old_names.sensors, *new_names.sensors]):
+        add(f"sensor {name}", "component", old_names.sensors.get(name), new_names.sensors.get(name), None)
+        add(f"sensor {name}", "frame", old_names.sensor_frames.get(name), new_names.sensor_frames.get(name), None)
+    inputs = [renames.get(("joint", name), name) for name in _driven(old_names)] if earlier.inputs == "vector" else []
+    new_inputs = _driven(new_names) if options.inputs == "vector" else []
+    vector, new_vector = input_vector(old_names), input_vector(new_names)
     add("robot", "input of Run", vector if inputs else None, new_vector if new_inputs else None, new_vector)
     if inputs and new_inputs and inputs != new_inputs:
-        found.append(Effect(("robot", f"order of {new_vector}"), ", ".join(inputs), ", ".join(new_inputs)))
-    return sorted(found, key=lambda one: one.old is None)  # what users lose comes first
+        changes.append(Effect(("robot", f"order of {new_vector}"), ", ".join(inputs), ", ".join(new_inputs)))
+    return sorted(changes, key=lambda change: change.old is None)  # names that users may have connected come first
 
 
 def _driven(connectors: Connectors) -> list[str]:
@@ -127,12 +129,12 @@ def _driven(connectors: Connectors) -> list[str]:
 def _matches(
     kind: str, before: Iterable[str], after: Iterable[str], renames: Mapping[ElementKey, str]
 ) -> Iterator[tuple[str, str]]:
-    """Yield old and new name of each element; empty for one that is new, or gone."""
-    gone, new_names = displaced(renames), dict.fromkeys(after)
+    """Yield old and new name of each element; a new element has an empty old name, a removed one an empty new name."""
+    displaced_elements, new_names = displaced(renames), dict.fromkeys(after)
     for old_name in before:
         name = renames.get((kind, old_name), old_name)
-        is_there = name in new_names and (kind, old_name) not in gone
-        yield old_name, name if is_there else ""
-        if is_there:
+        has_match = name in new_names and (kind, old_name) not in displaced_elements
+        yield old_name, name if has_match else ""
+        if has_match:
             del new_names[name]
     yield from (("", name) for name in new_names)

@@ -1,4 +1,4 @@
-"""Classify the differences of two robots, and say them in the words of URDF.
+"""Classify the differences of two robots, and name them in the words of URDF.
 
 The class of a difference follows from the data of templates: it is structural if data of models would differ with this
 value alone exchanged, a parameter if only data of records would, and else unmodelled.
@@ -33,7 +33,7 @@ _UNITS: Mapping[str, Unit] = {
     for field in msgspec.structs.fields(struct)
     for unit in getattr(field.type, "__metadata__", ())
 }
-"""By field: no two structs have other units for a field of one name."""
+"""Unit of each field: no two structs have other units for a field of one name."""
 
 
 def describe(
@@ -55,7 +55,8 @@ def _describe(difference: Difference, old: Version, new: Version, options: Optio
                 words[1:3] = [f"{str(fields[0])[:-1]} {int(fields[1]) + 1}"]
             return Meaning(_path(words), _reach(Link, difference, old, new, options), _unit(fields))
         case ("joints", str(name), "drive"):
-            # A drive that comes or goes follows from type or mimic, one that is replaced may follow from an option.
+            # A drive that comes or goes follows from type or mimic, which is another difference. With the option
+            # `driven`, the source does not decide it.
             by_source = options.driven is None and "package" in options.approach
             is_change = by_source and difference.kind is ChangeKind.CHANGED
             return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None
@@ -118,38 +119,38 @@ def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
 def _reach(
     kind: type[Link | Joint], difference: Difference, old: Version, new: Version, options: Options
 ) -> ChangeClass:
-    """Return how far a change inside of a link or joint reaches: what differs if this value alone is exchanged."""
+    """Return how far a change inside of a link or joint reaches, by exchanging this value alone."""
     part, name, *fields = difference.path
-    if fields[0] == "contact":
+    if fields[0] == "contact":  # as a whole: its entries have other names than the fields of `Contact`
         fields = ["contact"]
-    before, after = (msgspec.convert({"name": name, **one.snapshot[str(part)][name]}, kind) for one in (old, new))
+    before, after = (msgspec.convert({"name": name, **v.snapshot[str(part)][name]}, kind) for v in (old, new))
     imports = None
     if kind is Link and old.imports is not None and new.imports is not None:
         imports = {**new.imports, **old.imports}
     reaches = []
-    for own, other in ((before, after), (after, before)):
-        model, record = _data(own, imports, options)
-        other_model, other_record = _data(_exchanged(own, other, fields), imports, options)
+    for element, other in ((before, after), (after, before)):
+        model, record = _data(element, imports, options)
+        other_model, other_record = _data(_exchanged(element, other, fields), imports, options)
         same = ChangeClass.UNMODELLED if record == other_record else ChangeClass.PARAMETER
         reaches.append(same if model == other_model else ChangeClass.STRUCTURAL)
     return max(reaches, key=lambda reach: reach.rank)
 
 
-def _exchanged(one: Any, other: Any, fields: _Fields) -> Any:
-    """Return `one` with a part of `other`: the smallest part around the place `fields` that both have."""
-    if not fields or type(one) is not type(other):
+def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
+    """Return `value` with a part of `other`: the smallest part around the place `fields` that both have."""
+    if not fields or type(value) is not type(other):
         return other
     field, *inside = fields
     if isinstance(field, str):
-        part = _exchanged(getattr(one, field), getattr(other, field), inside)
-        return msgspec.structs.replace(one, **{field: part})
-    if field >= min(len(one), len(other)):
+        part = _exchanged(getattr(value, field), getattr(other, field), inside)
+        return msgspec.structs.replace(value, **{field: part})
+    if field >= min(len(value), len(other)):
         return other
-    return (*one[:field], _exchanged(one[field], other[field], inside), *one[field + 1 :])
+    return (*value[:field], _exchanged(value[field], other[field], inside), *value[field + 1 :])
 
 
 def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: Options) -> tuple[Any, Any]:
-    """Return what models and what records say of an element. If nobody looked for its meshes, they count as found."""
+    """Return the data of models, and those of records, of an element; without `imports` all meshes count as found."""
     if isinstance(element, Joint):
         joint = effective(element)
         return (structure(joint), joint_model(joint, options)), joint
@@ -174,15 +175,15 @@ def _of_import(key: str, old: Version, new: Version, options: Options) -> Meanin
 
     A further file of a mesh goes with its first one.
     """
-    imports = {name: one for name, one in (old.imports or {}).items() if not name.startswith(key)}
-    imports |= {name: one for name, one in (new.imports or {}).items() if name.startswith(key)}
+    imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
+    imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}
     models = []
     for name in old.snapshot["links"].keys() & new.snapshot["links"].keys():
-        one, other = (msgspec.convert({"name": name, **v.snapshot["links"][name]}, Link) for v in (old, new))
-        if key in _mesh_keys(one) & _mesh_keys(other):
-            models.append((_data(one, old.imports, options)[0], _data(one, imports, options)[0]))
+        link, new_link = (msgspec.convert({"name": name, **v.snapshot["links"][name]}, Link) for v in (old, new))
+        if key in _mesh_keys(link) & _mesh_keys(new_link):
+            models.append((_data(link, old.imports, options)[0], _data(link, imports, options)[0]))
     if not models:
         return None
-    is_structural = any(one != other for one, other in models)
+    is_structural = any(model != new_model for model, new_model in models)
     words = f"mesh {key.removesuffix(_UNSCALED)}", "content"
     return Meaning(words, ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER)

@@ -1,7 +1,7 @@
 """Links and joints that have another name.
 
-Elements of one name are the same element, whatever else changed. What is only in the old version is matched with what
-is only in the new one, from the root down:
+Elements of one name are the same element, whatever else changed. Elements that only the old version has are matched
+with those that only the new one has, from the root down:
 
 - The joints between the same two links are the same joint.
 - A joint that leads to a link of another name is matched by its numbers and by all that this link has. It has to be the
@@ -20,8 +20,10 @@ from typing import Any
 from urdfsync.domain import ElementKey, Snapshot
 
 _NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "drive", "transmission", "command"})
-"""Entries of the snapshot, in any block, that are names, or follow from names elsewhere (a transmission that names the
-joint): not part of what makes elements alike."""
+"""Entries of the snapshot, in any block, that do not make elements alike.
+
+They are names, or follow from names elsewhere, such as that of the joint in a transmission.
+"""
 
 
 def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
@@ -32,34 +34,33 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
     ):
         return {}
     before, after = _joints_by_parent(old), _joints_by_parent(new)
-    was = {name: _frozen(link) for name, link in old["links"].items() if name not in links}
-    looks = {name: _frozen(link) for name, link in new["links"].items() if name not in links}
-    all_were, all_look = set(was.values()), set(looks.values())
+    removed = {name: _frozen(link) for name, link in old["links"].items() if name not in links}
+    added = {name: _frozen(link) for name, link in new["links"].items() if name not in links}
+    all_removed, all_added = set(removed.values()), set(added.values())
     renames: dict[ElementKey, str] = {}
     places = [(name, name) for name in old["links"] if name in links]  # links that are in the same place
     root, new_root = _root(old), _root(new)
-    if was.get(root) == looks.get(new_root) or joints.intersection(before[root], after[new_root]):
+    if removed.get(root) == added.get(new_root) or joints.intersection(before[root], after[new_root]):
         places.append((root, new_root))
-    for one, other in places:  # grows while it is walked
-        if one != other:
-            if one in links or other in links:
+    for link, new_link in places:  # grows while it is walked
+        if link != new_link:
+            if link in links or new_link in links:
                 continue
-            if was[one] != looks[other] and (was[one] in all_look or looks[other] in all_were):
+            is_alike = removed[link] == added[new_link]
+            if not is_alike and (removed[link] in all_added or added[new_link] in all_removed):
                 continue
-            renames["link", one] = other
-        matches = {name: name for name in joints.intersection(before[one], after[other])}
-        gone = [name for name in before[one] if name not in joints]
-        came = [name for name in after[other] if name not in joints]
-        if gone and came:
-            alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
-            for name in gone:
+            renames["link", link] = new_link
+        matches = {name: name for name in joints.intersection(before[link], after[new_link])}
+        alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
+        for name in before[link]:
+            if name not in joints:
                 alike[_likeness(old, name, links)][0].append(name)
-            for name in came:
+        for name in after[new_link]:
+            if name not in joints:
                 alike[_likeness(new, name, links)][1].append(name)
-            for ones, others in alike.values():
-                if len(ones) == len(others) == 1:
-                    renames["joint", ones[0]] = others[0]
-                    matches[ones[0]] = others[0]
+        for old_names, new_names in alike.values():
+            if len(old_names) == len(new_names) == 1:
+                renames["joint", old_names[0]] = matches[old_names[0]] = new_names[0]
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []

@@ -33,7 +33,7 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
-"""Elements without influence on the shape. They are taken out: a fault in one of them is none of the mesh."""
+"""Elements without influence on the shape. They are removed: a fault in one of them is none of the mesh."""
 _MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _NONE = (0, 0, 0, 0)
@@ -45,7 +45,7 @@ def collada_parts(
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError.
 
-    With their colours, if `others` has the textures; else without.
+    The triangles have their colours if `others` has the textures.
     """
     root = _parse(content)
     unit = _unit(root)
@@ -72,13 +72,13 @@ def collada_parts(
 
 
 def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> None:
-    """Leave of each effect its colour alone, and take out whatever refers to an effect or a material that is not there.
+    """Reduce each effect to its colour, and remove references to effects and materials that do not exist.
 
-    A fault in the rest of them is none of the mesh. An effect without a colour becomes transparent.
+    A fault in the rest of an effect is none of the mesh. An effect without a colour becomes transparent.
     """
     space = str(root.tag).removesuffix("COLLADA")
-    images = {one.get("id", ""): one for one in root.iterfind("{*}library_images/{*}image")}
-    known = set()
+    images = {image.get("id", ""): image for image in root.iterfind("{*}library_images/{*}image")}
+    references = set()
     for effect in root.iterfind("{*}library_effects/{*}effect"):
         color = effect_color(effect, images, textures)
         numbers = (*(part / 255 for part in color), 1.0) if color else _NONE
@@ -88,19 +88,19 @@ def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> 
         for tag in ("profile_COMMON", "technique", "lambert", "diffuse", "color"):
             part = etree.SubElement(part, f"{space}{tag}", {"sid": "common"} if tag == "technique" else {})
         part.text = " ".join(map(repr, numbers))
-        known.add(f"#{identifier}")
+        references.add(f"#{identifier}")
     for user, path, attribute in (("material", "{*}instance_effect", "url"), ("instance_material", ".", "target")):
         for element in list(root.iter(f"{{*}}{user}")):
             reference = element.find(path)
-            if reference is not None and reference.get(attribute) in known:
+            if reference is not None and reference.get(attribute) in references:
                 del reference[:]
-                known.add(f"#{element.get('id')}")
+                references.add(f"#{element.get('id')}")
             elif (parent := element.getparent()) is not None:
                 parent.remove(element)
 
 
 def _parse(content: bytes) -> etree._Element:
-    """The document without comments. A document type is refused: entities could make it grow without end."""
+    """Parse a document without its comments. A document type is refused: its entities could grow without end."""
     if b"<!DOCTYPE" in content:
         raise MeshError("it has a document type declaration, which COLLADA files don't have")
     parser = etree.XMLParser(
@@ -113,7 +113,7 @@ def _parse(content: bytes) -> etree._Element:
 
 
 def _unit(root: etree._Element) -> float:
-    """Metres per unit of length, 1 unless the file says otherwise."""
+    """Return the metres of one unit of length, 1 unless the file names another number."""
     node = root.find("{*}asset/{*}unit")
     text = "1" if node is None else node.get("meter", "1")
     try:
@@ -127,7 +127,7 @@ def _unit(root: etree._Element) -> float:
 
 def _place_skins(root: etree._Element) -> None:
     """Put the geometry of each skin where it is bound: trimesh passes over skins."""
-    skins = {f"#{one.get('id')}": one[0] for one in root.iterfind("{*}library_controllers/{*}controller")}
+    skins = {f"#{skin.get('id')}": skin[0] for skin in root.iterfind("{*}library_controllers/{*}controller")}
     for instance in list(root.iter("{*}instance_controller")):
         skin = skins[instance.get("url", "")]
         space = str(instance.tag).removesuffix("instance_controller")

@@ -16,7 +16,7 @@ _process = MeshProcess()
 
 
 def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-    """The imported form of a mesh found at `file`, and its facts; a function of contents, URI and scale.
+    """Return the imported form of a mesh at `file`, and its facts; they depend on contents, URI and scale alone.
 
     `others` has the libraries of materials and the textures that it names.
 

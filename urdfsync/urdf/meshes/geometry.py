@@ -19,7 +19,7 @@ Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MAX_TRIANGLES = 1_000_000
-"""Of one mesh, in all its places; so many have 50 MB as binary STL."""
+"""Most triangles of one mesh, each counted wherever the scene has it; so many have 50 MB as binary STL."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
@@ -41,10 +41,11 @@ class Triangles(NamedTuple):
 
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
-    """Triangles moved by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
+    """Move triangles by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
     if np.array_equal(pose, np.identity(4)):
         return mesh
     points = np.empty(mesh.points.shape)
+    # not by a matrix product, whose rounding depends on the machine; in chunks, which need little memory
     for start in range(0, len(points), _CHUNK):
         x, y, z = (mesh.points[start : start + _CHUNK, axis, np.newaxis] for axis in range(3))
         points[start : start + _CHUNK] = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
@@ -52,7 +53,7 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Sequence[Triangles]) -> Triangles:
-    """All triangles as one mesh. Raises MeshError for none or too many, and for a corner that is no point."""
+    """Return all triangles as one mesh. Raises MeshError for none or too many, and for a corner that is no point."""
     triangles = sum(len(part.faces) for part in parts)
     if not triangles:
         raise MeshError("it has no triangles")
@@ -67,7 +68,7 @@ def joined(parts: Sequence[Triangles]) -> Triangles:
 
 
 def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triangles, Facts]:
-    """A mesh in metres, and what models need of its shape: `bounds`, and perhaps `hull` (see `support_points`).
+    """Return a mesh in metres, with the facts of its shape: `bounds`, and perhaps `hull` (see `support_points`).
 
     Raises MeshError for numbers that an STL file can't hold.
     """
@@ -87,7 +88,7 @@ def _used_points(mesh: Triangles) -> Array:
 
 
 def binary_stl(mesh: Triangles) -> bytes:
-    """Triangles as binary STL; the normal of a triangle without area is zero."""
+    """Return triangles as binary STL; the normal of a triangle without area is zero."""
     facets = np.zeros(len(mesh.faces), dtype=_FACET)
     for start in range(0, len(facets), _CHUNK):
         part = slice(start, start + _CHUNK)
@@ -100,7 +101,7 @@ def binary_stl(mesh: Triangles) -> bytes:
 
 
 def obj(mesh: Triangles) -> bytes:
-    """Triangles as the text of an OBJ file."""
+    """Return triangles as the text of an OBJ file."""
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points = (f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh.points[used].tolist())
     triangles = (f"f {a} {b} {c}\n" for a, b, c in (faces.reshape(-1, 3) + 1).tolist())
@@ -108,12 +109,12 @@ def obj(mesh: Triangles) -> bytes:
 
 
 def bounds(points: Array) -> list[list[float]]:
-    """Least and greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
+    """Return least and greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
     return [points.min(axis=0).tolist(), points.max(axis=0).tolist()]
 
 
 def support_points(points: Array) -> list[list[float]]:
-    """Some points of the convex hull of `points` (n × 3, metres): rounded to 1e-6 m, sorted, each once.
+    """Return some points of the convex hull of `points` (n × 3, metres): rounded to 1e-6 m, sorted, each once.
 
     They are the extreme points along 122 fixed directions: three great circles normal to the
     coordinate axes in steps of 10°, and the faces, edges and corners of a cube. Where a whole edge or
@@ -132,12 +133,12 @@ def support_points(points: Array) -> list[list[float]]:
 
 
 def _directions() -> Array:
-    """Unit vectors (122 × 3), rounded so that they are the same on every machine."""
+    """Return unit vectors (122 × 3), rounded so that they are the same on every machine."""
     angles = [2 * math.pi * step / _STEPS for step in range(_STEPS)]
     circle = [(math.cos(angle), math.sin(angle), 0.0) for angle in angles]
-    circles = [(*one[3 - axis :], *one[: 3 - axis]) for axis in range(3) for one in circle]
-    corners = [one for one in itertools.product((-1, 0, 1), repeat=3) if any(one)]
-    cube = [tuple(coordinate / math.hypot(*one) for coordinate in one) for one in corners]
+    circles = [(*vector[3 - axis :], *vector[: 3 - axis]) for axis in range(3) for vector in circle]
+    corners = [vector for vector in itertools.product((-1, 0, 1), repeat=3) if any(vector)]
+    cube = [tuple(coordinate / math.hypot(*vector) for coordinate in vector) for vector in corners]
     rounded = np.round(circles + cube, 12) + 0.0
     return np.array(sorted(set(map(tuple, rounded.tolist()))))
 
@@ -148,19 +149,19 @@ _CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # the pairs that are not pa
 
 
 def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
-    """Points that may be extreme along one of the directions; of millions, some hundreds in most meshes."""
+    """Return the points that may be extreme along one of the directions; of millions, some hundreds in most meshes."""
     highest = np.full(len(directions), -np.inf)
-    found = []
+    candidates = []
     for start in range(0, len(points), _CHUNK):
         part = points[start : start + _CHUNK]
         heights = (part - points[0]) @ directions.T
         highest = np.maximum(highest, heights.max(axis=0))
-        found.append(part[(heights >= highest - _NEAR * size).any(axis=1)])
-    return np.concatenate(found)
+        candidates.append(part[(heights >= highest - _NEAR * size).any(axis=1)])
+    return np.concatenate(candidates)
 
 
 def _corners(tied: Array, number: int, size: float) -> Array:
-    """Of points in a plane normal to a direction: those extreme along the other directions, two where these tie too."""
+    """Return the extreme points along all other directions of points in a plane normal to one; two where these tie."""
     others, along = _DIRECTIONS[_CROSSING[number]], _NORMALS[number][_CROSSING[number]]
     tied = np.unique(_nearly_extreme(tied, others, size), axis=0)
     heights, positions = _products(tied, others), _products(tied, along)
@@ -171,7 +172,8 @@ def _corners(tied: Array, number: int, size: float) -> Array:
 
 
 def _products(points: Array, directions: Array) -> Array:
-    """Scalar products (points × directions); without a matrix product, whose rounding depends on the machine."""
+    """Return scalar products (points × directions)."""
+    # not by a matrix product, whose rounding depends on the machine
     x, y, z = (points[:, axis, np.newaxis] * directions[np.newaxis, :, axis] for axis in range(3))
     products: Array = x + y + z
     return products

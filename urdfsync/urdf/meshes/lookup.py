@@ -50,7 +50,7 @@ _MENTIONS = {
 _LIBRARY = re.compile(rb"(?i)\S.*?\.mtl(?=\s|$)|\S.*")
 """One of the libraries that a line names; names may have blanks in them."""
 _TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
-"""What may stand before the name of a texture in a library of materials."""
+"""A word before the name of a texture in a library of materials: an option or its value."""
 _UNFIT = "[\x00-\x1f\x7f\ud800-\udfff]"
 _NAME_BYTES = 255
 _PATH_BYTES = 4095
@@ -58,45 +58,45 @@ _STEM_LENGTH = 40
 
 
 def key(mesh: Mesh) -> str:
-    """Identity of a mesh among the imports: its URI and scale, for example `package://arm/a.dae scale 1.0 1.0 1.0`."""
+    """Return the key of a mesh among the imports: URI and scale, such as `package://arm/a.dae scale 1.0 1.0 1.0`."""
     return f"{mesh.filename} scale {' '.join(repr(float(number)) for number in mesh.scale)}"
 
 
 def mesh(key: str) -> Mesh:
-    """The mesh that has this key."""
+    """Return the mesh that has this key."""
     filename, _, numbers = key.rpartition(" scale ")
     x, y, z = map(float, numbers.split(" "))
     return Mesh(filename, (x, y, z))
 
 
 def suffix(uri: str) -> str:
-    """The format of the mesh file: its suffix in lower case with the dot, or an empty string."""
+    """Return the suffix of the mesh file in lower case, with the dot; empty if it has none."""
     return PurePosixPath(_file_name(uri)).suffix.lower()
 
 
 def as_is(mesh: Mesh) -> bool:
-    """Whether the file is imported byte for byte."""
+    """Return whether the file is imported byte for byte."""
     return suffix(mesh.filename) in AS_IS and mesh.scale == UNIT_SCALE
 
 
 def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
-    """Whether a visual has the colours of its mesh: the URDF gives it none."""
+    """Return whether a visual has the colours of its mesh: the URDF gives it none."""
     material = visual.get("material") or {}
     return suffix(mesh.filename) in COLORED and material.get("rgba") is None
 
 
-def mentioned_files(name: str, content: bytes) -> list[str]:
+def mentioned_files(file: str, content: bytes) -> list[str]:
     """Return the files that have a part in the colours of a mesh, by their paths from its folder.
 
-    `name` is the path of the mesh, or of its library of materials, whose own names count from there.
+    `file` is the path of the mesh, or of its library of materials, which names files from its own folder.
     """
-    path = PurePosixPath(name)
+    path = PurePosixPath(file)
     suffix = path.suffix.lower()
     mentions = _MENTIONS[suffix].findall(content) if suffix in _MENTIONS else ()
     if suffix == ".obj":
-        mentions = [one for line in mentions for one in _LIBRARY.findall(line)]
-    found = (path_of_mention(one) for one in mentions)
-    return [str(path.parent / one) for one in dict.fromkeys(found) if one]
+        mentions = [library for line in mentions for library in _LIBRARY.findall(line)]
+    names = dict.fromkeys(map(path_of_mention, mentions))
+    return [str(path.parent / name) for name in names if name]
 
 
 def path_of_mention(mention: bytes) -> str:
@@ -109,9 +109,9 @@ def path_of_mention(mention: bytes) -> str:
 
 
 def target(mesh: Mesh) -> str:
-    """Path of the imported file below the package folder; a function of URI and scale alone.
+    """Return the path of the imported file below the package folder; it depends on URI and scale alone.
 
-    The digits are a hash of both, so that two meshes of one file name don't meet, on no file system.
+    Its digits are a hash of both, so that two meshes of one file name have two paths, also without regard to case.
     """
     stem = re.sub("[^A-Za-z0-9_-]+", "_", PurePosixPath(_file_name(mesh.filename)).stem)
     stem = stem[:_STEM_LENGTH].strip("_-") or "mesh"
@@ -122,14 +122,13 @@ def target(mesh: Mesh) -> str:
 def dependencies(
     links: Mapping[str, Any], kinds: Sequence[str], lookup: Lookup, lines: Mapping[str, int], *, touches: bool
 ) -> tuple[Dependency, ...]:
-    """The mesh files of the visuals and collisions of a snapshot, each URI and scale once, in the order of their keys.
+    """Return the mesh files of a snapshot, each URI and scale once, in the order of their keys.
 
-    `kinds` are the shapes that count. Those of collisions need outermost points if the robot touches the ground.
-
-    `lines` holds the line of each element by its path, as reading the source gave it; those of the shapes count, for
-    example `link wheel / visual 2 / geometry`, else those of their links.
+    `kinds` are the shapes that count: `visual`, `collision`. Collisions need outermost points if the robot `touches`
+    the ground. `lines` has the line of each element by its path, as reading the source gave it. A dependency has that
+    of a shape, for example `link wheel / visual 2 / geometry`, or else that of its link.
     """
-    found = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
+    shapes_of = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
     for name, link in links.items():
         for kind in kinds:
             for number, shape in enumerate(link[f"{kind}s"], start=1):
@@ -137,7 +136,7 @@ def dependencies(
                     place = f"link {name} / {kind} {number} / geometry"
                     line = lines.get(place, lines.get(f"link {name}", 0))
                     mesh = msgspec.convert(shape["geometry"], Mesh)
-                    found[mesh].append((kind, line, kind == "visual" and _has_colors(mesh, shape)))
+                    shapes_of[mesh].append((kind, line, kind == "visual" and _has_colors(mesh, shape)))
     return tuple(
         Dependency(
             key(mesh),
@@ -145,35 +144,35 @@ def dependencies(
             candidates(mesh.filename, lookup),
             target(mesh),
             "mesh",
-            min((line for _, line, _ in places if line), default=0),
-            facts=_facts(places, touches),
+            min((line for _, line, _ in shapes if line), default=0),
+            facts=_facts(shapes, touches),
         )
-        for mesh, places in sorted(found.items(), key=lambda item: key(item[0]))
+        for mesh, shapes in sorted(shapes_of.items(), key=lambda item: key(item[0]))
     )
 
 
-def _facts(places: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the facts that are needed of a mesh: of its kinds of shape, with whether they have the mesh's colours."""
-    hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in places) else ()
-    colored = [is_colored for _, _, is_colored in places]
+def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
+    """Return the facts that are needed of a mesh. Its shapes are kinds, lines, and whether they have its colours."""
+    hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
+    colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
     return (BOUNDS, *hull, *colors)
 
 
 def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
-    """Absolute paths at which the file may be, best first; none if the URI names no file of this machine.
+    """Return absolute paths at which the file may be, best first; none if the URI names no file of this machine.
 
     The URI is taken literally first, then with its percent-encoding undone.
     """
     texts = (uri.strip(), unquote(uri.strip()))
     paths = (path for text in texts if not re.search(_UNFIT, text) for path in _places(text.replace("\\", "/"), lookup))
-    found: dict[Path, None] = {}
+    absolute_paths: dict[Path, None] = {}
     for path in paths:
         sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
-        # no file system can have longer ones: asking for them is an error
+        # no file system has longer ones, and looking for one would raise OSError
         if path.is_absolute() and max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES:
-            found[path] = None
-    return tuple(found)
+            absolute_paths[path] = None
+    return tuple(absolute_paths)
 
 
 def _places(text: str, lookup: Lookup) -> Iterator[Path]:
@@ -192,7 +191,7 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
-    """A path without a scheme: absolute, or relative to the source's folder, the folders above or a search path."""
+    """Yield the places of a path without a scheme: absolute, or below a folder above the source or a search path."""
     if drive := re.fullmatch(_DRIVE, text):
         yield Path(drive[1])
     elif text.startswith("/"):
@@ -202,9 +201,9 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
-    """A path in a package, which is a child of a search path or of a folder above the source, or is such a folder.
+    """Yield the places in a package: a child of a search path or of a folder above the source, or one of these.
 
-    Exporters that know no package leave its name out (`package:///a.stl`), or name a folder beside the source; others
+    Exporters without a package leave its name out (`package:///a.stl`), or name a folder beside the source; others
     write a slash too many. A copy of a package may have another name.
     """
     path = text.lstrip("/")
@@ -224,7 +223,7 @@ def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _in_library(class_name: str, text: str, lookup: Lookup) -> Iterator[Path]:
-    """A path in a Modelica library: on MODELICAPATH, then in a folder of its name around the source.
+    """Yield the places in a Modelica library: on MODELICAPATH, then in a folder of its name above the source.
 
     `modelica://Plant.Arms/a.stl` is beside the class `Plant.Arms`: in its folder, or where its file is. A path that
     leads out of the library has no place.

@@ -19,7 +19,7 @@ Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue from 0 to 255."""
 
 _MOST_PIXELS = 5_000_000
-"""Of a texture; a larger one takes more time than there is for a mesh."""
+"""Most pixels of a texture; a larger one takes more time than there is for a mesh."""
 _USED_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]([^\r\n]+)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^[ \t]*(newmtl|Kd|map_Kd)[ \t]([^\r\n]+)", re.MULTILINE)
 
@@ -58,8 +58,8 @@ def effect_color(
 
 
 def _image(texture: etree._Element, effect: etree._Element, images: Mapping[str, etree._Element]) -> str:
-    """Return the path of a texture: it names a sampler, that a surface, and that an image; or it names the image."""
-    parameters = {one.get("sid", ""): one for one in effect.iter("{*}newparam")}
+    """Return the path of a texture. A texture names an image, or a sampler that names a surface that names an image."""
+    parameters = {part.get("sid", ""): part for part in effect.iter("{*}newparam")}
     name = texture.get("texture", "")
     for path in ("{*}sampler2D/{*}source", "{*}surface/{*}init_from"):
         name = _text(parameters.get(name), path) or name
@@ -67,8 +67,7 @@ def _image(texture: etree._Element, effect: etree._Element, images: Mapping[str,
 
 
 def _text(element: etree._Element | None, path: str) -> str:
-    found = element.find(path) if element is not None else None
-    return (found.text or "").strip() if found is not None else ""
+    return element.findtext(path, "").strip() if element is not None else ""
 
 
 def _mean(image: bytes) -> Color | None:

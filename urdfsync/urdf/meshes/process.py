@@ -1,4 +1,4 @@
-"""The process that reads meshes of strangers: what a file is made to do, it does there, within limits."""
+"""The process that reads meshes of strangers: a file that exploits a library is held there, within limits."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
 CPU_SECONDS = 4.0
-"""For one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
+"""CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
 MEMORY = 450_000_000
 """Bytes that the process may allocate, on Linux. Its libraries have some 50 MB besides."""
 WALL_SECONDS = 60.0
-"""For one mesh, everywhere. A busy machine may need so long for the CPU time."""
+"""Time for one mesh, everywhere. A busy machine may need so long for the CPU time."""
 _LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
 _LONGEST = 300
-"""Characters of what a library says is wrong."""
+"""Most characters of an error of a library."""
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
 Facts: TypeAlias = dict[str, Any]
-"""Of a shape, by name: see `convert`."""
+"""Facts of a shape by their names: see `convert`."""
 
 
 class MeshError(Exception):
-    """A mesh can't be used; the text is the second half of `the mesh … can't be read: it …`."""
+    """A mesh that can't be used; the text is the second half of `the mesh … can't be read: it …`."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -47,7 +47,7 @@ class Request(msgspec.Struct, frozen=True):
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
     size: int = 0
-    """Of the mesh in bytes; `MeshProcess` fills this in, and what follows."""
+    """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
     others: Mapping[str, int] = {}
     """Sizes of the other files by their paths."""
     seconds: float = 0.0
@@ -83,7 +83,7 @@ class MeshProcess:
         Raises MeshError, or OSError if no process can be started.
         """
         others = others or {}
-        sizes = {name: len(one) for name, one in others.items()}
+        sizes = {name: len(other) for name, other in others.items()}
         request = msgspec.structs.replace(request, size=len(content), others=sizes, seconds=CPU_SECONDS)
         with self._lock:
             process = self._process = self._process or self._start()

@@ -24,18 +24,18 @@ _FACES = {
     ".off": re.compile(rb"OFF(?:\s|#[^\n]*\n)*\d+\s+(\d+)"),
     ".ply": re.compile(rb"^element[ \t]+face[ \t]+(\d+)", re.MULTILINE),
 }
-"""How many faces a file announces."""
+"""The number of faces that a file announces, by its suffix."""
 _STL_COUNT = slice(80, 84)
 _STL_FACET = 50
 _MOST_COLORS = 20
-"""Of one mesh: each becomes a shape. What has one of the others is drawn in grey."""
+"""Most colours of one mesh, since each becomes a shape. Triangles of further colours are drawn in grey."""
 _LONGEST, _NAMES = 60, 3
-"""Characters of a name that are told of a file that is missing, and so many names."""
+"""Most characters of the name of a missing file in a warning, and most names."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
 class _Files(dict[str, bytes]):
-    """What trimesh may read besides: nothing that is not given, since only that is watched for changes."""
+    """The other files that trimesh may read: only those that are given, since only these are watched for changes."""
 
     def __missing__(self, name: str) -> bytes:
         raise MeshError(f"it needs another file, {name}")
@@ -44,8 +44,8 @@ class _Files(dict[str, bytes]):
 def read_mesh(suffix: str, content: bytes) -> Triangles:
     """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError."""
     with _damage_is_an_error():
-        found = collada_parts(content) if suffix == ".dae" else _parts(suffix, content)
-        mesh = joined([triangles for _, triangles in found])
+        parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content)
+        mesh = joined([triangles for _, triangles in parts])
         if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
             raise MeshError("its end is missing")
     gc.collect()  # scenes refer to themselves, and hold copies of large meshes
@@ -57,18 +57,20 @@ def read_parts(
 ) -> tuple[dict[Color | None, Triangles], list[str]]:
     """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for those without one.
 
-    `others` has the other files that it names. Also in words which colours are missing. Raises MeshError.
+    `others` has the other files that it names. Return also, in words, which colours are missing. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
     with _damage_is_an_error():
         if suffix == ".dae":
-            found = collada_parts(content, others)
+            parts_with_colors = collada_parts(content, others)
         else:
-            found = _parts(suffix, content, library_colors(content, others))
-        for color, triangles in found:
+            parts_with_colors = _parts(suffix, content, library_colors(content, others))
+        for color, triangles in parts_with_colors:
             by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
-        joined([one for some in by_color.values() for one in some])  # which refuses none, and too many
-        by_size = sorted(by_color, key=lambda color: sum(len(one.faces) for one in by_color[color]), reverse=True)
+        joined(
+            [part for some in by_color.values() for part in some]
+        )  # raises MeshError for none or too many of all colours
+        by_size = sorted(by_color, key=lambda color: sum(len(part.faces) for part in by_color[color]), reverse=True)
         for color in by_size[_MOST_COLORS:]:
             by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
         parts = {color: joined(some) for color, some in by_color.items() if some}
@@ -137,12 +139,15 @@ def _announced(suffix: str, content: bytes) -> int:
     """Return how many triangles a file has at least, by its own account."""
     if suffix == ".stl":
         return content.count(b"endfacet") + content.count(b"ENDFACET")
-    found = _FACES[suffix].search(content) if suffix in _FACES else None
-    return int(found[1]) if found else 0
+    match = _FACES[suffix].search(content) if suffix in _FACES else None
+    return int(match[1]) if match else 0
 
 
 def _one_solid(content: bytes) -> bytes:
-    """A binary STL file as it is, and a text with all facets in one solid: names may be any words, `vertex` as well."""
+    """Return a binary STL file as it is, and a text with all facets in one solid.
+
+    Names of solids go, since they may be any words, `vertex` as well.
+    """
     if len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little"):
         return content  # some of these begin with `solid`, too
     if not content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
@@ -151,16 +156,16 @@ def _one_solid(content: bytes) -> bytes:
 
 
 def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
-    """Vertices and faces alone, without references to textures and normals, and with indices that count from 1.
+    """Return vertices and faces alone, without references to textures and normals. All indices count from 1.
 
-    With their materials, as a library `m` has them, if these are wanted.
+    If materials are wanted, faces have theirs, from a library `m`.
 
     trimesh takes index 0 for 1, and counts back from the end of the file. It passes over lines with blanks before them
     and over faces with less than three corners, and goes wrong where only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
-    kept = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"
-    text = b"\n".join(re.findall(kept, re.sub(rb"#.*|(?<=\d)/\S*", b"", text), re.MULTILINE))
+    statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"
+    text = b"\n".join(re.findall(statements, re.sub(rb"#.*|(?<=\d)/\S*", b"", text), re.MULTILINE))
     text = b"mtllib m\n" + text if with_materials else text
     if re.search(rb"^f.* -", text, re.MULTILINE):
         text = _count_from_the_first(text)

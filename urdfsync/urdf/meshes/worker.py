@@ -17,9 +17,9 @@ if sys.platform != "win32":
     import resource
 
 _UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
-"""Packages that trimesh takes where they are installed, and that no reading of ours needs: half a second, and 60 MB."""
+"""Packages that trimesh imports where they are installed, and that no mesh needs: half a second, and 60 MB."""
 _GROWN = 200_000_000
-"""Bytes that the process has allocated when it has read a large mesh; its libraries are 70 MB of them."""
+"""Bytes from which the process counts as grown by a large mesh; its libraries are 70 MB of them."""
 
 
 def main() -> None:
@@ -38,8 +38,9 @@ def main() -> None:
 
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
-    from urdfsync.urdf.meshes import geometry  # the first of all that brings in numpy, and
-    from urdfsync.urdf.meshes.reading import read_mesh, read_parts  # trimesh: without the unused packages, and limits
+    # these bring in numpy and trimesh: after `main` has put the unused packages aside, and before the limits hold
+    from urdfsync.urdf.meshes import geometry
+    from urdfsync.urdf.meshes.reading import read_mesh, read_parts
 
     sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
     try:
@@ -52,7 +53,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
                 meshes = [*parts.values()]
                 if len(parts) == 1 or request.colors == COLORS:
                     meshes = [geometry.joined(meshes), *(meshes if len(parts) > 1 else ())]
-                forms = [geometry.import_form(one, request.scale, request.with_hull) for one in meshes]
+                forms = [geometry.import_form(mesh, request.scale, request.with_hull) for mesh in meshes]
                 write = geometry.obj if request.as_obj else geometry.binary_stl
                 files, all_facts = [write(mesh) for mesh, _ in forms], [facts for _, facts in forms]
                 is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
@@ -63,7 +64,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
 
 
 def _allocated() -> int:
-    """Bytes that the memory limit counts; 0 where there is none. What was freed may still be among them."""
+    """Return the bytes that the memory limit counts; 0 where there is none. Freed bytes may still be among them."""
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
