@@ -72,7 +72,7 @@ def _conflicting(found: RenamedUses) -> Iterator[Diagnostic]:
 
 def _uncertain(found: RenamedUses) -> Iterator[Diagnostic]:
     for path, use, new in found.uncertain:
-        why = "may not be what it was" if new in use.known else "means nothing there"
+        why = "may not be what it was" if new in use.candidates else "means nothing there"
         message = f"`{use.part}` in `{use.name}` stays: `{new}` {why}"
         hint = "change it by hand if it means the robot"
         yield Diagnostic(Severity.WARNING, "old-name-left", message, shown(path), use.line, hint=hint)

@@ -85,7 +85,7 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
             file=shown(first.file),
             hint="; ".join(filter(None, (hint, also))),
         )
-        if first.use and new_name(first.use.part, renamed, first.use.known):
+        if first.use and new_name(first.use.part, renamed, first.use.candidates):
             pairs[next(pair for pair in renamed.items() if begins_with(first.use.part, pair[0]))] = first
     if pairs:
         command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(pairs))))
@@ -97,9 +97,9 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
 def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -> str:
     """Return what to do about a name that means nothing."""
     inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
-    if use.part == inputs.last.target.package != target.package and target.name not in use.known:
+    if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
-    if name := new_name(use.part, renamed, use.known):
+    if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
         if option := inputs.domain.option_for(name, generation.now.snapshot, target, options):

@@ -82,11 +82,11 @@ def _follow(
             if use is None or use.start < 0 or misfit.key in decision.texts:  # the build writes these texts
                 continue
             name = (
-                new_name(use.part, renamed, use.known)
-                or new_name(use.part, given, use.known)
+                new_name(use.part, renamed, use.candidates)
+                or new_name(use.part, given, use.candidates)
                 or next(new_names(use.part, given), "")
             )
-            if name not in use.known or _is_users(name, scopes.node(use.owner.split(".")), scopes, package):
+            if name not in use.candidates or _is_users(name, scopes.node(use.owner.split(".")), scopes, package):
                 uncertain += [(misfit.file, use, name)] if name else []
             else:
                 words.setdefault(misfit.file, {})[use.start] = use.part, name

@@ -1,4 +1,4 @@
-"""What somebody changed in a text, by the elements of its class."""
+"""The changes of a text, by the elements of its class."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ class Edit(msgspec.Struct, frozen=True):
     element: str
     """The element, such as "component `body`"."""
     part: str
-    """What of it, such as `inertial.mass`, "type" or "layout"; empty for all of it."""
+    """The part of it, such as `inertial.mass`, "type" or "layout"; empty for all of it."""
     base: str | None
     mine: str | None
 
     @property
     def told(self) -> str:
-        """What was done, without the element."""
+        """The change in words, without the element."""
         what = f"{self.part} " if self.part else ""
         if self.base is None or self.mine is None:
             return f"{what}{'added' if self.base is None else 'removed'}"
@@ -51,25 +51,25 @@ def find_edits(base: str, mine: str) -> list[Edit] | None:
     Blanks and the order of declarations are no difference, but for the inputs and outputs of a function. New comments
     are one, together.
     """
-    one, two = read_tree(base), read_tree(mine)
-    if not (one and two):
+    base_tree, mine_tree = read_tree(base), read_tree(mine)
+    if not (base_tree and mine_tree):
         return None
     try:
-        found = [_edit(path, old, new) for path, old, new in _differences((), one, two)]
+        edits = [_edit(path, old, new) for path, old, new in _differences((), base_tree, mine_tree)]
     except UnreadableError:
         return None
     if comments(base) != comments(mine):
-        found.append(Edit("comments", "", base, mine))
-    return list(dict.fromkeys(found))
+        edits.append(Edit("comments", "", base, mine))
+    return list(dict.fromkeys(edits))
 
 
 def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
-    one, other = old.text if old else None, new.text if new else None
+    base, mine = old.text if old else None, new.text if new else None
     if _ITEM.search(path[-1]):  # a term of a sum, or an item of an array
         element, part = place_of(tuple(key for key in path[:-1] if key != "expression"))
-        return Edit(element, f"{part} {quoted(one or other or '')}".lstrip(), one, other)
+        return Edit(element, f"{part} {quoted(base or mine or '')}".lstrip(), base, mine)
     element, part = place_of(tuple(key for key in path if key not in LAYOUT))
-    return Edit(element, "layout" if not LAYOUT.isdisjoint(path) else part, one, other)
+    return Edit(element, "layout" if not LAYOUT.isdisjoint(path) else part, base, mine)
 
 
 def _differences(
@@ -101,9 +101,9 @@ def _differences(
 
 
 def in_words(edits: Sequence[Edit]) -> list[tuple[str, str]]:
-    """Return the elements and what was done to them; layout and comments are one line each."""
-    found = [(one.element, one.told) for one in edits if one.element != "comments" and one.part != "layout"]
-    if moved := {one.element for one in edits if one.part == "layout"}:
+    """Return the elements and their changes in words; layout and comments are one line each."""
+    lines = [(edit.element, edit.told) for edit in edits if edit.element != "comments" and edit.part != "layout"]
+    if moved := {edit.element for edit in edits if edit.part == "layout"}:
         what = "1 element" if len(moved) == 1 else f"{len(moved)} elements"
-        found.append(("layout", f"{what} placed or drawn in another way"))
-    return [*found, *(("comments", "changed") for one in edits if one.element == "comments")]
+        lines.append(("layout", f"{what} placed or drawn in another way"))
+    return [*lines, *(("comments", "changed") for edit in edits if edit.element == "comments")]

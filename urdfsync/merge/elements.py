@@ -2,7 +2,7 @@
 
 A thing is an element, an equation, a modifier or a part of one (`urdfsync.modelica.tree`).
 
-- What one side added, removed or changed is done; what both added stays, the user's first.
+- An addition, a removal or a change by one side is done; what both added stays, the user's first.
 - Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
 - Things stand in the generated order. What the user added or moved stands behind what precedes it in his text.
 - Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.lines`).
@@ -60,22 +60,24 @@ def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> li
     return _merge((), base, mine, generated, frozenset())
 
 
-def _merge(path: Path, base: Node | None, mine: Node, generated: Node, kept: frozenset[str]) -> list[Piece]:
-    """Merge a thing that both sides have; `kept` are the annotations in which the layout is the user's."""
-    if base and base.text == mine.text and not kept:
+def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_layout: frozenset[str]) -> list[Piece]:
+    """Merge a thing that both sides have; in the annotations `users_layout`, the layout is the user's."""
+    if base and base.text == mine.text and not users_layout:
         return [generated.text]
     if (base and is_same(base, generated)) or is_same(mine, generated):
         return [mine.text]
-    is_picture, key = not kept.isdisjoint(PICTURES.intersection(path)), path[-1] if path else ""
-    if (key in kept and not is_picture) or (not base and (key in LAYOUT or is_same(mine, generated, layout=False))):
+    is_picture, key = not users_layout.isdisjoint(PICTURES.intersection(path)), path[-1] if path else ""
+    if (key in users_layout and not is_picture) or (
+        not base and (key in LAYOUT or is_same(mine, generated, layout=False))
+    ):
         return [mine.text]
     if any(isinstance(node, SyntaxTree) and node.kind is TreeKind.SUM for node in (base, mine, generated)):
         base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
     if isinstance(mine, SyntaxTree) and isinstance(generated, SyntaxTree) and mine.kind is generated.kind:
         if isinstance(base, SyntaxTree) and base.kind is mine.kind:
-            return _merge_parts(path, base, mine, generated, kept)
+            return _merge_parts(path, base, mine, generated, users_layout)
         if not base and mine.kind in (TreeKind.LIST, TreeKind.BODY):
-            return _merge_parts(path, None, mine, generated, kept)
+            return _merge_parts(path, None, mine, generated, users_layout)
     if is_picture and isinstance(mine, Leaf) and isinstance(generated, Leaf):
         return [mine.text]
     return _merge_whole(path, base, mine, generated)
@@ -109,24 +111,24 @@ def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: 
     return Contradiction(path, *texts)
 
 
-def _is_rounding(one: Node, other: Node) -> bool:
+def _is_rounding(old: Node, new: Node) -> bool:
     """Whether two texts differ in the last digits of numbers alone; Integers have none that count for nothing."""
-    if not (isinstance(one, Leaf) and isinstance(other, Leaf)) or len(one.words) != len(other.words):
+    if not (isinstance(old, Leaf) and isinstance(new, Leaf)) or len(old.words) != len(new.words):
         return False
     return all(
-        left == right
+        value == new_value
         or (
-            not isinstance(left, str)
-            and not isinstance(right, str)
-            and not (isinstance(left, int) and isinstance(right, int))
-            and math.isclose(left, right, rel_tol=ROUNDING, abs_tol=0)
+            not isinstance(value, str)
+            and not isinstance(new_value, str)
+            and not (isinstance(value, int) and isinstance(new_value, int))
+            and math.isclose(value, new_value, rel_tol=ROUNDING, abs_tol=0)
         )
-        for left, right in zip(one.words, other.words, strict=True)
+        for value, new_value in zip(old.words, new.words, strict=True)
     )
 
 
 def _new_comments(mine: str, base: str) -> list[str]:
-    """Comments of the user's in a text that goes; those to the end of a line end one."""
+    """Return the user's comments in a text that is removed; those to the end of a line end one."""
     old = comments(base)
     return [f"{note}\n" if note.startswith("//") else note for note in comments(mine) if note not in old]
 
@@ -142,24 +144,24 @@ class _Item(msgspec.Struct, eq=False):
 
 
 def _merge_parts(
-    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, kept: frozenset[str]
+    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: frozenset[str]
 ) -> list[Piece]:
     """Merge things that consist of others."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
     if mine.kind is TreeKind.BODY:
-        kept = find_users_layout(*trees[:2])
+        users_layout = find_users_layout(*trees[:2])
         trees = pair(*trees) if base else trees
     base, mine, generated = trees
-    is_picture = not kept.isdisjoint(PICTURES.intersection(path))
+    is_picture = not users_layout.isdisjoint(PICTURES.intersection(path))
     has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
     sequence = _sequence(trees) if has_sequence else []
     items: dict[str, _Item] = {}
-    notes = ""  # the user's comments in what goes, for the next item
+    notes = ""  # the user's comments in removed parts, for the next item
     for part in mine.parts:
         old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
         pieces: list[Piece] = [part.node.text]
-        if new:
-            pieces = [] if is_section(part.key) else _merge(here, old.node if old else None, part.node, new.node, kept)
+        if new and not is_section(part.key):
+            pieces = _merge(here, old.node if old else None, part.node, new.node, users_layout)
         elif is_section(part.key) or old is None:
             pass
         elif (is_picture and mine.kind is TreeKind.ARRAY) or _is_unchanged(part.key, base, mine):
@@ -167,14 +169,14 @@ def _merge_parts(
             continue
         elif part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
             nothing = old.node.with_parts(())
-            pieces = _merge(here, old.node, part.node, nothing, kept)
-        elif not is_picture and part.key not in kept:
+            pieces = _merge(here, old.node, part.node, nothing, users_layout)
+        elif not is_picture and part.key not in users_layout:
             pieces = [_contradiction(here, old.node, part.node, None)]
         # inside of an element, blanks depend on those beside them
         before, after, remark = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
         items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
-    arranged = arrange(mine, generated, kept) if mine.kind is TreeKind.BODY and kept else {}
+    arranged = arrange(mine, generated, users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
     for part in generated.parts:
         if part.key in items:
             continue
@@ -214,38 +216,38 @@ def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree) -> bool:
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
-    """Blanks and comments before a part, before the separator and behind it: the user's where he changed them."""
+    """Return the blanks and comments around a part and its separator: the user's where he changed them."""
     own = mine.before, mine.after, mine.remark
     is_changed = not (base and generated) or own != (base.before, base.after, base.remark)
     return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
 def _remaining_notes(part: Part, old: Part) -> str:
-    """The user's comments at a thing that goes, each with the blanks before it."""
+    """Return the user's comments at a thing that is removed, each with the blanks before it."""
     had = comments(f"{old.before}{old.node.text}{old.after}{old.remark}")
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
-    found = [note for note in comments(f"{part.before}{part.node.text}{part.after}{part.remark}") if note not in had]
-    return "".join(f"{lead}{note}" for note in found)
+    notes = [note for note in comments(f"{part.before}{part.node.text}{part.after}{part.remark}") if note not in had]
+    return "".join(f"{lead}{note}" for note in notes)
 
 
 # --- the order ----------------------------------------------------------------------------------------------------
 
 
 def _order(trees: Sequence[SyntaxTree], keys: Iterable[str]) -> list[str]:
-    """The keys of the merged parts in order, section by section."""
+    """Return the keys of the merged parts in order, section by section."""
     if trees[1].kind is TreeKind.SLOTS:
         return sorted(keys, key=_ROLES.index)
     homes = {key: _home(key, trees) for key in keys}
     sections = [list(dict.fromkeys(("", *tree.sections.values()))) for tree in trees]
-    found: list[str] = []
+    ordered: list[str] = []
     for section in sorted(merge_order(*sections), key="tail".__eq__):
         inside = [[key for key, place in tree.sections.items() if place == section == homes.get(key)] for tree in trees]
-        found += merge_order(*inside)
-    return found
+        ordered += merge_order(*inside)
+    return ordered
 
 
 def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
-    """The section of a merged part: the user's, unless the export alone has moved it."""
+    """Return the section of a merged part: the user's, unless the export alone has moved it."""
     old, own, new = (tree.sections.get(key) for tree in trees)
     if own is None or new is None:
         return own if new is None and own is not None else new or ""
@@ -257,7 +259,7 @@ def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
 
 
 def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> list[Piece]:
-    """The merged things as text, with what stands around and between them."""
+    """Return the text of the merged things, with the blanks and separators around them."""
     base, mine, generated = trees
     empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
     items = [item for item in items if item.key not in empty]
@@ -265,42 +267,42 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> lis
         _space_items(mine, items)
     is_changed = mine.separator or mine.closing != base.closing
     closing = mine.closing if is_changed else generated.closing
-    found: list[Piece] = [mine.opening]
+    pieces: list[Piece] = [mine.opening]
     blanks = ""
     for number, item in enumerate(items):
-        append_blanks(found, blanks + item.before)
-        found += item.pieces
+        append_blanks(pieces, blanks + item.before)
+        pieces += item.pieces
         blanks = item.after
         if mine.separator and number < len(items) - 1:
-            append_blanks(found, blanks)
-            found.append(mine.separator)
+            append_blanks(pieces, blanks)
+            pieces.append(mine.separator)
             blanks = ""
         blanks += item.remark
     has_bracket = mine.kind in (TreeKind.LIST, TreeKind.ARRAY)
-    append_blanks(found, blanks + notes + (closing[:-1] if has_bracket else ""))
-    found.append(closing[-1:] if has_bracket else closing)
-    return [piece for piece in found if piece]
+    append_blanks(pieces, blanks + notes + (closing[:-1] if has_bracket else ""))
+    pieces.append(closing[-1:] if has_bracket else closing)
+    return [piece for piece in pieces if piece]
 
 
-def append_blanks(found: list[Piece], blanks: str) -> None:
+def append_blanks(pieces: list[Piece], blanks: str) -> None:
     """Add blanks and comments; what follows does not run into them, nor they into the line before."""
-    last = found[-1] if found else ""
+    last = pieces[-1] if pieces else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
-        found[-1] = last[:-1]  # the end of a comment
+        pieces[-1] = last[:-1]  # the end of a comment
     # one comment after the other: a pattern for all of them would try each end of a comment with each end of the others
     *_, comment = "", *_COMMENT.findall(blanks)
     runs_on = comment.startswith("//") and blanks.endswith(comment)
-    found.append(f"{blanks}\n" if runs_on else blanks)
+    pieces.append(f"{blanks}\n" if runs_on else blanks)
 
 
 def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:
-    """The words that begin a section with nothing in it, unlike on either side."""
-    return _sections_without_parts([one.key for one in items]).difference(*map(_sections_without_parts, sides))
+    """Return the keys of sections that are empty in the merge, and on neither side."""
+    return _sections_without_parts([item.key for item in items]).difference(*map(_sections_without_parts, sides))
 
 
 def _sections_without_parts(keys: Sequence[str]) -> set[str]:
     pairs = itertools.pairwise((*keys, "annotation"))
-    return {one for one, after in pairs if is_section(one) and (is_section(after) or after == "annotation")}
+    return {key for key, after in pairs if is_section(key) and (is_section(after) or after == "annotation")}
 
 
 def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:

@@ -17,7 +17,7 @@ from typing import TypeAlias
 from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
-"""Annotations with graphics: what the export adds to them is drawn there, whoever has the layout."""
+"""Annotations with graphics: additions by the export are drawn, also in a layout of the user's."""
 _DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"iconTransformation", "Icon"})
 """The annotations that belong together in the two layers of a class."""
 
@@ -40,7 +40,7 @@ Box: TypeAlias = tuple[complex, complex]
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
     """Return the annotations about layout that are the user's: all of the diagram, or of the icon, if he moved any.
 
-    What he added is no move.
+    An addition is no move.
     """
     moved: set[str] = set()
     for part in base.parts:
@@ -65,25 +65,25 @@ def _has_all(mine: Node, base: Node) -> bool:
     return all(own is not None and _has_all(own.node, part.node) for own, part in pairs)
 
 
-def arrange(mine: SyntaxTree, generated: SyntaxTree, kept: Collection[str]) -> dict[str, str]:
+def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[str]) -> dict[str, str]:
     """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`.
 
-    `kept` are the annotations in which the layout is the user's.
+    In the annotations `users_layout`, the layout is the user's.
     """
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
-    shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in kept}
-    found: dict[str, str] = {}
+    shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in users_layout}
+    texts: dict[str, str] = {}
     for part in generated.parts:
         if mine.find(part.key):
             continue
         text = part.node.text
-        if part.key in lines and "Line" in kept:
-            start, end = (shifts["transformation"].get(one, 0) for one in lines[part.key])
+        if part.key in lines and "Line" in users_layout:
+            start, end = (shifts["transformation"].get(key, 0) for key in lines[part.key])
             text = _rerouted(text, start, end)
         for place, ways in shifts.items():
             text = _moved(text, place, ways.get(part.key, 0))
-        found[part.key] = text
-    return found
+        texts[part.key] = text
+    return texts
 
 
 def _shifts(
@@ -118,14 +118,14 @@ def _shift_of_neighbour(
     return shifts.get(neighbour, 0)
 
 
-def _touch(one: Box, other: Box) -> bool:
+def _touch(box: Box, other: Box) -> bool:
     """Whether two boxes lie upon each other."""
-    return all(low.real < high.real and low.imag < high.imag for low, high in ((one[0], other[1]), (other[0], one[1])))
+    return all(low.real < high.real and low.imag < high.imag for low, high in ((box[0], other[1]), (other[0], box[1])))
 
 
 @functools.cache
 def _steps() -> list[complex]:
-    """Ways to the places around one, the nearest first, and of those the one below."""
+    """Return the ways to the places around a place, the nearest first, and of these the one below."""
     reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
     ways = itertools.starmap(complex, itertools.product(reach, reach))
     return sorted(ways, key=lambda way: (abs(way.real) + abs(way.imag), way.imag))
@@ -135,18 +135,18 @@ def _steps() -> list[complex]:
 
 
 def _inside(node: Node, keys: Sequence[str]) -> Node | None:
-    """What stands in lists of modifiers within each other: the element's `annotation`, then the names in it."""
+    """Return the value in nested lists of modifiers: of the element's `annotation`, then of the names in it."""
     inner: Node | None = node
     for key in keys:
         arguments = inner.find("arguments") if isinstance(inner, SyntaxTree) else None
         holder = arguments.node if arguments and key != keys[0] else inner
-        found = holder.find(key) if isinstance(holder, SyntaxTree) else None
-        inner = found.node if found else None
+        part = holder.find(key) if isinstance(holder, SyntaxTree) else None
+        inner = part.node if part else None
     return inner
 
 
 def _points(array: re.Match[str] | None) -> list[complex]:
-    """The points that an array in a text has."""
+    """Return the points of an array in a text."""
     numbers = [float(number) for number in _NUMBER.findall(array[1])] if array else []
     return [complex(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
 
@@ -159,19 +159,19 @@ def _arrays(text: str, place: str) -> Iterator[re.Match[str] | None]:
 
 
 def _box(part: Part, place: str) -> Box | None:
-    """The place of a component in the diagram or in the icon; None for what has none."""
+    """Return the place of a component in the diagram or in the icon; None if it has none."""
     corners, origins = map(_points, _arrays(part.node.text, place))
     if len(corners) != 2 or not part.key.startswith("component "):
         return None
-    (left, right), (low, high) = sorted(one.real for one in corners), sorted(one.imag for one in corners)
-    box = [complex(left, low) + sum(origins), complex(right, high) + sum(origins)]
+    xs, ys = sorted(corner.real for corner in corners), sorted(corner.imag for corner in corners)
+    box = [complex(xs[0], ys[0]) + sum(origins), complex(xs[1], ys[1]) + sum(origins)]
     if not all(math.isfinite(abs(corner)) for corner in box):  # such as 1e999
         return None
     return box[0], box[1]
 
 
 def _ends(part: Part) -> tuple[str, str] | None:
-    """The keys of the components that a line connects."""
+    """Return the keys of the components that a line connects."""
     connectors = re.findall(r"([\w']+)[\w.\[\]']*", part.node.text.partition(")")[0])[1:]
     if not part.key.startswith("connect ") or len(connectors) != 2:
         return None
@@ -179,13 +179,13 @@ def _ends(part: Part) -> tuple[str, str] | None:
 
 
 def _moved(text: str, place: str, way: complex) -> str:
-    """The text of a component in another place of the diagram or of the icon."""
+    """Return the text of a component in another place of the diagram or of the icon."""
     extent, origin = _arrays(text, place)
     return _replaced(text, origin or extent, [point + way for point in _points(origin or extent)]) if way else text
 
 
 def _rerouted(text: str, start: complex, end: complex) -> str:
-    """The text of a connection whose ends have moved."""
+    """Return the text of a connection whose ends have moved."""
     array = _ARRAYS["points"].search(text)
     points = _points(array)
     if start == end or len(points) < 2:
@@ -198,9 +198,9 @@ def _rerouted(text: str, start: complex, end: complex) -> str:
 
 
 def _replaced(text: str, array: re.Match[str] | None, points: Sequence[complex]) -> str:
-    """The text with other points in an array."""
+    """Return the text with other points in an array."""
     if not array:
         return text
-    said = ", ".join(f"{{{point.real:g}, {point.imag:g}}}" for point in points)
-    said = f"{{{said}}}" if len(points) > 1 else said
-    return f"{text[: array.start(1)]}{said}{text[array.end(1) :]}"
+    new_array = ", ".join(f"{{{point.real:g}, {point.imag:g}}}" for point in points)
+    new_array = f"{{{new_array}}}" if len(points) > 1 else new_array
+    return f"{text[: array.start(1)]}{new_array}{text[array.end(1) :]}"

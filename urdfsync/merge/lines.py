@@ -74,16 +74,16 @@ def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
 
 def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str] | None:
     """Merge sequences of different things; None if the sides changed one place, or moved one thing to two places."""
-    found: list[str] = []
+    merged: list[str] = []
     place = 0
     for region in _find_regions(base, mine, generated):
         own, new = mine[region.mine], generated[region.generated]
         if region.is_mine and region.is_generated and own != new:
             return None
-        found += [*base[place : region.base.start], *(new if region.is_generated else own)]
+        merged += [*base[place : region.base.start], *(new if region.is_generated else own)]
         place = region.base.stop
-    found += base[place:]
-    return found if len(set(found)) == len(found) else None
+    merged += base[place:]
+    return merged if len(set(merged)) == len(merged) else None
 
 
 def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str]:
@@ -94,17 +94,17 @@ def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
     old, own = set(base), set(mine)
     before, after = [key for key in base if key in own], [key for key in mine if key in old]
     changes = compare(before, after) if before != after else []
-    users = own.difference(generated).union(*(after[one.new_start : one.new_stop] for one in changes))
+    users = own.difference(generated).union(*(after[change.new_start : change.new_stop] for change in changes))
     following: dict[str | None, str] = {
-        one: other for one, other in itertools.pairwise((None, *mine)) if other in users
+        key: next_key for key, next_key in itertools.pairwise((None, *mine)) if next_key in users
     }
-    found: list[str] = []
+    merged: list[str] = []
     for start in (None, *(key for key in generated if key not in users)):
         key = following.get(start) if start is None else start
         while key is not None:
-            found.append(key)
+            merged.append(key)
             key = following.get(key)
-    return found
+    return merged
 
 
 def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
@@ -118,13 +118,15 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
 
     numbers: dict[Hashable, int] = {}
     # libgit2 compares lines; numbers stand for the items, whatever these contain
-    one, two = ("".join(f"{numbers.setdefault(item, len(numbers))}\n" for item in items) for items in (old, new))
-    found = []
-    for hunk in pygit2.Patch.create_from(one.encode(), two.encode(), context_lines=0).hunks:
+    old_text, new_text = (
+        "".join(f"{numbers.setdefault(item, len(numbers))}\n" for item in items) for items in (old, new)
+    )
+    changes = []
+    for hunk in pygit2.Patch.create_from(old_text.encode(), new_text.encode(), context_lines=0).hunks:
         # numbered from 1; an empty range is named by the line before it
         start, new_start = hunk.old_start - (hunk.old_lines > 0), hunk.new_start - (hunk.new_lines > 0)
-        found.append(Change(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
-    return found
+        changes.append(Change(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
+    return changes
 
 
 def _find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[_Region]:

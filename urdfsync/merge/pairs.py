@@ -16,7 +16,7 @@ from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_w
 _ALIKE = 0.5
 """Share of words that two equations have in common at least, if one is the new version of the other."""
 _MOST_COMPARISONS = 400_000
-"""So many pairs of equations are compared at most: a second."""
+"""The most pairs of equations that are compared: a second."""
 
 
 class TooManyPairsError(Exception):
@@ -26,14 +26,14 @@ class TooManyPairsError(Exception):
 def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
     """Return the three bodies with one key for each thing. Raises TooManyPairsError."""
     base, *sides = key_by_whole_equation(base, mine, generated)
-    gone = [part for part in base.parts if not any(side.find(part.key) for side in sides)]
+    removed = [part for part in base.parts if not any(side.find(part.key) for side in sides)]
     new = [[part for part in side.parts if not base.find(part.key)] for side in sides]
-    if sum(map(is_equation, gone)) * max(sum(map(is_equation, parts)) for parts in new) > _MOST_COMPARISONS:
+    if sum(map(is_equation, removed)) * max(sum(map(is_equation, parts)) for parts in new) > _MOST_COMPARISONS:
         raise TooManyPairsError
     added = [*map(_by_words, new)]
     # the keys in base of new versions, by the keys that they have in each side
     keys: list[dict[str, str]] = [{}, {}]
-    for part in gone:
+    for part in removed:
         versions = [_find_version(part, parts, taken) for parts, taken in zip(added, keys, strict=True)]
         if all(versions) or (any(versions) and is_equation(part)):
             for version, taken in zip(versions, keys, strict=True):
@@ -44,33 +44,33 @@ def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[Syn
 
 def _by_words(parts: Sequence[Part]) -> Mapping[str, Sequence[Part]]:
     """Return things by the first words of their keys, connections also by each of their ends."""
-    found = defaultdict[str, list[Part]](list)
+    parts_by_word = defaultdict[str, list[Part]](list)
     for part in parts:
         kind, *ends = part.key.split()
         for name in (kind, *set(ends)) if kind == "connect" else (kind,):
-            found[name].append(part)
-    return found
+            parts_by_word[name].append(part)
+    return parts_by_word
 
 
 def _find_version(part: Part, added: Mapping[str, Sequence[Part]], taken: Container[str]) -> Part | None:
-    """Return what a side has instead of a thing of base."""
+    """Return the part that a side has instead of a part of base."""
     kind, *ends = part.key.split()
     words = ends if kind == "connect" else [kind] if is_equation(part) or kind == "extends" else []
-    free = [one for word in words for one in added.get(word, ()) if one.key not in taken]
+    free = [candidate for word in words for candidate in added.get(word, ()) if candidate.key not in taken]
     if not is_equation(part):
-        return next((one for one in free if one.key.startswith(kind)), None)
-    best = max(free, key=lambda one: _likeness(part, one), default=None)
+        return next((candidate for candidate in free if candidate.key.startswith(kind)), None)
+    best = max(free, key=lambda candidate: _likeness(part, candidate), default=None)
     return best if best and _likeness(part, best) >= _ALIKE else None
 
 
 def _renamed(side: SyntaxTree, keys: Mapping[str, str]) -> SyntaxTree:
     if not keys:
         return side
-    return side.with_parts([msgspec.structs.replace(one, key=keys.get(one.key, one.key)) for one in side.parts])
+    return side.with_parts([msgspec.structs.replace(part, key=keys.get(part.key, part.key)) for part in side.parts])
 
 
-def _likeness(one: Part, other: Part) -> float:
-    words, others = map(_words, (one, other))
+def _likeness(part: Part, other: Part) -> float:
+    words, others = map(_words, (part, other))
     return len(words & others) / max(len(words | others), 1)
 
 

@@ -1,4 +1,4 @@
-"""New names for what one side has renamed, in the texts that have the old ones."""
+"""New names of components that one side has renamed, in the texts with the old names."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from urdfsync.modelica.tree import Part, SyntaxTree, words_of
 
 _COMPONENT = "component "
 _MODIFIER = "("
-"""Stands for what is before the name of a modifier."""
+"""Stands for the text before the name of a modifier."""
 _OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 
 
@@ -23,7 +23,7 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
     """
     used = {(before, token.text) for before, token in _uses(base) if token.text in names}
     places = {place for place, _ in used} - (set() if modifiers else {_MODIFIER})
-    alone = {place: {name for one, name in used if one == place} for place in places & {"", _MODIFIER}}
+    alone = {place: {name for context, name in used if context == place} for place in places & {"", _MODIFIER}}
 
     def renamed(text: str) -> str:
         pieces, end = list[str](), 0
@@ -42,43 +42,43 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     One is taken if the text has the new name and the old one, and the new one is not renamed itself.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
-    found = dict(names)
-    while taken := [old for old, new in found.items() if {old, new} <= alone and new not in found]:
+    free = dict(names)
+    while taken := [old for old, new in free.items() if {old, new} <= alone and new not in free]:
         for old in taken:
-            del found[old]
-    return found
+            del free[old]
+    return free
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
     """Return the components that the user gave other names, new by old: alike in all else, and no other one is."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
-    gone = {name: _likeness(part, name) for name, part in old.items() if name not in new}
-    come = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
-    counts = Counter(gone.values()), Counter(come.values())
-    by_likeness = {likeness: name for name, likeness in come.items()}
+    removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
+    added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
+    counts = Counter(removed.values()), Counter(added.values())
+    by_likeness = {likeness: name for name, likeness in added.items()}
     return {
         name: by_likeness[likeness]
-        for name, likeness in gone.items()
+        for name, likeness in removed.items()
         if likeness in by_likeness and all(count[likeness] == 1 for count in counts)
     }
 
 
 def _components(file: SyntaxTree) -> dict[str, Part]:
-    """The components of a class by their names."""
+    """Return the components of a class by their names."""
     body = file.find("body")
     parts = body.node.parts if body and isinstance(body.node, SyntaxTree) else ()
     return {part.key.removeprefix(_COMPONENT): part for part in parts if part.key.startswith(_COMPONENT)}
 
 
 def _likeness(part: Part, name: str) -> Hashable:
-    """Equal for components that differ in nothing but their own names and their layout."""
+    """Return a value that is equal for components that differ in their own names and their layout alone."""
     parts = part.node.parts if isinstance(part.node, SyntaxTree) else ()
     texts = (inner.node.text for inner in parts if inner.key != "annotation")
     return tuple("" if word == name else word for text in texts for word in words_of(text))
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:
-    """Each token, and the one before the dot before it; else an empty text, or `_MODIFIER` for the name of one."""
+    """Yield each token behind the name before its dot; else behind an empty text, or `_MODIFIER` for a modifier."""
     tokens, _ = lex(text)
     depth = 0
     for number, token in enumerate(tokens):

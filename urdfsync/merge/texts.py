@@ -18,7 +18,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults, read_tree
 
 MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated"), (">>>>>>> generated", "")
-"""What stands before each version of a contradiction, and behind the last one."""
+"""The markers before each version of a contradiction, and behind the last one."""
 
 
 class Merge(msgspec.Struct, frozen=True):
@@ -27,9 +27,9 @@ class Merge(msgspec.Struct, frozen=True):
     text: str | None
     """The merged text; None if there is a conflict or a flaw."""
     proposal: str
-    """The merged text, with all three versions of a conflict between markers: for people, never for a `.mo` file."""
+    """The merged text, with all three versions of a conflict between markers, for people; never in a `.mo` file."""
     contradictions: tuple[str, ...]
-    """What the sides say otherwise, in words; an empty text for lines of which no more is known."""
+    """The contradictions in words; an empty text for lines, which have no names."""
     flaw: str = ""
     """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
@@ -55,28 +55,28 @@ def merge(
     if names:
         base, mine = rename(base, mine, without_clashes(names, mine))
     ending = _ending(mine)
-    known: KnownStatements = {}
-    pieces = _merge_pieces(base, mine, generated, ending, known if is_modelica else None)
+    statements: KnownStatements = {}
+    pieces = _merge_pieces(base, mine, generated, ending, statements if is_modelica else None)
     contradictions = [piece for piece in pieces if isinstance(piece, Contradiction)]
     told = tuple(map(describe, contradictions))
     merged, sides = _with_markers(pieces, ending, MARKERS), (mine, generated)
     if not told:
-        flaw = find_flaw(merged, sides, known) if is_modelica and merged != mine else ""
+        flaw = find_flaw(merged, sides, statements) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, told, flaw)
     if any(map(_is_new_part, contradictions)):
         return Merge(None, merged, told)  # both added a part of this name: no side has what the other one means
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
-    sound = [text if not is_modelica or not find_flaw(text, sides, known) else None for text in preferred]
+    sound = [text if not is_modelica or not find_flaw(text, sides, statements) else None for text in preferred]
     return Merge(None, merged, told, "", sound[0], sound[1])
 
 
-def _is_new_part(found: Contradiction) -> bool:
+def _is_new_part(contradiction: Contradiction) -> bool:
     """Whether both sides have added a component of this name."""
-    return not found.base and found.path[-1:] != () and found.path[-1].startswith("component ")
+    return not contradiction.base and contradiction.path[-1:] != () and contradiction.path[-1].startswith("component ")
 
 
 def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
-    """The text with one side of each contradiction."""
+    """Return the text with one side of each contradiction."""
     texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
     return "".join(texts)
 
@@ -86,8 +86,8 @@ def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, st
     ending = _ending(mine)
     merged, count = "", 0
     ways: tuple[KnownStatements | None, ...] = {}, None
-    for known in ways:
-        pieces = _merge_pieces(base, mine, other, ending, known)
+    for statements in ways:
+        pieces = _merge_pieces(base, mine, other, ending, statements)
         merged = _with_markers(pieces, ending, markers)
         count = sum(isinstance(piece, Contradiction) for piece in pieces)
         if count or not find_flaw(merged, (mine, other)):
@@ -96,7 +96,7 @@ def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, st
 
 
 def _ending(text: str) -> str:
-    """The line ending that prevails in a text."""
+    """Return the line ending that prevails in a text."""
     return "\r\n" if 2 * text.count("\r\n") > text.count("\n") else "\n"
 
 
@@ -104,35 +104,39 @@ def _with_ending(text: str, ending: str) -> str:
     return text.replace("\r\n", "\n").replace("\n", ending)
 
 
-def _merge_pieces(base: str, mine: str, generated: str, ending: str, known: KnownStatements | None) -> Sequence[Piece]:
+def _merge_pieces(
+    base: str, mine: str, generated: str, ending: str, statements: KnownStatements | None
+) -> Sequence[Piece]:
     """Return the merged text in pieces; new lines get the `ending`.
 
-    `known` gets the elements and equations that were read; with None, all is merged by lines.
+    `statements` gets the elements and equations that were read; with None, all is merged by lines.
     """
     base, generated = _with_ending(base, ending), _with_ending(generated, ending)
     written = base, mine, generated
-    one, two, three = plain = [text.replace("\r\n", "\n") for text in written]
+    plain_base, plain_mine, plain_generated = plain = [text.replace("\r\n", "\n") for text in written]
     is_mixed = "\r\n" in mine and mine.count("\r\n") < mine.count("\n")
-    if three in (one, two):
+    if plain_generated in (plain_base, plain_mine):
         return [mine]
-    if one == two and not is_mixed:
+    if plain_base == plain_mine and not is_mixed:
         return [generated]
     texts = written if is_mixed else plain
-    pieces = None if known is None else _merge_classes(texts[0], texts[1], texts[2], known)
+    pieces = None if statements is None else _merge_classes(texts[0], texts[1], texts[2], statements)
     if pieces is None:
         return merge_lines(*written)
     return [piece.replace("\n", ending) if isinstance(piece, str) and not is_mixed else piece for piece in pieces]
 
 
-def _merge_classes(base: str, mine: str, generated: str, known: KnownStatements) -> list[Piece] | None:
+def _merge_classes(base: str, mine: str, generated: str, statements: KnownStatements) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
-    one, two, three = (read_tree(text, known) for text in (base, mine, generated))
-    if not (one and two and three):
+    base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in (base, mine, generated))
+    if not (base_tree and mine_tree and generated_tree):
         return None
     try:
-        if names := find_renamed(one, two, three):
-            one, three = (read_tree(text, known) for text in rename(base, generated, names, modifiers=False))
-        return merge_trees(one, two, three) if one and three else None
+        if names := find_renamed(base_tree, mine_tree, generated_tree):
+            base_tree, generated_tree = (
+                read_tree(text, statements) for text in rename(base, generated, names, modifiers=False)
+            )
+        return merge_trees(base_tree, mine_tree, generated_tree) if base_tree and generated_tree else None
     except (TooManyPairsError, UnreadableError):
         return None
 
@@ -154,40 +158,40 @@ def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[
 
 
 def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> list[str]:
-    """One line as it is, or in several versions between markers."""
+    """Return one line as it is, or in several versions between markers."""
     if all(isinstance(piece, str) for piece in row):
         return [piece for piece in row if isinstance(piece, str)]
-    found: list[str] = []
+    versions: list[str] = []
     for marker, side in markers:
         text = _version(row, side) if side else ""
         text = text.replace("\r\n", "\n").removesuffix("\n").replace("\n", ending)
-        found.append(f"{marker}{ending}{text}{ending if text else ''}")
-    return found
+        versions.append(f"{marker}{ending}{text}{ending if text else ''}")
+    return versions
 
 
 def _version(row: Sequence[Piece], side: str) -> str:
-    """One line as a side has it; without the comma of what this side does not have."""
+    """Return one line as a side has it; without the comma of a part that this side lacks."""
     text, lacks = "", False
     for piece in row:
         if not isinstance(piece, str):
-            said: str = getattr(piece, side)
-            lacks = not said
+            words: str = getattr(piece, side)
+            lacks = not words
         elif lacks and piece.lstrip().startswith(","):
-            text, said = text.rstrip(" "), piece.lstrip()[1:]
+            text, words = text.rstrip(" "), piece.lstrip()[1:]
         else:
-            said = piece
+            words = piece
             text = re.sub(r",\s*$", "", text) if lacks and piece[:1] in (")", "}") else text
-        text += said
+        text += words
     return text if text.strip() else ""
 
 
-def find_flaw(text: str, sides: Sequence[str], known: KnownStatements | None = None) -> str:
+def find_flaw(text: str, sides: Sequence[str], statements: KnownStatements | None = None) -> str:
     """Return why a merged text can't be right as Modelica; empty if it can. Names and types are not checked.
 
-    What a side has is `known`, and not read again.
-    What is wrong with one of the sides already, as often as in the merge, is no flaw: it is its author's business.
+    The `statements` of the sides are not read again. A fault that a side has as often as the merge is no flaw: it
+    concerns its author.
     """
-    faults = [*find_markers(text), *find_faults(text, known or {})]
+    faults = [*find_markers(text), *find_faults(text, statements or {})]
     counts = Counter[str]()
     for side in sides if faults else ():
         counts |= Counter(fault.reason for fault in (*find_markers(side), *parse(side).faults))

@@ -29,7 +29,7 @@ _ROLES = {
 
 
 def place_of(path: tuple[str, ...]) -> tuple[str, str]:
-    """Return the element that a path of keys leads to, and what of it: ("component `body`", "m")."""
+    """Return the element that a path of keys leads to, and the part of it: ("component `body`", "m")."""
     names = [key for key in path if key not in _SILENT and key not in _ROLES]
     kind, _, name = names[0].partition(" ") if names else ("class", "", "")
     role = _ROLES.get(path[-1], "") if path else ""
@@ -44,26 +44,29 @@ def place_of(path: tuple[str, ...]) -> tuple[str, str]:
     )
 
 
-def describe(found: Contradiction) -> str:
+def describe(contradiction: Contradiction) -> str:
     """Say what the sides disagree about: component `body`: you set `m = 99`, the export changes 11.5 to 12.1."""
-    if not found.path:
+    if not contradiction.path:
         return ""
-    element, part = place_of(found.path)
-    is_value = part and found.path[-1] not in _ROLES
+    element, part = place_of(contradiction.path)
+    is_value = part and contradiction.path[-1] not in _ROLES
     what = f"`{part}`" if is_value else f"the {part}" if part else "it"
-    base, mine, generated = map(quoted, (found.base, found.mine, found.generated))
-    if not found.mine:
+    base, mine, generated = map(quoted, (contradiction.base, contradiction.mine, contradiction.generated))
+    if not contradiction.mine:
         told = f"you removed {what}, the export changes it"
-    elif not found.generated:
+    elif not contradiction.generated:
         told = f"you changed {what}, the export removes it"
-    elif not found.base:
-        is_named = part.endswith(found.path[-1])  # the texts begin with its name
-        lead = part.removesuffix(found.path[-1]) if is_named else f"{part} " if part else ""
+    elif not contradiction.base:
+        is_named = part.endswith(contradiction.path[-1])  # the texts begin with its name
+        lead = part.removesuffix(contradiction.path[-1]) if is_named else f"{part} " if part else ""
         told = f"you added `{lead}{mine}`, the export `{lead}{generated}`"
     elif is_value:
         told = f"you set `{part} = {mine}`, the export changes {base} to {generated}"
     else:
-        yours, theirs = _change(found.base, found.mine, what), _change(found.base, found.generated, what)
+        yours, theirs = (
+            _change(contradiction.base, contradiction.mine, what),
+            _change(contradiction.base, contradiction.generated, what),
+        )
         shared = f"changed {what} "
         is_alike = yours.startswith(shared) and theirs.startswith(shared)
         told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
@@ -73,7 +76,7 @@ def describe(found: Contradiction) -> str:
 
 def _change(base: str, side: str, what: str) -> str:
     """Say what a side did with a text of several lines: added `y = 3;`, removed some, or changed them."""
-    old, new = ([one.strip() for one in text.splitlines() if one.strip()] for text in (base, side))
+    old, new = ([line.strip() for line in text.splitlines() if line.strip()] for text in (base, side))
     start = _same_count(old, new)
     end = _same_count(old[start:][::-1], new[start:][::-1])
     before, after = (quoted(" ".join(lines[start : len(lines) - end])) for lines in (old, new))
@@ -90,6 +93,6 @@ def _same_count(old: Sequence[str], new: Sequence[str]) -> int:
 
 
 def quoted(text: str) -> str:
-    """A text in one line, as a sentence can quote it."""
-    said = " ".join(text.split())
-    return said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}…"
+    """Return a text in one line, as a sentence can quote it."""
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"

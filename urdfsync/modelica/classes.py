@@ -24,12 +24,12 @@ class Node(msgspec.Struct, eq=False, dict=True):
     classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
     """Its own classes, as far as anybody has asked for them."""
     bases: tuple[Type, ...] | None = None
-    """What it extends, once that has been resolved."""
+    """The classes that it extends, once they are resolved."""
 
     @functools.cached_property
     def components(self) -> dict[str, Component]:
         """Its own components by their names."""
-        return {one.name.parts[0]: one for one in self.definition.components}
+        return {component.name.parts[0]: component for component in self.definition.components}
 
     def __str__(self) -> str:
         return ".".join(self.name)
@@ -57,9 +57,9 @@ Types: TypeAlias = tuple[Type, ...]
 
 def predefined(name: str, components: Iterable[str] = ()) -> Node:
     """Return a type of the language with these attributes or literals."""
-    parts = [Component(Name((one,), 0), Name(("",), 0)) for one in components]
+    parts = [Component(Name((name,), 0), Name(("",), 0)) for name in components]
     return Node(Class(Name((name,), 0), "type", components=parts), (name,))
 
 
 OPAQUE = predefined("")
-"""A class that is not at hand, or can't be read."""
+"""A class that is unknown or unreadable."""

@@ -46,17 +46,17 @@ class StoredClasses:
         others: Mapping[Path, bytes],
         find: Callable[[str], Path | None],
         read: Callable[[bytes], StoredText] | None = None,
-        gone: str = "",
+        former_package: str = "",
     ) -> None:
         """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
 
         `find` gives the folder or file of any other top-level class, None if there is none; `read` parses a file if
-        names are resolved in others alone. `gone` is a package of which nothing counts that is on disk.
+        names are resolved in others alone. Of `former_package`, nothing on disk counts.
         """
         self._find = functools.cache(lambda name: find(name) or self._beside(name))
         self._read = read or parse_file
         self._folders: dict[Path, None] = {}
-        self._not_on_disk = [tuple(name.split(".")) for name in (package, gone) if name]
+        self._not_on_disk = [tuple(name.split(".")) for name in (package, former_package) if name]
         self._below, self._texts, self._others = f"{folder}{os.sep}", texts, others
         self.own: dict[ClassName, str] = {}
         """The files of the robot's package, by the full names of their classes."""
@@ -67,7 +67,7 @@ class StoredClasses:
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
         self.libraries = {"Modelica"}
-        """Libraries that need not be at hand: of their classes nothing is said."""
+        """Libraries that need not be installed: their classes are not looked for."""
         self.seen: dict[ClassName, str | None] = {}
         """The classes that were asked for, and their files; None where there is none."""
         prefix = tuple(package.split("."))
@@ -75,17 +75,17 @@ class StoredClasses:
             if path.endswith(".mo") and f"/{_NOT_CLASSES}/" not in f"/{path}":
                 self.own[(*prefix, *class_parts(path))] = self._below + path
         for file, content in others.items():
-            found = self._read(content)
-            self.libraries.update(found.libraries)
-            around = tuple(found.within.split(".")) if found.within else ()
+            stored = self._read(content)
+            self.libraries.update(stored.libraries)
+            around = tuple(stored.within.split(".")) if stored.within else ()
             folder_around, expected = place_of(file, others)
             self._folders[folder_around] = None
-            if found.is_broken or (expected and around != expected):
+            if stored.is_broken or (expected and around != expected):
                 self.unread.append(file)
                 continue
-            for one in found.classes:
-                name = (*around, one.name.parts[0])
-                self.all_users.append(Node(one, name, str(file)))
+            for definition in stored.classes:
+                name = (*around, definition.name.parts[0])
+                self.all_users.append(Node(definition, name, str(file)))
                 self.users.setdefault(name, self.all_users[-1])
 
     def stored(self, name: ClassName) -> Node | None:
@@ -99,7 +99,7 @@ class StoredClasses:
             text = self._read(self.content(file))
         except OSError:
             return OPAQUE
-        definition = next((one for one in text.classes if one.name.parts[0] == name[-1]), None)
+        definition = next((definition for definition in text.classes if definition.name.parts[0] == name[-1]), None)
         return OPAQUE if definition is None or text.is_broken else Node(definition, name, file)
 
     def file(self, name: ClassName) -> str | None:
@@ -139,19 +139,19 @@ class StoredClasses:
 
     def names_in(self, name: ClassName) -> Iterable[str]:
         """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
-        found = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
+        names = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
         path = self._file(name) if name and name not in self.own else None
         if path is not None and path.name == _PACKAGE:
             for entry in path.parent.iterdir():
                 if (entry / _PACKAGE).is_file() or (entry.suffix == ".mo" and entry.name != _PACKAGE):
-                    found.add(entry.name.removesuffix(".mo"))
-        return found
+                    names.add(entry.name.removesuffix(".mo"))
+        return names
 
     def _beside(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class that stands beside one of the user's; None for none."""
         places = (folder / end for folder in self._folders for end in (f"{name}/{_PACKAGE}", f"{name}.mo"))
-        found = next((place for place in places if is_file(place)), None)
-        return found.parent if found and found.name == _PACKAGE else found
+        file = next((place for place in places if is_file(place)), None)
+        return file.parent if file and file.name == _PACKAGE else file
 
     def _file(self, name: ClassName) -> Path | None:
         """Return the file of a library in which a class is stored."""
@@ -163,7 +163,7 @@ class StoredClasses:
 
 
 class TooManyFoldersError(Exception):
-    """So many folders are not looked through."""
+    """There are more folders than may be looked through."""
 
 
 def modelica_files(
@@ -204,13 +204,13 @@ def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Pa
 
     Strings and comments do not count: a library of words about robots is no user.
     """
-    waiting, words, found = dict(files), list(names), {}
+    waiting, words, users = dict(files), list(names), {}
     while words:
         word = words.pop()
         for path in [path for path, content in waiting.items() if _is_used(word, content)]:
-            found[path] = waiting.pop(path)
+            users[path] = waiting.pop(path)
             words.append(class_of_file(path))
-    return dict(sorted(found.items()))
+    return dict(sorted(users.items()))
 
 
 def has_word(text: bytes, name: bytes) -> bool:
@@ -219,7 +219,7 @@ def has_word(text: bytes, name: bytes) -> bool:
 
 
 def text_of(content: bytes) -> str:
-    """The text of a file as it is parsed; bytes that are not UTF-8 survive in it."""
+    """Return the text of a file as it is parsed; bytes that are not UTF-8 survive in it."""
     return content.decode(errors="surrogateescape").replace("\r\n", "\n")
 
 
@@ -229,7 +229,7 @@ def code_of(content: bytes) -> bytes:
 
 
 def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes:
-    """Replace old words by new ones, by where they begin in `text_of`; all else stays, byte for byte."""
+    """Replace old words by new ones, by their places in `text_of`; all else stays, byte for byte."""
     text, pieces, end = text_of(content), list[str](), 0
     for start, (old, new) in sorted(words.items()):
         pieces += [text[end:start], new]

@@ -1,4 +1,4 @@
-"""What is wrong with a text as the file of one class, by the language specification 3.6, section 13.4."""
+"""The faults of a text as the file of one class, by the language specification 3.6, section 13.4."""
 
 from __future__ import annotations
 
@@ -30,45 +30,47 @@ def check_class_file(
 
     `name` is the full name of the class that the file is for; `stored` is the text, if it was parsed before.
     """
-    said: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
 
     def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
-        said.append(Diagnostic(severity, code, message, line=line, hint=hint))
+        findings.append(Diagnostic(severity, code, message, line=line, hint=hint))
 
     if text.startswith("\ufeff"):
         hint = "save it without: some compilers refuse it"
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
-    found = stored or parse(text)
-    if found.is_broken:  # only the first place is told, since others may follow from it
-        breaking = [fault for fault in found.faults if not fault.is_repetition]
+    declared = stored or parse(text)
+    if declared.is_broken:  # only the first place is told, since others may follow from it
+        breaking = [fault for fault in declared.faults if not fault.is_repetition]
         first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
-        hint = "correct it first: other errors in the file may follow from it" if found.faults[1:] else ""
+        hint = "correct it first: other errors in the file may follow from it" if declared.faults[1:] else ""
         say(Severity.ERROR, "syntax", f"the file {first.reason}", first.line, hint)
-        return None, said
-    for fault in found.faults:
+        return None, findings
+    for fault in declared.faults:
         if fault.reason.startswith(_ALLOWED_TWICE):
             say(Severity.WARNING, "repeated", f"the file {fault.reason}", fault.line)
         else:
             say(Severity.ERROR, "syntax", f"the file {fault.reason}", fault.line)
     parent, _, expected = name.rpartition(".")
-    if not found.classes:
+    if not declared.classes:
         hint = f"write the class `{expected}`, or delete the file"
         say(Severity.ERROR, "no-class", "the file holds no class", 0, hint)
-        return found, said
-    if (found.within or "") != parent:
+        return declared, findings
+    if (declared.within or "") != parent:
         message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
-        if found.within is not None:
-            message = f"the file says `within {found.within};`, but stands in `{parent or 'no package'}`"
+        if declared.within is not None:
+            message = f"the file says `within {declared.within};`, but stands in `{parent or 'no package'}`"
             hint = f"write `{within(name)}`"
-        say(Severity.ERROR, "wrong-within", message, found.within_line or 1, hint)
-    main = next((one for one in found.classes if str(one.name) == expected), found.classes[0])
+        say(Severity.ERROR, "wrong-within", message, declared.within_line or 1, hint)
+    main = next(
+        (definition for definition in declared.classes if str(definition.name) == expected), declared.classes[0]
+    )
     if str(main.name) != expected:
         place = "folder" if path.name == PACKAGE_FILE else "file"
         message = f"the class is called `{main.name}`, but its {place} `{expected}`"
         say(Severity.ERROR, "wrong-name", message, main.name.line, f"give class and {place} the same name")
-    for other in found.classes:
+    for other in declared.classes:
         if other is not main:
             message = f"the file holds `{other.name}` besides `{main.name}`"
             hint = "a file in a package holds one class: give it one of its own"
             say(Severity.ERROR, "second-class", message, other.name.line, hint)
-    return found, said
+    return declared, findings

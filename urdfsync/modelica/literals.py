@@ -10,7 +10,7 @@ INFINITY = "Modelica.Constants.inf"
 
 _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"})
 _CONTROLS = "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
-"""What could end a line, turn the direction of text around, or can't be written as UTF-8."""
+"""Characters that could end a line, turn the direction of text around, or can't be written as UTF-8."""
 _LITERAL = r"""(?xs)
     "(?:[^"\\]|\\.)*"                        # a string
     | (?:[-+]\s*)?(?:
@@ -60,7 +60,7 @@ def string(value: str) -> str:
 
 
 def html(value: str) -> str:
-    """Text for the inside of an HTML documentation string."""
+    """Return text for the inside of an HTML documentation string."""
     replaced = value.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
     return string(replaced)[1:-1]
 

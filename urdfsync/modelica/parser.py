@@ -80,7 +80,7 @@ class Parser(Lexer):
         self._names = list[Name]()
         """Names in expressions, until what they stand in takes them."""
         self._seen = set[str]()
-        """What may be only once beside the element or equation that is being read."""
+        """Names that were taken before by the elements or equations beside the one that is being read."""
         self._depth = self._subscript_depth = 0
 
     def read(self) -> StoredText:
@@ -148,7 +148,7 @@ class Parser(Lexer):
         seen.add(key)
 
     def _declared_name(self, names: set[str]) -> Name:
-        """The name of something that is declared beside `names`."""
+        """Read the name of something that is declared beside `names`."""
         text, start = self._identifier(), self.starts[self.at - 1]
         self._once(names, text, f"declares `{text}` twice")
         return Name((text,), self.line_at(start), starts=(start,))
@@ -225,7 +225,7 @@ class Parser(Lexer):
     # --- names and expressions ------------------------------------------------------------------------------------
 
     def _name(self, *, has_subscripts: bool = False) -> Name:
-        """A name with dots. If it may have subscripts, the names in them are read, too."""
+        """Read a name with dots. If it may have subscripts, the names in them are read, too."""
         word = self.word
         line, is_global = self.line_at(self.starts[self.at]), word == "."
         self.at += is_global
@@ -240,12 +240,12 @@ class Parser(Lexer):
             self.at += 2
 
     def _reference(self) -> None:
-        """A component or function, after the names in its subscripts."""
+        """Read a component or function, after the names in its subscripts."""
         name = self._name(has_subscripts=True)
         self._names.append(name._replace(is_called=True) if self.word == "(" else name)
 
     def _subscripts(self) -> None:
-        """Subscripts or the sizes of an array, if there are any."""
+        """Read subscripts or the sizes of an array, if there are any."""
         if self.word == "[":
             self._subscript_depth += 1
             for _ in self._list("[", "]"):
@@ -312,7 +312,7 @@ class Parser(Lexer):
             raise self._lack("an expression")
 
     def _call(self) -> None:
-        """The arguments of a function."""
+        """Read the arguments of a function."""
         names: set[str] = set()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
@@ -328,14 +328,14 @@ class Parser(Lexer):
                 self._item()
 
     def _item(self) -> None:
-        """An expression, possibly with the indices of a reduction."""
+        """Read an expression, possibly with the indices of a reduction."""
         mark = len(self._names)
         self._expression()
         if self._accept("for"):
             self._leave_out(self._indices(), mark)
 
     def _indices(self) -> set[str]:
-        """The indices of a loop or of a reduction, and the names in their ranges."""
+        """Read the indices of a loop or of a reduction, and the names in their ranges."""
         indices = set[str]()
         while not indices or self._accept(","):
             indices.add(self._identifier())
@@ -346,7 +346,7 @@ class Parser(Lexer):
     # --- classes --------------------------------------------------------------------------------------------------
 
     def document(self) -> None:
-        """A whole file."""
+        """Read a whole file."""
         if self.word == "within":
             mark = self._mark()
             self._each(self._within_clause)
@@ -369,15 +369,15 @@ class Parser(Lexer):
         self.open[-1].classes.append(self._class(names, prefixes))
 
     def _prefixes(self, groups: Sequence[tuple[str, ...]], key: str = "prefixes") -> set[str]:
-        """At most one of each group, in order."""
+        """Read at most one prefix of each group, in order."""
         start = self.at
-        found = {found for prefixes in groups if (found := self._accept(*prefixes))}
-        if found and key:
+        prefixes = {word for group in groups if (word := self._accept(*group))}
+        if prefixes and key:
             self._note(key, start)
-        return found
+        return prefixes
 
     def _class(self, names: set[str], prefixes: set[str]) -> Class:
-        """A class; `names` are those declared before in the class around it, `prefixes` those read already."""
+        """Read a class; `names` are those declared before in the class around it, `prefixes` those read already."""
         start = self.at
         prefixes |= self._prefixes(_CLASS_PREFIXES, "")
         kind = self._accept(*_CLASSES)
@@ -387,17 +387,19 @@ class Parser(Lexer):
             kind = f"operator {more}"
         is_extension = bool(self._accept("extends"))
         name = self._declared_name(names)
-        found = Class(name, kind, frozenset(prefixes), is_extension=is_extension)
+        definition = Class(name, kind, frozenset(prefixes), is_extension=is_extension)
         is_short = not is_extension and bool(self._accept("="))
         self._note("head", start)
         if is_short:
-            self._short_class(found)
-            return found
-        found.arguments = self._arguments() if is_extension else ()
+            self._short_class(definition)
+            return definition
+        definition.arguments = self._arguments() if is_extension else ()
         self._description()
-        self.open.append(found)
+        self.open.append(definition)
         self._composition()
-        around = {str(one.name) for one in self.open}  # another name is a slip, unless it ends a class around this one
+        around = {
+            str(enclosing.name) for enclosing in self.open
+        }  # another name is a slip, unless it ends a class around this one
         if self.word != "end" or not is_name(end := self.following) or (end in around and end != str(name)):
             raise self._lack(f"`end {name}`")
         self.at += 2
@@ -405,10 +407,10 @@ class Parser(Lexer):
         if end != str(name):
             self.faults.append(Fault(f"ends `{name}` with `end {end}`", self.line_at(self.starts[self.at - 1])))
         self.open.pop()
-        return found
+        return definition
 
-    def _short_class(self, found: Class) -> None:
-        """The part of a class behind its equals sign."""
+    def _short_class(self, definition: Class) -> None:
+        """Read the part of a class behind its equals sign."""
         start, mark = self.at, self._mark()
         if self._accept("enumeration"):
             names: set[str] = set()
@@ -417,20 +419,20 @@ class Parser(Lexer):
                 if not self._accept(":"):
                     literals.append(str(self._declared_name(names)))
                     self._comment()
-            found.literals = tuple(dict.fromkeys(literals))
+            definition.literals = tuple(dict.fromkeys(literals))
             self._note("definition", start, mark)
         elif self._accept("der"):
             for _ in self._list():
                 self._name()
-            found.is_derivative = True
+            definition.is_derivative = True
             self._note("definition", start)
         else:
             _, name = self._type()
-            found.alias = Extends(name, self._arguments())
+            definition.alias = Extends(name, self._arguments())
         self._comment()
 
     def _composition(self) -> None:
-        """Elements, equations and algorithms up to the class's `end`."""
+        """Read elements, equations and algorithms up to the class's `end`."""
         names, equations = set[str](), set[str]()
         section = "public"
         while True:
@@ -440,8 +442,8 @@ class Parser(Lexer):
                 break
             if word == "initial" and self.following in ("equation", "algorithm"):
                 self._step()
-            if found := self._accept(*SECTIONS):
-                section = found
+            if new_section := self._accept(*SECTIONS):
+                section = new_section
             elif section in ("public", "protected") or word == "external":
                 self._each(self._element, names)
             else:
@@ -477,14 +479,14 @@ class Parser(Lexer):
         else:
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
             if self.word in _CLASS_STARTS:
-                found = self._class(names, prefixes)
-                found.constraint = self._constraint()
-                around.classes.append(found)
+                definition = self._class(names, prefixes)
+                definition.constraint = self._constraint()
+                around.classes.append(definition)
             else:
                 around.components += self._components(names, prefixes)
 
     def _type(self) -> tuple[set[str], Name]:
-        """Prefixes of a type, the type, and sizes of an array."""
+        """Read prefixes of a type, the type, and sizes of an array."""
         start = self.at
         prefixes, name = self._prefixes(_TYPE_PREFIXES, ""), self._name()
         self._subscripts()
@@ -492,7 +494,7 @@ class Parser(Lexer):
         return prefixes, name
 
     def _base(self) -> Extends:
-        """A class with its modifiers."""
+        """Read a class with its modifiers."""
         start, name = self.at, self._name()
         self._note("type", start)
         return Extends(name, self._arguments())
@@ -532,15 +534,15 @@ class Parser(Lexer):
         self._comment()
 
     def _components(self, names: set[str], prefixes: set[str]) -> list[Component]:
-        """The components of one declaration."""
+        """Read the components of one declaration."""
         start, mark, names_mark = self.at, self._mark(), len(self._names)
         more, kind = self._type()
         sizes = self._take_names(names_mark)
-        found: list[Component] = []
-        while not found or self._accept(","):
+        components: list[Component] = []
+        while not components or self._accept(","):
             name = self._declared_name(names)
             self._note("name", self.at - 1)
-            if not found and self._skips_rest():
+            if not components and self._skips_rest():
                 return []
             self._sizes()
             arguments = self._modification()
@@ -549,12 +551,16 @@ class Parser(Lexer):
                 self._expression()
                 self._note("condition", condition)
             uses = (*sizes, *self._take_names(names_mark))
-            found.append(Component(name, kind, frozenset(prefixes | more), arguments, uses))
+            components.append(Component(name, kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
         constraint = self._constraint()
-        if found[1:]:  # in the tree, several components of one declaration stand or fall together
+        if components[1:]:  # in the tree, several components of one declaration stand or fall together
             self._note("components", start, mark)
-        return [msgspec.structs.replace(one, constraint=constraint) for one in found] if constraint else found
+        return (
+            [msgspec.structs.replace(component, constraint=constraint) for component in components]
+            if constraint
+            else components
+        )
 
     def _sizes(self) -> None:
         start = self.at
@@ -566,18 +572,18 @@ class Parser(Lexer):
         if not self._accept("constrainedby"):
             return None
         self._note("word", start)
-        found = self._base()
+        base = self._base()
         self._note("constraint", start, mark)
         self._comment()
-        return found
+        return base
 
     def _comment(self) -> None:
-        """A description, an annotation, both or none."""
+        """Read a description, an annotation, both or none."""
         self._description()
         self._annotation()
 
     def _description(self) -> None:
-        """A description string, if there is one."""
+        """Read a description string, if there is one."""
         if self.word[:1] == '"':
             start = self.at
             self._step()
@@ -588,16 +594,16 @@ class Parser(Lexer):
             self._note("description", start)
 
     def _annotation(self) -> None:
-        """An annotation, if there is one; names have meanings of their own in it."""
+        """Read an annotation, if there is one; names have meanings of their own in it."""
         if self._accept("annotation"):
-            for one in self._arguments("annotation"):
-                if one.name.parts == ("uses",):
-                    self._libraries += (used.name.parts[0] for used in one.arguments)
+            for argument in self._arguments("annotation"):
+                if argument.name.parts == ("uses",):
+                    self._libraries += (used.name.parts[0] for used in argument.arguments)
 
     # --- modifiers ------------------------------------------------------------------------------------------------
 
     def _modification(self) -> tuple[Modifier, ...]:
-        """Modifiers in parentheses and a value; both may be missing."""
+        """Read modifiers in parentheses and a value; both may be missing."""
         arguments = self._arguments()
         start, mark = self.at, self._mark()
         if self._accept("=", ":="):
@@ -609,16 +615,16 @@ class Parser(Lexer):
         return arguments
 
     def _arguments(self, key: str = "arguments") -> tuple[Modifier, ...]:
-        """Modifiers in parentheses, if there are any."""
+        """Read modifiers in parentheses, if there are any."""
         if self.word != "(" and key == "arguments":
             return ()
         start, mark, names = self.at - (key == "annotation"), self._mark(), set[str]()
-        found = tuple([one for _ in self._list() if (one := self._argument(names))])
+        modifiers = tuple([modifier for _ in self._list() if (modifier := self._argument(names))])
         self._note(key, start, mark)
-        return found
+        return modifiers
 
     def _argument(self, names: set[str]) -> Modifier | None:
-        """One modifier; None for a connection that is taken away."""
+        """Read one modifier; None for a connection that is taken away."""
         start, mark, names_mark = self.at, self._mark(), len(self._names)
         prefixes = self._prefixes(_ARGUMENT_PREFIXES)
         declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
@@ -658,7 +664,7 @@ class Parser(Lexer):
     # --- equations and statements ---------------------------------------------------------------------------------
 
     def _equation(self, seen: set[str] | None) -> None:
-        """An equation, or a statement if `seen` is None: statements may be repeated."""
+        """Read an equation, or a statement if `seen` is None: statements may be repeated."""
         start, mark, word = self.at, self._mark(), self.word
         if word == "annotation":
             self._annotation()
@@ -700,7 +706,7 @@ class Parser(Lexer):
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 
     def _block(self, kind: str, *, repeats: bool) -> None:
-        """The rest of an equation or statement that holds others, which may repeat each other."""
+        """Read the rest of an equation or statement that holds others, which may repeat each other."""
         start, mark = self.at - 1, len(self._names)
         indices = set[str]()
         branch = kind

@@ -41,11 +41,11 @@ _INTERFACES = {
     (*_ROTATIONAL, "Interfaces", "PartialElementaryTwoFlangesAndSupport2"): _SUPPORT,
     (*_TRANSLATIONAL, "Interfaces", "PartialTwoFlanges"): "flange_a flange_b",
 }
-"""What is in the classes of the Modelica Standard Library that UrdfSync's own extend: builds do not read it."""
+"""The components of Modelica Standard Library classes that UrdfSync's own extend: builds do not read that library."""
 INTERFACES = {name: predefined(".".join(name), names.split()) for name, names in _INTERFACES.items()}
 """These as classes, by their full names."""
 _DEEPEST = 40
-"""So many lookups may lead to each other: more of them go in circles."""
+"""The most lookups that may lead to each other: more of them go in circles."""
 
 
 class Element(NamedTuple):
@@ -85,15 +85,15 @@ class Scopes:
 
     def node(self, name: Sequence[str]) -> Node | None:
         """Return the class with this full name, not an inherited one; None if it is not at hand."""
-        found = self._top(name[0]) if name else None
+        node = self._top(name[0]) if name else None
         for part in name[1:]:
-            found = found and self._child(found, part)
-        return None if found is OPAQUE else found
+            node = node and self._child(node, part)
+        return None if node is OPAQUE else node
 
     def users(self) -> Iterator[Node]:
         """Yield the classes of the user's files at their places, in the order of the files."""
-        for one in self._sources.all_users:
-            yield Node(one.definition, one.name, one.file, self.node(one.name[:-1]))
+        for node in self._sources.all_users:
+            yield Node(node.definition, node.name, node.file, self.node(node.name[:-1]))
 
     def _top(self, name: str) -> Node | None:
         if name not in self._tops:
@@ -104,8 +104,8 @@ class Scopes:
         if node is OPAQUE:
             return OPAQUE
         if name not in node.classes:
-            found = next((one for one in node.definition.classes if one.name.parts[0] == name), None)
-            child = Node(found, (*node.name, name), node.file) if found else None
+            definition = next((inner for inner in node.definition.classes if inner.name.parts[0] == name), None)
+            child = Node(definition, (*node.name, name), node.file) if definition else None
             if child is None and node.definition.kind == "package":
                 child = self._sources.stored((*node.name, name))
             if child is not None and child is not OPAQUE:
@@ -117,14 +117,14 @@ class Scopes:
 
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
         """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
-        found = self._first(name.parts[0], None if name.is_global else scope)
+        meaning = self._first(name.parts[0], None if name.is_global else scope)
         for number, part in enumerate(name.parts[1:], start=1):
-            if isinstance(found, Missing):
+            if isinstance(meaning, Missing):
                 break
-            found = self.part(found.types, part)
-            if isinstance(found, Missing):
-                found = found._replace(number=number)
-        return found
+            meaning = self.part(meaning.types, part)
+            if isinstance(meaning, Missing):
+                meaning = meaning._replace(number=number)
+        return meaning
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing:
         """Return the meaning of a name after `extends` in a class: nothing that the class inherits."""
@@ -133,22 +133,22 @@ class Scopes:
 
     def part(self, types: Types, name: str) -> Element | Missing:
         """Return the meaning of a name in something that may have any of these types."""
-        every = [self._member(one, name) for one in types]
-        found = [one for one in every if isinstance(one, Element)]
-        is_certain = all(one.is_certain for one in every if isinstance(one, Missing))
-        if not found:
+        every = [self._member(type_, name) for type_ in types]
+        elements = [member for member in every if isinstance(member, Element)]
+        is_certain = all(member.is_certain for member in every if isinstance(member, Missing))
+        if not elements:
             return Missing(name, types, is_certain)
-        known = [one for one in found if one is not ANYTHING]
-        united = (one for element in found for one in element.types)
+        specific = [element for element in elements if element is not ANYTHING]
+        united = (type_ for element in elements for type_ in element.types)
         more = () if is_certain else ANYTHING.types
-        return Element(tuple(dict.fromkeys((*united, *more))), known[0].is_component) if known else ANYTHING
+        return Element(tuple(dict.fromkeys((*united, *more))), specific[0].is_component) if specific else ANYTHING
 
     def types_of(self, used: Extends, scope: Node | None) -> Types:
         """Return the classes that a name stands for, with the modifiers beside it."""
-        found = self.lookup(used.type, scope)
-        if isinstance(found, Missing) or found.is_component:
+        meaning = self.lookup(used.type, scope)
+        if isinstance(meaning, Missing) or meaning.is_component:
             return ANYTHING.types
-        return _modified(found.types, [Scoped(used.arguments, scope)] if used.arguments else [])
+        return _modified(meaning.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
     def types_in(self, component: Component, scope: Node) -> Types:
         """Return the types that a component may have by its own declaration, in a class."""
@@ -166,10 +166,10 @@ class Scopes:
         if node in self._resolving:
             return ()
         with self._without_bases(node):
-            found = self._bases(node)
+            types = self._bases(node)
         if not self._resolving:  # else a name may be missing only because a class around it is being resolved
-            node.bases = found
-        return found
+            node.bases = types
+        return types
 
     @contextlib.contextmanager
     def _without_bases(self, node: Node) -> Iterator[None]:
@@ -182,41 +182,41 @@ class Scopes:
             self._resolving = before
 
     def names_in(self, types: Types) -> dict[str, bool]:
-        """The names of all that is known to be in classes, inherited elements included; whether each is a class."""
-        found: dict[str, bool] = {}
-        waiting, seen = [one.node for one in types], {OPAQUE}
+        """Return the names of the known elements of classes, inherited ones included; whether each is a class."""
+        names: dict[str, bool] = {}
+        waiting, seen = [type_.node for type_ in types], {OPAQUE}
         while waiting:
             node = waiting.pop(0)
             if node not in seen:
                 seen.add(node)
                 below = self._sources.names_in(node.name) if node.definition.kind == "package" else ()
                 classes = (inner.name.parts[0] for inner in node.definition.classes)
-                found |= dict.fromkeys((*node.components, *(node.definition.literals or ())), False)
-                found |= dict.fromkeys((*classes, *below), True)
+                names |= dict.fromkeys((*node.components, *(node.definition.literals or ())), False)
+                names |= dict.fromkeys((*classes, *below), True)
                 waiting += [base.node for base in self.bases(node)]
-        return found
+        return names
 
     def names_around(self, scope: Node | None) -> dict[str, bool]:
-        """The simple names that can be used in a class, as far as they are known; whether each is that of a class."""
-        found = dict.fromkeys(self._sources.names_in(()), True)
+        """Return the known simple names that can be used in a class; whether each is that of a class."""
+        names = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
-            for one in scope.definition.imports:
-                package = None if one.names else self.lookup(one.name, None)
-                found |= dict.fromkeys(one.names, True)
-                found |= self.names_in(package.types) if isinstance(package, Element) else {}
-            found = {**found, **self.names_in((Type(scope),))}
+            for clause in scope.definition.imports:
+                package = None if clause.names else self.lookup(clause.name, None)
+                names |= dict.fromkeys(clause.names, True)
+                names |= self.names_in(package.types) if isinstance(package, Element) else {}
+            names = {**names, **self.names_in((Type(scope),))}
             scope = scope.parent
-        return found
+        return names
 
     def _first(self, name: str, scope: Node | None) -> Element | Missing:
         is_certain = True
         while scope is not None:
-            found = self._in_scope(scope, name)
-            if isinstance(found, Element):
-                return found
-            is_certain &= found.is_certain
+            meaning = self._in_scope(scope, name)
+            if isinstance(meaning, Element):
+                return meaning
+            is_certain &= meaning.is_certain
             if not is_certain and not name[:1].isupper():
-                return found
+                return meaning
             # a model inherits components from a library that is not at hand, and hardly ever classes
             scope = None if "encapsulated" in scope.definition.prefixes else scope.parent
         if name in _ANYTHING:
@@ -229,21 +229,21 @@ class Scopes:
         return Missing(name, (), is_certain)
 
     def _in_scope(self, scope: Node, name: str) -> Element | Missing:
-        found = self._member(Type(scope), name)
-        if isinstance(found, Element):
-            return found
-        for one in scope.definition.imports:
-            if name in one.names:
-                imported = self.lookup(one.names[name], None)
+        member = self._member(Type(scope), name)
+        if isinstance(member, Element):
+            return member
+        for clause in scope.definition.imports:
+            if name in clause.names:
+                imported = self.lookup(clause.names[name], None)
                 return imported if isinstance(imported, Element) else ANYTHING  # it is told where it is imported
-        for one in scope.definition.imports:
-            if not one.names:
-                imported = self.lookup(one.name._replace(parts=(*one.name.parts, name)), None)
+        for clause in scope.definition.imports:
+            if not clause.names:
+                imported = self.lookup(clause.name._replace(parts=(*clause.name.parts, name)), None)
                 if isinstance(imported, Element):
                     return imported
                 if imported.part != name or not imported.types:
                     return ANYTHING
-        return found
+        return member
 
     # --- elements of a class --------------------------------------------------------------------------------------
 
@@ -269,8 +269,8 @@ class Scopes:
             return self._component(node, modifiers, component)
         child = self._child(node, name)
         if child is None:
-            found = self._inherited(node, modifiers, name)
-            return ANYTHING if isinstance(found, Missing) and "expandable" in definition.prefixes else found
+            inherited = self._inherited(node, modifiers, name)
+            return ANYTHING if isinstance(inherited, Missing) and "expandable" in definition.prefixes else inherited
         is_open = "replaceable" in child.definition.prefixes
         types = (Type(child, _nested(modifiers, name)), *(ANYTHING.types if is_open else ()))
         return Element(types) if child is not OPAQUE else ANYTHING
@@ -281,10 +281,10 @@ class Scopes:
             if base.node is OPAQUE:
                 is_certain = False
                 continue
-            found = self._member(Type(base.node, base.modifiers + modifiers), name)
-            if isinstance(found, Element):
-                return found
-            is_certain &= found.is_certain
+            member = self._member(Type(base.node, base.modifiers + modifiers), name)
+            if isinstance(member, Element):
+                return member
+            is_certain &= member.is_certain
         return Missing(name, (), is_certain)
 
     def _component(self, node: Node, modifiers: tuple[Scoped, ...], component: Component) -> Element:
@@ -292,10 +292,10 @@ class Scopes:
         nested = _nested(modifiers, name)
         types: Types = ()
         for arguments, scope in modifiers:
-            for one in arguments:
-                if one.name.parts == (name,) and one.type is not None:
-                    types += _modified(self.types_of(one.type, scope), nested)
-                    types += self.types_of(one.constraint, scope) if one.constraint else ()
+            for modifier in arguments:
+                if modifier.name.parts == (name,) and modifier.type is not None:
+                    types += _modified(self.types_of(modifier.type, scope), nested)
+                    types += self.types_of(modifier.constraint, scope) if modifier.constraint else ()
         types += _modified(self.types_in(component, node), nested)
         if "redeclare" in component.prefixes:
             before = self._inherited(node, modifiers, name)
@@ -306,29 +306,29 @@ class Scopes:
         definition = node.definition
         if definition.alias is not None:
             return self.types_of(definition.alias, node.parent)
-        found: Types = ()
+        bases: Types = ()
         if definition.is_extension and node.parent is not None:
             before = self._inherited(node.parent, (), node.name[-1])
             types = before.types if isinstance(before, Element) else ANYTHING.types
-            found += _modified(types, [Scoped(definition.arguments, node)])
-        for one in definition.extends:
-            types = self.types_of(one, node)
-            if types == ANYTHING.types and one.type.parts in INTERFACES:
-                types = (Type(INTERFACES[one.type.parts]),)
-            found += () if types == ANYTHING.types and one.type.parts[:2] == _ICONS else types
-        return found
+            bases += _modified(types, [Scoped(definition.arguments, node)])
+        for base in definition.extends:
+            types = self.types_of(base, node)
+            if types == ANYTHING.types and base.type.parts in INTERFACES:
+                types = (Type(INTERFACES[base.type.parts]),)
+            bases += () if types == ANYTHING.types and base.type.parts[:2] == _ICONS else types
+        return bases
 
 
 def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
-    """Types with more modifiers, which come before those that they have."""
-    return tuple(one if one.node is OPAQUE else Type(one.node, (*modifiers, *one.modifiers)) for one in types)
+    """Return types with more modifiers, which come before those that they have."""
+    return tuple(type_ if type_.node is OPAQUE else Type(type_.node, (*modifiers, *type_.modifiers)) for type_ in types)
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
     """Return those parts of a class's modifiers that concern one of its elements."""
     return tuple(
-        Scoped(one.arguments, scope)
+        Scoped(modifier.arguments, scope)
         for arguments, scope in modifiers
-        for one in arguments
-        if one.name.parts == (name,) and one.arguments
+        for modifier in arguments
+        if modifier.name.parts == (name,) and modifier.arguments
     )

@@ -67,17 +67,17 @@ def parse_without(text: str, passed: frozenset[str]) -> Reading:
 def compare(mine: str, generated: str) -> Difference:
     """Compare an edited text with the generated one."""
     own, other = (Counter(text.split(_END)) for text in (mine, generated))
-    same = frozenset(one for one, count in own.items() if other[one] == count and is_plain(one))
-    texts = [_END.join(one for one in statements if one not in same) for statements in (own, other)]
+    same = frozenset(statement for statement, count in own.items() if other[statement] == count and is_plain(statement))
+    texts = [_END.join(statement for statement in statements if statement not in same) for statements in (own, other)]
     if max(map(len, texts)) > _LONGEST:
         return Difference(same, frozenset(), is_whole=False)
     rests = [*map(parse, texts)]
-    paths = (one.path for rest in rests for one in declared(rest.classes))
+    paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
     names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
     read = parse_without(mine, same)
     is_hidden = not read.passed <= {
-        one.line for one in declared(read.stored.classes)
+        declaration.line for declaration in declared(read.stored.classes)
     }  # by a comment or string around it
     is_whole = visible[0] != visible[1] or is_hidden
     return Difference(frozenset() if is_whole else same, names, is_whole)
@@ -85,11 +85,11 @@ def compare(mine: str, generated: str) -> Difference:
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
     """Yield what else gives names a meaning in each class: what it extends, and declares anew there, and imports."""
-    for one in classes:
-        redeclared = [str(inner.type and inner.type.type) for base in one.extends for inner in base.arguments]
-        imported = [(str(clause.name), [*clause.names]) for clause in one.imports]
-        yield str(one.name), ([str(base.type) for base in one.extends], redeclared, imported)
-        yield from _visible(one.classes)
+    for definition in classes:
+        redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
+        imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]
+        yield str(definition.name), ([str(base.type) for base in definition.extends], redeclared, imported)
+        yield from _visible(definition.classes)
 
 
 def plain_statements(text: str) -> frozenset[str]:
@@ -104,10 +104,10 @@ def is_plain(statement: str) -> bool:
     """
     if ";" in statement or _SEEN_BY_OTHERS.search(statement):
         return False
-    found = _COMPONENT.match(statement)
-    if not (found and is_name(found[1]) and is_name(found[2])):
+    component = _COMPONENT.match(statement)
+    if not (component and is_name(component[1]) and is_name(component[2])):
         return bool(_UNNAMED.match(statement))
-    rest, longer = statement[found.end() :], ""
+    rest, longer = statement[component.end() :], ""
     while "," in rest and rest != longer:
         rest, longer = _ENCLOSED.sub("", rest), rest
     return "," not in rest  # else it declares several components
@@ -115,14 +115,14 @@ def is_plain(statement: str) -> bool:
 
 def mentioning(statements: Collection[str], names: Collection[str]) -> set[str]:
     """Return the statements in which one of the names is a word."""
-    near = [one for one in statements if any(name in one for name in names)]
-    return {one for one in near if not set(re.findall(r"\w+", one)).isdisjoint(names)}
+    near = [statement for statement in statements if any(name in statement for name in names)]
+    return {statement for statement in near if not set(re.findall(r"\w+", statement)).isdisjoint(names)}
 
 
 def component_of(statement: str) -> tuple[str, str] | None:
     """Return the last part of the type, and the name, of the component that a plain statement declares."""
-    found = _COMPONENT.match(statement)
-    return (found[0].split()[-2].rpartition(".")[2], found[2]) if found else None
+    component = _COMPONENT.match(statement)
+    return (component[0].split()[-2].rpartition(".")[2], component[2]) if component else None
 
 
 def _shorten(text: str, passed: Collection[str]) -> tuple[str, frozenset[int]]:
@@ -131,9 +131,9 @@ def _shorten(text: str, passed: Collection[str]) -> tuple[str, frozenset[int]]:
     for statement in text.split(_END):
         piece, end = f"{statement}{_END}", 0
         if statement in passed:
-            if found := _COMPONENT.match(statement):
-                end = found.end()
-                lines.add(line + statement.count("\n", 0, found.start(2)))
+            if component := _COMPONENT.match(statement):
+                end = component.end()
+                lines.add(line + statement.count("\n", 0, component.start(2)))
             blanks = "\n".join([" " * len(row) for row in statement[end:].split("\n")])
             piece = f"{statement[:end]}{blanks}{_END if end else ' ' + _END[1:]}"
         pieces.append(piece)

@@ -40,7 +40,7 @@ class Modifier(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True)
     """Names in its value."""
     is_redeclared: bool = False
     type: Extends | None = None
-    """What an element that is declared anew (`redeclare`, `replaceable`) is: the type of a component, or a class."""
+    """Of an element that is declared anew (`redeclare`, `replaceable`), its type or the class that it stands for."""
     constraint: Extends | None = None
     """The class after `constrainedby`."""
 
@@ -71,7 +71,7 @@ class ImportClause(msgspec.Struct, frozen=True, array_like=True, omit_defaults=T
     name: Name
     """The class or package behind `import`; like all names that are imported, it counts from the top."""
     names: Mapping[str, Name] = {}
-    """What is imported, by the short names that it gets; empty for everything in the package (`import A.*`)."""
+    """The imported names, by their short names; empty for everything in the package (`import A.*`)."""
 
 
 class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
@@ -129,9 +129,9 @@ class Declared(NamedTuple):
 
 def declared(classes: Sequence[Class], around: tuple[str, ...] = ()) -> Iterator[Declared]:
     """Yield all classes and components that are declared in classes, a class before its parts."""
-    for one in classes:
-        path = (*around, one.name.parts[0])
-        yield Declared(path, one.name.line)
-        for component in one.components:
+    for definition in classes:
+        path = (*around, definition.name.parts[0])
+        yield Declared(path, definition.name.line)
+        for component in definition.components:
             yield Declared((*path, component.name.parts[0]), component.name.line)
-        yield from declared(one.classes, path)
+        yield from declared(definition.classes, path)

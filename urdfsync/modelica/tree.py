@@ -37,10 +37,10 @@ _LONGEST_INTEGER = 20
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
 """Arguments that say where something is drawn."""
 _TAIL = frozenset({"external", "annotation"})
-"""What ends a class, behind all sections."""
+"""Keys of the parts that end a class, behind all sections."""
 
 Words: TypeAlias = tuple[str | float, ...]
-"""What a text says: its tokens, numbers by their value, without blanks and comments. Integers stay integers."""
+"""The tokens of a text, numbers by their value, without blanks and comments. Integers stay integers."""
 
 
 class UnreadableError(Exception):
@@ -74,7 +74,7 @@ class Leaf:
 
     @cached_property
     def words(self) -> Words:
-        """What it says; of a connection only its two ends, in alphabetical order."""
+        """Its words; of a connection only its two ends, in alphabetical order."""
         return words_of(self.text) if self._words is None else self._words
 
 
@@ -108,7 +108,7 @@ class SyntaxTree:
 
     @property
     def separator(self) -> str:
-        """What stands between two parts."""
+        """The sign between two parts."""
         return _SEPARATORS.get(self.kind, "")
 
     @cached_property
@@ -125,15 +125,15 @@ class SyntaxTree:
     def sections(self) -> dict[str, str]:
         """The section of each part by its key: the key of its first word; empty before the first one, and for a list.
 
-        What ends a class is in the section `tail`.
+        The parts that end a class are in the section `tail`.
         """
-        section, found = "", dict[str, str]()
+        section, sections = "", dict[str, str]()
         for part in self.parts:
             section = part.key if is_section(part.key) else section
-            found[part.key] = section
+            sections[part.key] = section
         if self.kind is TreeKind.BODY:
-            found |= dict.fromkeys(itertools.takewhile(_TAIL.__contains__, reversed(found)), "tail")
-        return found
+            sections |= dict.fromkeys(itertools.takewhile(_TAIL.__contains__, reversed(sections)), "tail")
+        return sections
 
     @property
     def signature(self) -> list[str]:
@@ -141,7 +141,7 @@ class SyntaxTree:
         return [part.key for part in self.parts if self.is_function and not _PASSED.isdisjoint(_type_words(part))]
 
     def find(self, key: str) -> Part | None:
-        """The part with this key."""
+        """Return the part with this key."""
         return self._by_key.get(key)
 
     @cached_property
@@ -152,7 +152,7 @@ class SyntaxTree:
         """Return its parts with their keys; without `layout`, no layout, no words of sections, and in no order."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
-        said = [
+        parts = [
             (part.key, section_name(self.sections[part.key]), part.node)
             for part in self.parts
             if not (
@@ -161,7 +161,7 @@ class SyntaxTree:
                 or is_section(part.key)
             )
         ]
-        return said if self.kind is TreeKind.ARRAY else sorted(said, key=lambda one: one[:2])
+        return parts if self.kind is TreeKind.ARRAY else sorted(parts, key=lambda part: part[:2])
 
 
 class Statement(SyntaxTree):
@@ -194,17 +194,19 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     """A comment behind it, and behind the separator if there is one, that ends the line."""
 
 
-def is_same(one: Node, other: Node, *, layout: bool = True) -> bool:
+def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
     """Whether two things say the same; without `layout`, in any order of declarations and modifiers."""
-    if one is other or one.text == other.text:
+    if node is other or node.text == other.text:
         return True
-    if isinstance(one, Leaf) or isinstance(other, Leaf):
-        return isinstance(one, Leaf) and isinstance(other, Leaf) and one.words == other.words
-    said, others = one.says(layout=layout), other.says(layout=layout)
+    if isinstance(node, Leaf) or isinstance(other, Leaf):
+        return isinstance(node, Leaf) and isinstance(other, Leaf) and node.words == other.words
+    parts, other_parts = node.says(layout=layout), other.says(layout=layout)
     return (
-        one.kind is other.kind
-        and [inner[:2] for inner in said] == [inner[:2] for inner in others]
-        and all(is_same(inner[2], its[2], layout=layout) for inner, its in zip(said, others, strict=True))
+        node.kind is other.kind
+        and [part[:2] for part in parts] == [part[:2] for part in other_parts]
+        and all(
+            is_same(part[2], other_part[2], layout=layout) for part, other_part in zip(parts, other_parts, strict=True)
+        )
     )
 
 
@@ -235,7 +237,7 @@ def comments(text: str) -> list[str]:
     tokens, _ = lex(text)
     places = [0, *(end for token in tokens for end in (token.start, token.start + len(token.text)))]
     gaps = (text[start:stop] for start, stop in zip(places[::2], places[1::2], strict=False))
-    return [found for gap in gaps for found in re.findall(r"//[^\n\r]*|/\*.*?\*/", gap, re.DOTALL)]
+    return [comment for gap in gaps for comment in re.findall(r"//[^\n\r]*|/\*.*?\*/", gap, re.DOTALL)]
 
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
@@ -246,7 +248,7 @@ def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
 
 
 def _variable(part: Part) -> str:
-    """What names an equation if it is the only one for its variable; empty for anything else."""
+    """Return the variable that names an equation if it is the only one for it; empty for anything else."""
     return part.key.partition(" = ")[0] if is_equation(part) else ""
 
 
@@ -254,8 +256,8 @@ def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
     for part in parts:
         if _variable(part) in variables and isinstance(part.node, SyntaxTree):
             kind = _INITIAL if part.key.startswith(_INITIAL) else ""
-            said = _said(words_of(part.node.parts[0].node.text))
-            part = msgspec.structs.replace(part, key=f"{kind}equation {said}")
+            words = _said(words_of(part.node.parts[0].node.text))
+            part = msgspec.structs.replace(part, key=f"{kind}equation {words}")
         yield part
 
 
@@ -269,7 +271,7 @@ def as_sum(node: Node) -> Node:
 
 
 def words_of(text: str) -> Words:
-    """What a text says."""
+    """Return the words of a text."""
     return _words(words_in(text))
 
 
@@ -278,7 +280,7 @@ def _words(tokens: Sequence[str]) -> Words:
 
 
 def _number(text: str) -> float:
-    """The value of a number; a whole one without a point stays an Integer, unless no tool could read it."""
+    """Return the value of a number; one without a point stays an Integer, unless no tool could read it."""
     return int(text) if text.isdecimal() and len(text) < _LONGEST_INTEGER else float(text)
 
 
@@ -287,35 +289,35 @@ def _said(words: Words) -> str:
 
 
 def _type_words(part: Part) -> Words:
-    """The prefixes and the type of a component, or of several; empty for anything else."""
+    """Return the prefixes and the type of a component, or of several; empty for anything else."""
     if not (isinstance(part.node, SyntaxTree) and part.key.startswith("component ")):
         return ()
-    found = part.node.find("type") or part.node.find("components")
-    return found.node.words if found and isinstance(found.node, Leaf) else ()
+    type_part = part.node.find("type") or part.node.find("components")
+    return type_part.node.words if type_part and isinstance(type_part.node, Leaf) else ()
 
 
 def _drawn(words: Words) -> Words:
-    """What an item of an array says, but for where it is drawn."""
-    found, depth, is_place = list[str | float](), 0, False
+    """Return the words of an item of an array, but for where it is drawn."""
+    drawn, depth, is_place = list[str | float](), 0, False
     for number, word in enumerate(words):
         depth += (word in _OPEN) - (word in _CLOSED)
         if depth <= 1 and (word == "," or word in _CLOSED):
             is_place = False
         elif depth == 1 and word in _GEOMETRY and words[number + 1] == "=":
             is_place = True
-        found += [] if is_place else [word]
-    return tuple(found)
+        drawn += [] if is_place else [word]
+    return tuple(drawn)
 
 
 def _numbered(parts: Sequence[Part]) -> list[Part]:
-    """Items or terms with what they say as keys, but for where they are drawn; one may be there twice."""
+    """Return items or terms with their words as keys, but for where they are drawn; equal ones are numbered."""
     seen = Counter[str]()
-    found = []
+    numbered = []
     for part in parts:
-        said = _said(_drawn(words_of(part.node.text)))
-        seen[said] += 1
-        found.append(msgspec.structs.replace(part, key=f"{said} #{seen[said]}"))
-    return found
+        words = _said(_drawn(words_of(part.node.text)))
+        seen[words] += 1
+        numbered.append(msgspec.structs.replace(part, key=f"{words} #{seen[words]}"))
+    return numbered
 
 
 class Span(NamedTuple):
@@ -335,24 +337,24 @@ class KnownStatement(NamedTuple):
 
     part: Part
     names: Sequence[tuple[str, str]]
-    """What may be only once beside it, with the fault if it is there twice."""
+    """Names that it takes, each with the fault if another statement has it, too."""
 
 
 KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
 """Elements and equations that are read already, by their section, and their text with the blanks before it."""
 
 
-def read_tree(text: str, known: KnownStatements | None = None) -> SyntaxTree | None:
+def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTree | None:
     """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name.
 
-    What is `known` is not read again, and what is read becomes known.
+    Known `statements` are not read again, and new ones are added.
     """
-    return _TreeReader(text, {} if known is None else known).file()
+    return _TreeReader(text, {} if statements is None else statements).file()
 
 
-def find_faults(text: str, known: KnownStatements) -> Sequence[Fault]:
-    """Return all that is wrong with a text, but for what is wrong inside of a known element or equation."""
-    return _TreeReader(text, known, reads_all=True).read().faults
+def find_faults(text: str, statements: KnownStatements) -> Sequence[Fault]:
+    """Return the faults of a text, but for those inside of a known element or equation."""
+    return _TreeReader(text, statements, reads_all=True).read().faults
 
 
 class _OpenBody:
@@ -370,12 +372,12 @@ class _OpenBody:
         """The words that began the section here, such as `initial equation`."""
         self.sections = Counter[str]()
         self.names: list[tuple[str, str]] = []
-        """What the element or equation that is being read adds to what may be there only once."""
+        """Names that the element or equation takes that is being read."""
 
     def add(self, part: Part, text: str, stop: int) -> None:
         """Add a part that ends at this place in the text, and the comment behind it."""
-        found = _REMARK.match(text, stop)
-        remark = found[0].rstrip("\r") if found else ""
+        match = _REMARK.match(text, stop)
+        remark = match[0].rstrip("\r") if match else ""
         self.parts.append(msgspec.structs.replace(part, remark=remark) if remark else part)
         self.end = stop + len(remark)
 
@@ -383,9 +385,9 @@ class _OpenBody:
 class _TreeReader(Parser):
     """Makes the tree of what the parser reads: it notes how far each part goes."""
 
-    def __init__(self, text: str, known: KnownStatements, *, reads_all: bool = False) -> None:
+    def __init__(self, text: str, statements: KnownStatements, *, reads_all: bool = False) -> None:
         super().__init__(text)
-        self._known, self._reads_all = known, reads_all
+        self._statements, self._reads_all = statements, reads_all
         self._spans: list[Span] = []
         self._body = _OpenBody(0, 0, skips=False)
         """That of the innermost class around this place."""
@@ -435,18 +437,18 @@ class _TreeReader(Parser):
     def _next_word(self) -> str:
         body = self._body
         while self.at == len(self.words) and not body.section.endswith("algorithm"):
-            statement = STATEMENT.match(self.text, body.end)
-            known = statement and self._known.get((body.section, statement[0]))
-            if not statement or not known:
+            match = STATEMENT.match(self.text, body.end)
+            statement = match and self._statements.get((body.section, match[0]))
+            if not match or not statement:
                 break
-            for key, reason in known.names:
+            for key, reason in statement.names:
                 if key in self._seen:
-                    line = self.line_at(body.end + len(known.part.before))
+                    line = self.line_at(body.end + len(statement.part.before))
                     self.faults.append(Fault(reason, line, is_repetition=True))
                 self._seen.add(key)
-            body.add(known.part, self.text, statement.end())
+            body.add(statement.part, self.text, match.end())
             self.position = body.end
-            if known.part.key == "annotation":
+            if statement.part.key == "annotation":
                 self._expect_end()
         body.names = []
         return self.word
@@ -475,26 +477,26 @@ class _TreeReader(Parser):
     def _note_statement(self, start: int) -> None:
         body, words, text = self._body, self.words[start : self.at], self.text
         first, stop = self.starts[start], self._stop(self.at)
-        before, said = text[body.end : first], text[first:stop]
+        before, own_text = text[body.end : first], text[first:stop]
         if words[-1] in SECTIONS:
             body.section = " ".join(words)
             body.sections[body.section] += 1
-            part = Part(f"section {body.section} {body.sections[body.section]}", before, Leaf(said))
+            part = Part(f"section {body.section} {body.sections[body.section]}", before, Leaf(own_text))
         elif body.section.endswith("algorithm") and words[0] not in _TAIL:
             previous = body.parts.pop()
             if is_section(previous.key):
                 body.parts.append(previous)
-                part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(said))
+                part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(own_text))
             else:  # all statements of a section are one part
-                said = f"{previous.node.text}{previous.remark}{before}{said}"
-                part = Part(previous.key, previous.before, Leaf(said))
+                own_text = f"{previous.node.text}{previous.remark}{before}{own_text}"
+                part = Part(previous.key, previous.before, Leaf(own_text))
         elif self.faults or not body.skips:
-            part = Part("", before, Leaf(said))
+            part = Part("", before, Leaf(own_text))
         else:
-            node = Statement(said, is_equation=body.section.endswith("equation") and words[0] not in _TAIL)
+            node = Statement(own_text, is_equation=body.section.endswith("equation") and words[0] not in _TAIL)
             part = Part(self._key(self._spans[body.mark :]), before, node)
             if words.index(";") == len(words) - 1:
-                self._known[body.section, before + said] = KnownStatement(part, body.names)
+                self._statements[body.section, before + own_text] = KnownStatement(part, body.names)
         del self._spans[body.mark :]
         body.add(part, text, stop)
 
@@ -509,7 +511,7 @@ class _TreeReader(Parser):
         if first.key == "head":
             return f"class {inner[-2] if inner[-1] == '=' else inner[-1]}"
         if first.key in ("name", "components"):
-            names = [self.words[one.start] for one in first.inner or spans if one.key == "name"]
+            names = [self.words[span.start] for span in first.inner or spans if span.key == "name"]
             return f"component {', '.join(names)}"
         if first.key == "connect":
             return f"connect {' '.join(self._ends(first))}"
@@ -520,12 +522,12 @@ class _TreeReader(Parser):
         if ends and ends[0].key == "header":
             return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"
         # an equation is named by a variable that stands alone on its left side
-        left = self.words[ends[0].start : ends[0].stop] if ends else []
-        is_alone = all(is_name(word) or word[0] in ".()[]" or word == "der" for word in left)
-        return f"{kind}equation {_said(_words(left if left and is_alone else inner))}"
+        variable = self.words[ends[0].start : ends[0].stop] if ends else []
+        is_alone = all(is_name(word) or word[0] in ".()[]" or word == "der" for word in variable)
+        return f"{kind}equation {_said(_words(variable if variable and is_alone else inner))}"
 
     def _ends(self, connection: Span) -> list[str]:
-        """The two connectors of a `connect(a, b)`, in alphabetical order."""
+        """Return the two connectors of a `connect(a, b)`, in alphabetical order."""
         return sorted("".join(self.words[end.start : end.stop]) for end in connection.inner)
 
     # --- the parts --------------------------------------------------------------------------------------------------
@@ -586,8 +588,8 @@ class _TreeReader(Parser):
         if self.words[at] == separator:
             after = self._blanks(at)
             self._said(at + 1)
-        found = _REMARK.match(self.text, self._end)
-        remark = found[0].rstrip("\r") if found else ""
+        match = _REMARK.match(self.text, self._end)
+        remark = match[0].rstrip("\r") if match else ""
         self._end += len(remark)
         return msgspec.structs.replace(part, after=after, remark=remark)
 

@@ -16,14 +16,14 @@ _RATHER_ALIKE, _ALIKE = 0.6, 0.75
 
 
 class UnresolvedKind(enum.Enum):
-    """What is wrong with a name."""
+    """The kind of fault that a name has."""
 
     CLASS = "class"
     """It is used as a class, and there is none."""
     ELEMENT = "element"
     """A class has no component or function of this name."""
     CIRCLE = "circle"
-    """A class extends itself, by way of others or not: then nothing is known of what it has."""
+    """A class extends itself, directly or through others: its elements are unknown."""
     NESTED_REDECLARE = "nested-redeclare"
     """Legal: it redeclares an element inside of an element."""
     DOTTED_MODIFIER = "dotted-modifier"
@@ -42,18 +42,17 @@ class Unresolved(NamedTuple):
     """The full name of the class that lacks it."""
     line: int
     near: str = ""
-    """The known name that is most like the part; empty if none is."""
+    """The candidate that is most like the part; empty if none is."""
     start: int = -1
     """Where the part begins in the text; -1 if that is not known."""
-    known: Collection[str] = ()
+    candidates: Collection[str] = ()
     """The names that mean something there."""
-
     is_library: bool = False
     """Whether it may be the name of a library."""
 
     @property
     def message(self) -> str:
-        """What is wrong, as a sentence."""
+        """The fault as a sentence."""
         if self.kind is UnresolvedKind.ELEMENT and self.owner:
             return f"{self.owner.rpartition('.')[2]} has no `{self.part}`"
         if self.kind is UnresolvedKind.CIRCLE:
@@ -62,7 +61,7 @@ class Unresolved(NamedTuple):
 
     @property
     def meant(self) -> str:
-        """The name with what is most like the part instead of it; empty if nothing is like it."""
+        """The name with the most similar known part; empty if no known part is similar."""
         parts = self.name.split(".") if self.near else []
         return ".".join(self.near if part == self.part else part for part in parts)
 
@@ -75,11 +74,11 @@ def unresolved(
     lost: Callable[[str], bool] | None = None,
     passed: Container[int] = (),
 ) -> Iterator[Unresolved]:
-    """Yield all that is wrong with names in a class and in the classes inside of it.
+    """Yield the faults of names in a class and in the classes inside of it.
 
-    Nothing is said of what seems to be in a library that is not at hand, nor of an element that a class may inherit
-    from there, unless its name is `lost`. `all_libraries` tells that all libraries are known by name: another one is
-    missing. Components in the lines `passed` are right.
+    A name that may come from an unread library is no fault, nor is an element that a class may inherit from there,
+    unless its name is `lost`. With `all_libraries`, all libraries are known by name: another one is missing.
+    Components in the lines `passed` are right.
     """
     yield from _Walk(scopes, all_libraries, lost, passed).find(node)
 
@@ -114,7 +113,7 @@ class _Walk(NamedTuple):
             name = definition.extends[0].type
             text = ".".join(name.parts)
             yield Unresolved(UnresolvedKind.CIRCLE, text, text, ".".join(node.name), name.line)
-        for name in (name for one in definition.imports for name in one.names.values() or (one.name,)):
+        for name in (name for clause in definition.imports for name in clause.names.values() or (clause.name,)):
             yield from self._missing(name, scopes.lookup(name, None), None, UnresolvedKind.CLASS)
         for component in definition.components:
             if component.name.line not in self.passed:
@@ -126,16 +125,16 @@ class _Walk(NamedTuple):
                 yield from self.find(child)
 
     def _extends_itself(self, node: Node) -> bool:
-        waiting, seen = [one.node for one in self.scopes.bases(node)], {OPAQUE}
+        waiting, seen = [type_.node for type_ in self.scopes.bases(node)], {OPAQUE}
         while waiting and node not in waiting:
             base = waiting.pop()
             if base not in seen:
                 seen.add(base)
-                waiting += [one.node for one in self.scopes.bases(base)]
+                waiting += [type_.node for type_ in self.scopes.bases(base)]
         return bool(waiting)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield what is wrong with a class that is used, and with the modifiers beside it."""
+        """Yield the faults of a class that is used, and of the modifiers beside it."""
         yield from self._missing(used.type, self.scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self.scopes.types_of(used, scope), scope)
 
@@ -147,8 +146,8 @@ class _Walk(NamedTuple):
         yield from self._used(Extends(component.type), node)
         bases = self.scopes.bases(node)
         if "redeclare" in component.prefixes and bases:
-            found = self.scopes.part(bases, component.name.parts[0])
-            yield from self._missing(component.name, found, None, UnresolvedKind.ELEMENT)
+            meaning = self.scopes.part(bases, component.name.parts[0])
+            yield from self._missing(component.name, meaning, None, UnresolvedKind.ELEMENT)
         yield from self._arguments(component.arguments, self.scopes.types_in(component, node), node)
         if component.constraint:
             yield from self._used(component.constraint, node)
@@ -157,41 +156,44 @@ class _Walk(NamedTuple):
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Yield what is wrong with modifiers of something that may have one of these types."""
-        for one in arguments:
-            found: Element | Missing = Element(types)
-            for part, start in zip(one.name.parts, one.name.starts, strict=True):
-                if isinstance(found, Element):
-                    found, name = self.scopes.part(found.types, part), Name((part,), one.name.line, starts=(start,))
-                    yield from self._missing(name, found, scope, UnresolvedKind.ELEMENT)
-            for used in filter(None, (one.type, one.constraint)):
+        """Yield the faults of modifiers of something that may have one of these types."""
+        for modifier in arguments:
+            meaning: Element | Missing = Element(types)
+            for part, start in zip(modifier.name.parts, modifier.name.starts, strict=True):
+                if isinstance(meaning, Element):
+                    meaning, name = (
+                        self.scopes.part(meaning.types, part),
+                        Name((part,), modifier.name.line, starts=(start,)),
+                    )
+                    yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
+            for used in filter(None, (modifier.type, modifier.constraint)):
                 yield from self._used(used, scope)
-            if isinstance(found, Element) and found is not ANYTHING:
-                text, line = str(one.name), one.name.line
-                if len(one.name.parts) > 1:
+            if isinstance(meaning, Element) and meaning is not ANYTHING:
+                text, line = str(modifier.name), modifier.name.line
+                if len(modifier.name.parts) > 1:
                     yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, text, text, "", line)
-                if depth and one.is_redeclared:
+                if depth and modifier.is_redeclared:
                     owner = next((str(type_) for type_ in types if type_.node is not OPAQUE), "")
                     yield Unresolved(UnresolvedKind.NESTED_REDECLARE, text, text, owner, line)
-                yield from self._arguments(one.arguments, found.types, scope, depth + 1)
-            yield from self._uses(one.uses, scope)
+                yield from self._arguments(modifier.arguments, meaning.types, scope, depth + 1)
+            yield from self._uses(modifier.uses, scope)
 
     def _missing(
-        self, name: Name, found: Element | Missing, scope: Node | None, kind: UnresolvedKind
+        self, name: Name, meaning: Element | Missing, scope: Node | None, kind: UnresolvedKind
     ) -> Iterator[Unresolved]:
-        if isinstance(found, Element):
+        if isinstance(meaning, Element):
             return
         # a model inherits components from a library that is not read, but hardly ever classes
-        is_class = kind is UnresolvedKind.CLASS and found.number == 0 and scope is not None
-        is_missing = found.is_certain or (is_class and not _is_in_open_package(scope, self.scopes))
-        if not (is_missing or (self.lost and self.lost(found.part))):
+        is_class = kind is UnresolvedKind.CLASS and meaning.number == 0 and scope is not None
+        is_missing = meaning.is_certain or (is_class and not _is_in_open_package(scope, self.scopes))
+        if not (is_missing or (self.lost and self.lost(meaning.part))):
             return
-        owner = str(found.types[0] if found.types else scope or "")
-        known = self.scopes.names_in(found.types) if found.types else self.scopes.names_around(scope)
-        candidates = {key for key, is_class in known.items() if is_class or kind is not UnresolvedKind.CLASS}
-        is_library = not found.types and len(name.parts) > 1 and found.part[:1].isupper()
+        owner = str(meaning.types[0] if meaning.types else scope or "")
+        names = self.scopes.names_in(meaning.types) if meaning.types else self.scopes.names_around(scope)
+        candidates = {key for key, is_class in names.items() if is_class or kind is not UnresolvedKind.CLASS}
+        is_library = not meaning.types and len(name.parts) > 1 and meaning.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
-        near = nearest(found.part, sorted(candidates - {found.part}), least)
+        near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
         if near or not is_library or self.all_libraries:  # else a compiler tells whether there is a library
-            start = name.starts[found.number] if found.number < len(name.starts) else -1
-            yield Unresolved(kind, str(name), found.part, owner, name.line, near, start, candidates, is_library)
+            start = name.starts[meaning.number] if meaning.number < len(name.starts) else -1
+            yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, start, candidates, is_library)
