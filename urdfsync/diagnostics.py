@@ -5,6 +5,7 @@ from __future__ import annotations
 import enum
 import os
 from collections.abc import Collection
+from typing import Self
 
 import msgspec
 
@@ -95,6 +96,11 @@ class UrdfsyncError(Exception):
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__(*diagnostics)  # by which it is pickled, when a worker of a pool raises it
         self.diagnostics = diagnostics
+
+    @classmethod
+    def of(cls, code: str, message: str, file: str = "", line: int = 0, *, hint: str = "") -> Self:
+        """Return the error of a single finding."""
+        return cls(Diagnostic(Severity.ERROR, code, message, file, line, hint=hint))
 
     def __str__(self) -> str:
         """Return each finding as a line."""

@@ -7,7 +7,7 @@ import argparse
 from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.state.transaction import save
@@ -44,7 +44,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if (source := (loaded.root / guess.source).resolve()) in known:
             message = f"{guess.source} is the source of `{known[source]}` already"
             hint = "write a table by hand for a second package of one source"
-            raise ConfigError(Diagnostic(Severity.ERROR, "source-in-use", message, shown(loaded.file), hint=hint))
+            raise ConfigError.of("source-in-use", message, shown(loaded.file), hint=hint)
     content = loaded.file.read_bytes()
     text = content.decode()
     tables = "".join(f"\n{robot_table(guess, domain)}" for guess in guesses)
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if error.diagnostics[0].code != "toml-syntax":
             raise
         message, hint = "no table can follow `robots = {…}`", "write each robot as a table `[robots.NAME]`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, shown(loaded.file), hint=hint)) from None
+        raise ConfigError.of("inline-robots", message, shown(loaded.file), hint=hint) from None
     with write_errors(loaded.file):
         save(loaded.file, content, new.encode())
     console.warnings(warnings)

@@ -156,7 +156,7 @@ def select_robot(args: argparse.Namespace, configuration: Config, console: Conso
     if len(robots) > 1:
         names = ", ".join(robot.name for robot in robots)
         message = f"{len(robots)} robots are meant; `{args.parser.prog}` takes one at a time"
-        raise ConfigError(Diagnostic(Severity.ERROR, "robots", message, hint=f"name one: {names}"))
+        raise ConfigError.of("robots", message, hint=f"name one: {names}")
     return robots[0]
 
 
@@ -200,7 +200,7 @@ def is_confirmed(question: str, done: str, console: Console) -> bool:
     """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
     if console.json or sys.stdin is None or not sys.stdin.isatty():
         message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "not-confirmed", message, hint=hint))
+        raise UrdfsyncError.of("not-confirmed", message, hint=hint)
     sys.stdout.write(f"{question} [y/N] ")
     sys.stdout.flush()
     return sys.stdin.readline().strip().lower() in ("y", "yes")

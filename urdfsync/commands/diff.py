@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.diff import comparison
 from urdfsync.diff.comparison import Comparison
 from urdfsync.engine.actions import USERS, Kind, Reason
@@ -82,7 +82,7 @@ def _configuration(args: argparse.Namespace, folder: Path) -> Config | None:
         return None
     message = f"no {config.FILE_NAME} in {folder} or a folder above it, so there is no last build to compare with"
     hint = "name the version to compare with: --against FILE or REVISION, or begin with `urdfsync init`"
-    raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
+    raise ConfigError.of("no-config", message, hint=hint)
 
 
 def _select_sources(
@@ -93,18 +93,16 @@ def _select_sources(
     places = {text: Path(os.path.normpath(folder / text)) for text in args.sources}
     alone = {text: place for text, place in places.items() if place.is_file() and os.path.realpath(place) not in known}
     if configuration is None and (missing := places.keys() - alone.keys()):
-        message, hint = f"there is no file {min(missing)!r}", "name a source that exists"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
+        raise ConfigError.of("no-source", f"there is no file {min(missing)!r}", hint="name a source that exists")
     if args.against is None and alone:
         message = f"{min(alone)} was never built: it is not the source of a robot"
         hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-robot", message, hint=hint))
+        raise ConfigError.of("no-robot", message, hint=hint)
     named = [*(text for text in args.sources if text not in alone), *(args.robot or [])]
     robots = configuration.select(named) if configuration and (named or not alone) else ()
     if args.against and (folder / args.against).is_file() and len({robot.source for robot in robots}) + len(alone) > 1:
         message = "--against names one file, but several sources are compared"
-        hint = "name the source to compare it with"
-        raise ConfigError(Diagnostic(Severity.ERROR, "one-file", message, hint=hint))
+        raise ConfigError.of("one-file", message, hint="name the source to compare it with")
     yield configuration, robots
     yield None, [comparison.robot_of_file(place) for place in alone.values()]
 

@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import UrdfsyncError
 
 _HINT = "set $VISUAL or $EDITOR"
 
@@ -25,19 +25,17 @@ def edit(name: str, content: bytes) -> Path:
     try:
         words = shlex.split(command)
     except ValueError as error:
-        message = f"`{command}` is no command: {str(error).lower()}"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-editor", message, hint=_HINT)) from None
+        raise UrdfsyncError.of("no-editor", f"`{command}` is no command: {str(error).lower()}", hint=_HINT) from None
     if not words:
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-editor", "there is no editor to open", hint=_HINT))
+        raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
     folder = Path(tempfile.mkdtemp(prefix="urdfsync-edit-"))
     file = folder / name
     file.write_bytes(content)
     try:  # not in the project's folder, where an editor may look for settings
         code = subprocess.run([*words, str(file)], cwd=folder, check=False).returncode  # noqa: S603
     except OSError as error:
-        message = f"`{words[0]}` can't be started: {error.strerror}"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-editor", message, hint=_HINT)) from error
+        raise UrdfsyncError.of("no-editor", f"`{words[0]}` can't be started: {error.strerror}", hint=_HINT) from error
     if code:
         message = f"the editor ended with exit code {code}; nothing was changed"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "editor-failed", message, hint=f"what it saved is in {file}"))
+        raise UrdfsyncError.of("editor-failed", message, hint=f"what it saved is in {file}")
     return file

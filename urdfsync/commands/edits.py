@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync import config
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine.edits import EditedFile, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
@@ -60,8 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             console.tell(edit_lines(file, configuration.root, console.verbose))
     if unknown:
         message = f"{min(unknown)!r} is no robot, and no file of a package"
-        hint = "name a robot, or a file of its package"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
+        raise ConfigError.of("no-source", message, hint="name a robot, or a file of its package")
     return console.end(code)
 
 

@@ -64,8 +64,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     configuration = arguments.configuration(args)
     robot = arguments.select_robot(args, configuration, console)
     if args.check and importlib.util.find_spec("fmpy") is None:
-        message = "`--check` needs FMPy, which is not installed"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=install_command("fmu")))
+        raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and args.kind == "me":
         raise arguments.UsageError(
             args.parser, "a motion is for the check of co-simulation", "take `--kind cs` or `both`"

@@ -77,8 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
                 if any(file.startswith(path.removesuffix(PurePosixPath(path).name)) for file in commit.touched):
                     errors += error.diagnostics
     except git.GitError as error:
-        hint = "without a repository, use `urdfsync build --check`"
-        raise SourceError(Diagnostic(Severity.ERROR, "git", str(error), hint=hint)) from None
+        raise SourceError.of("git", str(error), hint="without a repository, use `urdfsync build --check`") from None
     results = [fault.result for fault in faults if fault.result]
     for result in results:
         if console.json or result.failed or result.conflicts or result.is_broken:
@@ -95,7 +94,7 @@ class Commit:
         self.index = git.Index()
         for path in sorted(self.index.unmerged):
             message, hint = "the file is not merged yet, so there is nothing to commit", "resolve it and `git add` it"
-            raise SourceError(Diagnostic(Severity.ERROR, "unmerged", message, path, hint=hint))
+            raise SourceError.of("unmerged", message, path, hint=hint)
         self.files = self.index.find_committed()
         is_commit = self.files or "GIT_INDEX_FILE" in os.environ
         self.touched = self.files if is_commit else self.index.tracked

@@ -107,7 +107,7 @@ def guess_robots(
         unique.setdefault(os.path.realpath(source), source)
     if not unique:
         message, hint = f"no *.{domain.name} below {shown(root)}", "name the sources: `urdfsync init SOURCE`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-source", message, hint=hint))
+        raise ConfigError.of("no-source", message, hint=hint)
     guesses: list[Guess] = []
     warnings: list[Diagnostic] = []
     errors: list[Diagnostic] = []
@@ -146,7 +146,7 @@ def _guess(
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
-        raise SourceError(Diagnostic(Severity.ERROR, "source-name", message, shown(source), hint=hint))
+        raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(source, given, config.ros_package_path(os.environ))
     with text.locating():
         snapshot, reading = source_files.read(domain, domain.permissive_options(), text.content, text.name)
@@ -210,15 +210,13 @@ def write_errors(file: Path) -> Iterator[None]:
     except OSError as error:
         message, place = f"the configuration can't be written: {error.strerror}", shown(file)
         hint = "check the folder's permissions and the space on the disk, or name another file with --config"
-        raise ConfigError(Diagnostic(Severity.ERROR, "config-not-written", message, place, hint=hint)) from None
+        raise ConfigError.of("config-not-written", message, place, hint=hint) from None
 
 
 def _refuse_existing(file: Path) -> None:
     if os.path.lexists(file):
         hint = "`urdfsync add SOURCE` adds a robot to it; or name another file with --config"
-        raise ConfigError(
-            Diagnostic(Severity.ERROR, "config-exists", "the file exists already", shown(file), hint=hint)
-        )
+        raise ConfigError.of("config-exists", "the file exists already", shown(file), hint=hint)
 
 
 def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Guess]) -> int:

@@ -70,7 +70,7 @@ def _install(console: Console) -> int:
         git.run("config", "--local", "merge.urdfsync.driver", f"{command} {_PLACEHOLDERS}")
         attribute = git.run("check-attr", "-z", "merge", "--", "any.mo").split("\0")[2]
     except git.GitError as error:
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "git", str(error), hint="run it in a clone")) from None
+        raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None
     console.tell([line((f"git merges with urdfsync in {top}", ""))])
     hint, file = "add the line `*.mo merge=urdfsync` to it, and commit it", shown(Path(top, ".gitattributes"))
     note = Diagnostic(Severity.NOTE, "no-attribute", "it does not say which files these are", file, hint=hint)

@@ -12,7 +12,7 @@ import msgspec
 from urdfsync import config, registry
 from urdfsync.commands import arguments
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import Target
 from urdfsync.engine import source as sources
 from urdfsync.engine.generate import Package
@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     found = domain.record(reading, shown(source), target, domain.options())
     if found is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-record", message, hint="use `urdfsync build`"))
+        raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
     artifact, findings = found
     generated = Package([artifact], sources.domain_templates(domain), target.package)
     told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *findings))]
@@ -111,7 +111,7 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
         hint = "check that its folder exists and may be written to, and that there is space on the disk"
         problem = "output-not-writable", f"it can't be written: {error.strerror}", hint
     code, message, hint = problem
-    raise OutputError(Diagnostic(Severity.ERROR, code, message, shown(file), hint=hint))
+    raise OutputError.of(code, message, shown(file), hint=hint)
 
 
 def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:
@@ -119,9 +119,8 @@ def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target
     name, within = args.class_, args.within
     if name and not is_class_name(name):
         hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
-        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", f"{name!r} can't be a class", hint=hint))
+        raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)
     if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
-        message, hint = f"{within!r} can't be a package", "name one like Plant.Robots"
-        raise ConfigError(Diagnostic(Severity.ERROR, "modelica-name", message, hint=hint))
+        raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name one like Plant.Robots")
     stem = file.stem if file is not None and is_class_name(file.stem) else ""
     return Target(within, name or stem or class_name(source.name.partition(".")[0]) + _SUFFIX)

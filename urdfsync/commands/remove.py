@@ -11,7 +11,7 @@ from urdfsync import tomlfile
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
@@ -114,5 +114,5 @@ def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:
     del before["robots"][robot]
     if {"robots": {}, **after} != before:
         message, hint = f"`{robot}` is no table `[robots.{robot}]`", "write it as one, then remove it"
-        raise ConfigError(Diagnostic(Severity.ERROR, "inline-robots", message, name, hint=hint))
+        raise ConfigError.of("inline-robots", message, name, hint=hint)
     return f"{mark}{new}".encode()

@@ -114,7 +114,7 @@ def _write(texts: Mapping[Path, tuple[bytes, bytes]]) -> None:
             raise failure(error, path, "it can't be read") from error
         if not is_same:
             message, hint = "it has changed since it was read, so nothing was written", "run the command again"
-            raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(path), hint=hint))
+            raise OutputError.of("changed-meanwhile", message, shown(path), hint=hint)
     problems, written = list[Diagnostic](), 0
     for path, (old, new) in texts.items():
         try:

@@ -242,7 +242,7 @@ def _edit_file(conflict: Conflict) -> Path:
     file = editor.edit(PurePosixPath(conflict.path).name, encode(proposal))
     if flaw := _flaw(file.read_bytes(), conflict):
         message, hint = f"the edited text {flaw}; nothing was changed", f"it stays in {file}; --edit begins anew"
-        raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-edit", message, conflict.path, hint=hint))
+        raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint)
     return file
 
 

@@ -18,7 +18,7 @@ import msgspec
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, SourceError, UrdfsyncError
 from urdfsync.diff.revisions import Revision
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -199,7 +199,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     path = Store(config.root).expansion(robot.name)
     if (found := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"
-        raise SourceError(Diagnostic(Severity.ERROR, "broken-state", message, revision.label(path), hint=hint))
+        raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
     return Source(found.text.encode(), label)
 
 
