@@ -10,6 +10,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import msgspec
 
@@ -110,7 +111,7 @@ def _meant(name: str, known: Iterable[str]) -> str:
 def _call(args: argparse.Namespace, console: Console) -> int:
     """Run the command. What fails while it is cleared away after an interruption is that interruption."""
     try:
-        return int(args.run(args, console))
+        return int(_module(args.command).run(args, console))
     except Exception as error:
         cause = error.__context__
         while cause is not None and not isinstance(cause, KeyboardInterrupt):
@@ -168,5 +169,9 @@ def _parser(given: Sequence[str]) -> arguments.Parser:
     parser.add_argument("--version", action="version", version=f"urdfsync {__version__}")
     commands = parser.add_subparsers(title="commands", dest="command", metavar="COMMAND", required=True)
     for name in names:
-        importlib.import_module(f"urdfsync.commands.{name.replace('-', '_')}").add(commands)
+        _module(name).add(commands)
     return parser
+
+
+def _module(command: str) -> Any:
+    return importlib.import_module(f"urdfsync.commands.{command.replace('-', '_')}")

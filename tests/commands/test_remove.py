@@ -51,17 +51,16 @@ def test_a_robot_leaves(plant: Path, execute: Execute) -> None:
     assert execute("build").lines == ["ladder: in step, 14 files"]
 
 
-def test_edited_files_and_those_of_the_user_stay_and_are_named(plant: Path, execute: Execute) -> None:
+def test_edited_files_and_what_the_users_files_need_stay_and_are_named(plant: Path, execute: Execute) -> None:
     edit(f"{FILTER}/Elements/C1.mo", "end C1;", "// mine\nend C1;")
     Path(f"{FILTER}/Bench.mo").write_text("within Plant.Filter;\nmodel Bench\n  Elements.R1 r;\nend Bench;\n")
     with unchanged(plant):
         printed = execute("remove", "filter", "--dry-run")
-    assert [line for line in printed.lines if line.startswith("  stays")] == [
-        f"  stays      {FILTER}/Bench.mo  urdfsync did not write it",
-        f"  stays      {FILTER}/Elements/C1.mo  you edited it",
-        f"  stays      {FILTER}/Elements/C1Parameters.mo  your own files need it",
-        f"  stays      {FILTER}/Elements/package.mo  your own files need it",
-        f"  stays      {FILTER}/package.mo  your own files need it",
+    assert [line for line in printed.lines if line.endswith("kept")] == [
+        f"  orphan     {FILTER}/Elements/C1.mo  no longer generated, but you edited it; kept",
+        f"  needed     {FILTER}/Elements/C1Parameters.mo  no longer generated, but your files need it; kept",
+        f"  needed     {FILTER}/Elements/package.mo  no longer generated, but your files need it; kept",
+        f"  needed     {FILTER}/package.mo  no longer generated, but your files need it; kept",
     ]
     assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.err
     execute(*REMOVE)
@@ -84,7 +83,7 @@ def test_a_package_that_was_to_move_goes_from_its_old_place(plant: Path, execute
 
 def test_a_text_that_could_not_be_given_back_stays(plant: Path, execute: Execute) -> None:
     shutil.rmtree(plant / ".urdfsync/bases")
-    line = f"  stays      {FILTER}/Filter.mo  its text is not stored, and could not be given back"
+    line = f"  orphan     {FILTER}/Filter.mo  its text is not stored, and could not be given back"
     assert line in execute(*REMOVE).lines
     assert (plant / FILTER / "Filter.mo").is_file()
 

@@ -92,10 +92,13 @@ class Terminal:
 
 def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, execute: Execute) -> None:
     printed = execute(*COMMAND, "--yes")
-    assert printed.lines[:3] == [
-        "Cell.mo",
-        "     5 - connect(robot.elbowAxis, motor); // robot.elbowAxis",
-        "       + connect(robot.wristAxis, motor); // robot.elbowAxis",
+    assert printed.lines[1:7] == [
+        "    +++ Cell.mo",
+        "    @@ -3,7 +3,7 @@",
+        '       Arm.Arm robot; Real elbow = 1 "elbow";',
+        "     equation",
+        "    -  connect(robot.elbowAxis, motor); // robot.elbowAxis",
+        "    +  connect(robot.wristAxis, motor); // robot.elbowAxis",
     ]
     assert "7 lines in 3 files written" in printed.lines
     assert "Arm has no" not in printed.err
@@ -136,7 +139,7 @@ def test_without_a_word_of_the_user_the_lines_are_only_shown(
         assert len(notes) == 7
         assert last["message"] == message
         return
-    assert "       + connect(robot.wristAxis, motor); // robot.elbowAxis" in printed.lines
+    assert "    +  connect(robot.wristAxis, motor); // robot.elbowAxis" in printed.lines
     hint = "look at what is shown, then give --yes"
     assert printed.errors == ([] if options else [f"error: {message}; {hint} [not-confirmed]"])
 
@@ -150,13 +153,13 @@ def test_somebody_at_a_terminal_is_asked(
     assert texts() == (FILES if code else RENAMED)
 
 
-def test_a_file_that_is_saved_meanwhile_stops_all(
+def test_a_file_that_is_saved_before_the_answer_stays_and_nothing_is_built(
     user: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys, "stdin", Terminal("y", "../plant/Bench.mo"))
     found = execute(*COMMAND, code=2).words
-    assert "Bench.mo: error: it has changed since it was read, so nothing was written; " in found
-    assert texts() == {**FILES, "../plant/Bench.mo": "saved"}
+    assert "Bench.mo: error: it has changed meanwhile, and stays as it is now; " in found
+    assert texts() == {**RENAMED, "../plant/Bench.mo": "saved"}
     assert Path("modelica/Arm/Joints/Elbow.mo").exists()
 
 

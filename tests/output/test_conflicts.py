@@ -114,29 +114,31 @@ def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> No
     base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
     generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
     found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
-    assert seen(found)[5:16] == [
-        "    within Arm;",
-        "    model Elbow",
-        "    <<<<<<< mine",
-        "      Real a = 7;",
-        "    ||||||| base",
-        "      Real a = 1;",
-        "    =======",
-        "      Real a = 9;",
-        "    >>>>>>> generated",
+    assert seen(found)[7:19] == [
+        "    @@ -1,5 +1,11 @@",
+        "     within Arm;",
+        "     model Elbow",
+        "    +<<<<<<< mine",
+        "       Real a = 7;",
+        "    +||||||| base",
+        "    +  Real a = 1;",
+        "    +=======",
+        "    +  Real a = 9;",
+        "    +>>>>>>> generated",
         "",
-        "      Real b = 3;",
+        "       Real b = 3;",
     ]
 
 
-def test_between_two_contradictions_a_gap_is_marked() -> None:
+def test_between_two_contradictions_there_is_a_gap() -> None:
     between = "".join(f"  Real x{number};\n" for number in range(9))
     base, mine, generated = (text.replace("  Real b = 2", f"{between}  Real b = 2") for text in (BASE, *OPPOSED))
     mine, generated = mine.replace("b = 2", "b = 7"), generated.replace("b = 2", "b = 9")
     found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
     lines = seen(found, verbose=True)
-    gap = lines.index("    …")
-    assert lines[gap - 1 : gap + 2] == ["      Real x0;", "    …", "      Real x7;"]
+    gap = lines.index("       Real x0;") + 1
+    assert lines[gap].startswith("    @@ -")
+    assert lines[gap + 1] == "       Real x7;"
 
 
 NEW_NAME = texts_of(*OPPOSED, origin="modelica/Arm/Shoulder.mo")

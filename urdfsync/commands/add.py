@@ -18,7 +18,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "add",
-        run,
         help="add a robot to urdfsync.toml",
         description="Add a table to urdfsync.toml for each source, with guesses and their reasons. What is there stays "
         "as it is.",

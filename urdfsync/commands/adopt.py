@@ -30,7 +30,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "adopt",
-        run,
         "--wait --trust",
         help="take over packages that exist already; what differs counts as your edits",
         description="Build robots whose packages were there before: written by another tool, or by urdfsync, whose "

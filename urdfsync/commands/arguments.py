@@ -6,9 +6,11 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias, TypeVar
+
+import msgspec
 
 from urdfsync import config
 from urdfsync.config import Config, RobotConfig
@@ -48,6 +50,7 @@ class Parser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
 
+Options = TypeVar("Options", bound=msgspec.Struct)
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 
@@ -77,6 +80,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     },
     "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
     "--set": {
+        "dest": "values",
         "action": "append",
         "metavar": "NAME=VALUE",
         "default": [],
@@ -84,11 +88,14 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     },
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
+        "dest": "trusted",
         "action": "store_true",
-        "help": "write to an `output` outside of the configuration's folder, and run a robot's `command` and, for "
-        "checks, OpenModelica if the configuration chooses it",
+        "help": "write to an `output` outside of the configuration's folder, run a robot's `command`, and start "
+        "OpenModelica though the configuration chooses it, or names its program with `omc`",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
+    "--timeout": {"type": amount, "metavar": "S", "default": 600, "help": "seconds for a robot (default: 600)"},
+    "--memory": {"type": amount, "metavar": "GB", "help": "memory for all of it (default: most of what is free)"},
     # never from the configuration: workers may do whatever they want
     "--executor": {
         "default": "",
@@ -99,15 +106,13 @@ _SHARED: Mapping[str, dict[str, Any]] = {
 """Arguments and options that more than one command takes."""
 
 
-def add_command(
-    commands: Commands, name: str, run: Callable[[argparse.Namespace, Console], int], shared: str = "", **texts: Any
-) -> Parser:
+def add_command(commands: Commands, name: str, shared: str = "", **texts: Any) -> Parser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has."""
     texts["epilog"] += "" if "exit codes" in texts["epilog"] else f"\n\n{CODES}"
     parser = commands.add_parser(name, **texts)
     for option in shared.split():
         parser.add_argument(option, **_SHARED[option])
-    parser.set_defaults(run=run, parser=parser)
+    parser.set_defaults(parser=parser)
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
     group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
@@ -117,23 +122,9 @@ def add_command(
 
 
 def add_tool(parser: Parser, tools: Sequence[str]) -> None:
-    """Add the option that chooses a compiler, or both, and the one that trusts a program of the configuration."""
+    """Add the option that chooses a compiler, or both."""
     which = "the compiler: rumoca, or omc for OpenModelica" + (", or both" if "both" in tools else "")
     parser.add_argument("--tool", choices=tools, help=f"{which} (default: as configured, else rumoca)")
-    add_program_trust(parser)
-
-
-def add_program_trust(parser: Parser) -> None:
-    """Add the option that trusts a program of the configuration."""
-    trust = "start OpenModelica though the configuration chooses it, or names its program with `omc`"
-    parser.add_argument("--trust", action="store_true", help=trust)
-
-
-def add_limits(parser: Parser, what: str, seconds: float) -> None:
-    """Add the options that limit the time and memory of a simulation or an export."""
-    text = f"seconds for {what} (default: {seconds:g})"
-    parser.add_argument("--timeout", type=amount, metavar="S", default=seconds, help=text)
-    parser.add_argument("--memory", type=amount, metavar="GB", help="memory for it (default: what is free)")
 
 
 def configuration(args: argparse.Namespace) -> Config:
@@ -161,16 +152,16 @@ def select_robot(args: argparse.Namespace, configuration: Config, console: Conso
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
-    """Return how to build: the options that all commands share, and `options`."""
-    return BuildOptions(
-        package_paths=config.ros_package_path(os.environ),
-        progress=console.progress,
-        wait=getattr(args, "wait", 60.0),
-        trusted=getattr(args, "trust", False),
-        jobs=getattr(args, "jobs", None),
-        executor=getattr(args, "executor", ""),
-        **options,
-    )
+    """Return how to build, as the arguments and `options` say."""
+    return options_of(args, BuildOptions, progress=console.progress, **options)
+
+
+def options_of(args: argparse.Namespace, kind: type[Options], **others: Any) -> Options:
+    """Return options of a `kind`: its fields are arguments of the same name, or `others`."""
+    fields = kind.__struct_fields__
+    given = {name: tuple(value) if isinstance(value, list) else value for name, value in vars(args).items()}
+    chosen = {name: value for name, value in given.items() if name in fields}
+    return kind(**{"package_paths": config.ros_package_path(os.environ), **chosen, **others})
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:

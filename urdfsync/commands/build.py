@@ -31,7 +31,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "build",
-        run,
         "robots --robot --wait --trust --jobs --executor",
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
@@ -40,7 +39,9 @@ def add(commands: arguments.Commands) -> None:
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
-    mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
+    mode.add_argument(
+        "--svg", dest="draw", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/"
+    )
     parser.add_argument(
         "--merge",
         action="store_true",
@@ -61,7 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.merge:
         robots = [msgspec.structs.replace(robot, on_conflict="merge") for robot in robots]
     dry = args.dry_run or args.check
-    request = arguments.request(args, console, full=args.full, dry=dry, draw=args.svg)
+    request = arguments.request(args, console, dry=dry)
     results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Iterable
 
-from urdfsync import config
 from urdfsync.check import run as run_checks
 from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.report import closing_lines, robot_lines, to_json
@@ -16,17 +14,13 @@ from urdfsync.check.tools import BOTH, chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.output.console import Console, has_marks
 
-_CHECK_OPTIONS = ("physics", "strict", "jobs", "timeout", "memory", "wait", "executor")
-"""Fields of `CheckOptions` that the user may set."""
-
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = arguments.add_command(
         commands,
         "check",
-        run,
-        "robots --robot --wait --executor",
+        "robots --robot --wait --trust --executor --timeout --memory",
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
@@ -34,29 +28,20 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync check arm --physics\n"
         "          urdfsync check --physics --strict --timeout 60 --json",
     )
-    option, default = parser.add_argument, CheckOptions()
+    option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
     arguments.add_tool(parser, (*COMPILERS, BOTH))
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
-    seconds = f"seconds for a robot (default: {default.timeout:g})"
-    option("--timeout", type=arguments.amount, metavar="S", default=default.timeout, help=seconds)
-    option(
-        "--memory",
-        type=arguments.amount,
-        metavar="GB",
-        help="memory for all robots together (default: most of what is free)",
-    )
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the packages of the robots, and show each as soon as it is checked."""
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
-    chosen = {name: getattr(args, name) for name in _CHECK_OPTIONS}
-    tools = chosen_tools(configuration, args.tool, trusted=args.trust)
-    options = CheckOptions(tools=tools, package_paths=config.ros_package_path(os.environ), **chosen)
+    tools = chosen_tools(configuration, args.tool, trusted=args.trusted)
+    options = arguments.options_of(args, CheckOptions, tools=tools)
     found = run_checks.check_robots(configuration, robots, options, console.progress)
     results = show_results(console, found, args.strict)
     return console.end(exit_code(results, args.strict))

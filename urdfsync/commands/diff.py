@@ -38,7 +38,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "diff",
-        run,
         "--robot --wait",
         help="show what changed in the sources since the last build",
         description="Show what changed in a source since the last build, or since another version of it: by element, "

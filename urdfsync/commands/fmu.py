@@ -9,7 +9,7 @@ from pathlib import Path
 from urdfsync.check.compilers.compiler import Export
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.commands.simulate import input_files, simulate_options
+from urdfsync.commands.simulate import input_files
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
@@ -30,8 +30,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "fmu",
-        run,
-        "--robot --wait --set",
+        "--robot --wait --trust --set --timeout --memory",
         help="export a robot as FMU, by OpenModelica",
         description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
         "It has the inputs and outputs of the model by their names. OpenModelica has to be there. With --check FMPy "
@@ -55,8 +54,6 @@ def add(commands: arguments.Commands) -> None:
     option("--step", type=arguments.amount, metavar="S", help="the step that it proposes (default: likewise)")
     option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
-    arguments.add_program_trust(parser)
-    arguments.add_limits(parser, "each step", SimulateOptions().timeout)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -75,8 +72,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:
         check_file(args.output, input_files(configuration, robot, args.motion))
-    (tool,) = chosen_tools(configuration, "omc", trusted=args.trust)
-    options = simulate_options(args, tool)
+    (tool,) = chosen_tools(configuration, "omc", trusted=args.trusted)
+    options = arguments.options_of(args, SimulateOptions, tool=tool)
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
     file = args.output or _default_file(exported)

@@ -50,7 +50,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "hook",
-        run,
         "--wait --jobs",
         help="build or check what is being committed; for hooks of git",
         description="Build or check the robots that a commit touches, and make sure that all of it is staged. "

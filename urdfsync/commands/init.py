@@ -60,7 +60,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "init",
-        run,
         help="write a commented urdfsync.toml",
         description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",

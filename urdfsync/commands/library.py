@@ -18,7 +18,6 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_command(
         commands,
         "library",
-        run,
         help="print where the Modelica library is",
         description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
         "Into a pipe or a file goes the line alone.",

@@ -25,7 +25,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "merge-driver",
-        run,
         help="let git merge Modelica files by their elements",
         description="Let git merge Modelica files by the elements of their classes, in merges, rebases and "
         "cherry-picks. With --install, tell git in this clone. Without, git calls it: what changed from BASE to OTHER "

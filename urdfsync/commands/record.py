@@ -29,7 +29,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "record",
-        run,
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "

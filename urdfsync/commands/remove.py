@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
-from collections.abc import Iterator
-from pathlib import Path
 
 from urdfsync import tomlfile
 from urdfsync.commands import arguments
@@ -17,7 +14,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.conflicts import shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines
+from urdfsync.output.console import Console, first_lines
 from urdfsync.output.phrases import action_counts
 from urdfsync.output.results import action_word, file_line, headline, show_result
 from urdfsync.state.transaction import save
@@ -32,7 +29,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "remove",
-        run,
         "--wait --trust",
         help="take a robot out of urdfsync.toml, with its package",
         description="Take a robot's table out of urdfsync.toml, with all files of its package that nobody edited, its "
@@ -56,45 +52,33 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _without_robot(configuration, name, configuration.file.read_bytes())  # refuses a table that can't be taken out
     if not args.yes:
         (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
-        _show(console, result, f"its table in {shown(configuration.file)} goes", with_files=True)
+        _show(console, result, f"its table in {shown(configuration.file)} goes")
     if args.yes or not (args.dry_run or result.failed or not arguments.is_confirmed("Remove it?", "removed", console)):
         # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
         for result in build(configuration, robots, arguments.request(args, console, removes=True)):
             if not result.failed:
                 _take_out(configuration, name)
-            _show(console, result, "removed", with_files=args.yes)
+            _show(console, result, "removed")
     return console.end(exit_code([result]))
 
 
-def _show(console: Console, result: Result, words: str, *, with_files: bool) -> None:
-    """Show what was done, or would be."""
+def _show(console: Console, result: Result, words: str) -> None:
+    """Show what was done, or would be, with each file that goes, changes or stays."""
     if console.json or result.failed:
         show_result(console, result)
         return
-    console.findings(result.diagnostics if with_files else ())
-    if not console.quiet:
-        console.print([headline(result, "; ".join([words, *action_counts(result, _STAYS)]), is_fine=True)])
-        console.print(_lines(result, console.verbose) if with_files else ())
-
-
-def _lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the files that go or change, and those that stay."""
-    changed = [action for action in result.actions if action.writes]
-    lines = [file_line(shown_path(result, one.path), *action_word(one)) for one in changed]
-    yield from first_lines(lines, _FILES, "file", verbose=verbose)
-    paths = {os.path.normpath(result.root / one.path) for one in changed}
-    kept = (action for action in result.actions if action.reason in _STAYS)
-    reasons = {os.path.normpath(result.root / one.path): _reason(one) for one in kept}
-    there = {str(path) for path in result.folder.rglob("*") if not path.is_dir()}
-    for path in sorted(there.union(reasons) - paths):
-        yield file_line(shown(Path(path)), "stays", "yellow", reasons.get(path, "urdfsync did not write it"))
+    console.findings(result.diagnostics)
+    console.tell([headline(result, "; ".join([words, *action_counts(result, _STAYS)]), is_fine=True)])
+    decided = [action for action in result.actions.decided if action.writes or action.reason in _STAYS]
+    files = [file_line(shown_path(result, action.path), *action_word(action), _reason(action)) for action in decided]
+    console.tell(first_lines(files, _FILES, "file", verbose=console.verbose))
 
 
 def _reason(action: Action) -> str:
-    """Return why a file stays."""
-    if action.reason is Reason.NEEDED:
-        return "your own files need it"
-    return "you edited it" if action.mine != action.base else "its text is not stored, and could not be given back"
+    """Return why a file stays; empty if it does not."""
+    if action.reason is Reason.ORPHAN and action.mine == action.base:
+        return "its text is not stored, and could not be given back"
+    return action.reason.text if action.reason in _STAYS else ""
 
 
 def _take_out(configuration: Config, robot: str) -> None:

@@ -9,11 +9,11 @@ from pathlib import Path
 from urdfsync.commands import arguments
 from urdfsync.commands.build import build_and_check
 from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
-from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.rename_uses import RenamedUses, rename_uses
 from urdfsync.engine.result import Exit, exit_code
 from urdfsync.files import failure, shown
+from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted
 from urdfsync.output.results import show_results
@@ -41,7 +41,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.tell(_lines(found))
     if not found.texts or args.dry_run:
         return console.end(code)
-    if not args.trust:
+    if not args.trusted:
         outputs = (find_untrusted_output(loaded, one) for one in found.robots)
         if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in found.texts)))]:
             raise ConfigError(*untrusted)
@@ -93,28 +93,13 @@ def _notes(found: RenamedUses) -> Iterator[Diagnostic]:
 
 
 def _lines(found: RenamedUses) -> Iterator[StyledLine]:
-    last = None
-    for path, number, old, new in _changed_lines(found):
-        if path != last:
-            yield line((shown(path), "bold"))
-        yield line((f"{number:>6} ", "dim"), (f"- {old}", "red"))
-        yield line(("       ", ""), (f"+ {new}", "green"))
-        last = path
+    for path, contents in found.texts.items():
+        old, new = (content.decode(errors="replace") for content in contents)
+        yield from difference_lines(old, new, shown(path), shown(path))
 
 
 def _write(texts: Mapping[Path, tuple[bytes, bytes]]) -> None:
-    """Write all files, or none if one of them is not what was shown. Raises OutputError.
-
-    One that is saved while the others are written stays as it was saved.
-    """
-    for path, (old, _) in texts.items():
-        try:
-            is_same = read_unrecorded(path) == old
-        except OSError as error:
-            raise failure(error, path, "it can't be read") from error
-        if not is_same:
-            message, hint = "it has changed since it was read, so nothing was written", "run the command again"
-            raise OutputError.of("changed-meanwhile", message, shown(path), hint=hint)
+    """Write all files but those that were saved since they were shown. Raises OutputError for these."""
     problems, written = list[Diagnostic](), 0
     for path, (old, new) in texts.items():
         try:

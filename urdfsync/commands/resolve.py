@@ -49,7 +49,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "resolve",
-        run,
         "--robot --wait --trust",
         help="settle conflicts between your edits and what is generated",
         description="Settle conflicts between your edits and what is generated. "

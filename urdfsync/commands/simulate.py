@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import os
 import threading
 from pathlib import Path
-from typing import Any
 
-from urdfsync import config
 from urdfsync.check.compilers import COMPILERS
-from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.tools import chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
@@ -23,17 +19,13 @@ from urdfsync.simulate.report import result_lines, to_json
 from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
 from urdfsync.simulate.run import simulate
 
-_OPTIONS = ("model", "stop", "step", "tolerance", "motion", "timeout", "memory", "wait")
-"""Fields of `SimulateOptions` that are arguments of the same name."""
-
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = arguments.add_command(
         commands,
         "simulate",
-        run,
-        "--robot --wait --set",
+        "--robot --wait --trust --set --timeout --memory",
         help="simulate a robot, and hold its joints against their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
@@ -58,10 +50,9 @@ def add(commands: arguments.Commands) -> None:
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
     option("--parquet", type=Path, metavar="FILE", help="likewise")
     more = "a variable for these files as well, such as 'robot.hand.*'; may be repeated"
-    option("--variable", action="append", metavar="PATTERN", default=[], help=more)
+    option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     arguments.add_tool(parser, tuple(COMPILERS))
-    arguments.add_limits(parser, "all of it", SimulateOptions().timeout)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -75,8 +66,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
         later.daemon = True
         later.start()
-    tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trust)
-    options = simulate_options(args, tool, method=args.method, variables=tuple(args.variable))
+    tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trusted)
+    options = arguments.options_of(args, SimulateOptions, tool=tool)
     result = simulate(configuration, robot, options, console.progress)
     write_outputs(files, result)
     console.add_robot(to_json(result, files))
@@ -85,13 +76,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
     stopped = any(one.severity is Severity.ERROR for one in result.diagnostics)
     code = Exit.ERROR if stopped else Exit.IN_STEP
     return console.end(code)
-
-
-def simulate_options(args: argparse.Namespace, tool: Tool, **others: Any) -> SimulateOptions:
-    """Return how to simulate, as the arguments say."""
-    chosen = {name: getattr(args, name) for name in _OPTIONS}
-    paths = config.ros_package_path(os.environ)
-    return SimulateOptions(tool=tool, values=tuple(args.set), package_paths=paths, **chosen, **others)
 
 
 def input_files(configuration: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:

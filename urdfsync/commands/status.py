@@ -44,7 +44,6 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_command(
         commands,
         "status",
-        run,
         "robots --robot --wait",
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
@@ -63,7 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if console.json:
             console.add_robot(result_values(result))
             continue
-        show_findings(console, result)
+        show_findings(console, result, result.diagnostics)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)

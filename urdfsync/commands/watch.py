@@ -35,7 +35,6 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "watch",
-        run,
         "robots --robot --wait --trust --jobs",
         help="keep the packages in step while their sources change",
         description="Build whenever a source, a mesh, a template or a generated file has changed, until interrupted.",

@@ -30,8 +30,6 @@ _ELEMENTS = 5
 """So many changes of each side are listed."""
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
-_MARKS = {"<": "cyan", "|": "red", "=": "green", ">": ""}
-"""Styles of the lines below a marker, by its sign: the user's, those of the base, the generated ones, all others."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 """Styles of the lines of a difference, by how they begin."""
 
@@ -202,28 +200,11 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 
 def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
-    """Yield the contradictions between their markers, as `--edit` has them; without any, what a merge would change."""
-    if not (texts.merge and texts.merge.contradictions):
-        name, new = ("merge", texts.merge.proposal) if texts.merge else ("generated", texts.generated)
-        yield from difference_lines(texts.mine, new, "mine", name)
-        return
-    lines, style, styles = _split_lines(texts.merge.proposal), "", []
-    for text in lines:
-        is_marker = len(text) >= len("=======") and text[:7] == text[:1] * 7 and text[0] in _MARKS
-        style = _MARKS[text[0]] if is_marker else style
-        styles.append("bold" if is_marker else style or None)
-    near = {
-        number
-        for at, one in enumerate(styles)
-        if one
-        for number in range(max(at - _CONTEXT, 0), min(at + _CONTEXT + 1, len(lines)))
-    }
-    last = -1
-    for number in sorted(near):
-        if number > last + 1 > 0:
-            yield line(("    …", "dim"))
-        yield _text_line(lines[number], styles[number] or "dim")
-        last = number
+    """Yield the markers around contradictions, as `--edit` has them; without any, what a merge would change."""
+    if texts.merge is None:
+        return difference_lines(texts.mine, texts.generated, "mine", "generated")
+    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # with all that fits together
+    return difference_lines(old, texts.merge.proposal, "mine", "merge")
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:

@@ -14,8 +14,8 @@ from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
-from urdfsync.output.phrases import change_counts, change_lines, counted, reason, summary
-from urdfsync.output.repeated import has_same_changes, show_findings
+from urdfsync.output.phrases import change_lines, counted, reason, summary
+from urdfsync.output.repeated import show_findings
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -72,29 +72,21 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
     if console.json:
         console.add_robot(result_values(result))
         return
-    is_brief = not (console.verbose or explain) and has_same_changes(result)
-    show_findings(console, result)
+    show_findings(console, result, result.diagnostics)
     if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return
     lines = [headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))]
     if not console.quiet:
-        lines += result_lines(result, verbose=console.verbose, explain=explain, is_brief=is_brief)
+        lines += result_lines(result, verbose=console.verbose, explain=explain)
     console.print(lines, error=result.failed)
     if result.conflicts:
         console.print(conflict_lines(result, console), error=result.failed)
 
 
-def result_lines(
-    result: Result, *, verbose: bool, explain: bool = False, is_brief: bool = False
-) -> Iterator[StyledLine]:
-    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file.
-
-    If `is_brief`, changes are counted.
-    """
-    if result.effective_changes and is_brief:
-        yield line((f"  {change_counts(result.effective_changes)}, as before; --verbose lists them", "dim"))
-    elif result.effective_changes:
+def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
+    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
+    if result.effective_changes:
         most = None if verbose or explain else _CHANGES
         changed = map(change_line, change_lines(result.effective_changes, most, everything=verbose))
         yield from first_lines(list(changed), _CHANGES, "line", verbose=verbose or explain)
