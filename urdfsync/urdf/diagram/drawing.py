@@ -19,7 +19,7 @@ from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling", "sensor"]
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
-"""Of the legend: what it is of, its text, its place, and its width."""
+"""Entry of the legend: the kind of its icon, its text, its place (x, y), and its width."""
 
 # Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
 # a viewer scrolls over a wide robot.
@@ -137,7 +137,7 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
     nets = defaultdict[tuple[LineKind, str], list[Path]](list)
     for ends, (kind, points) in diagram.lines.items():
         nets[kind, max(ends, key=uses.__getitem__)].append(points)
-    found: list[tuple[LineKind, Point]] = []
+    junctions: list[tuple[LineKind, Point]] = []
     for (kind, _), paths in nets.items():
         across, upright = (defaultdict[int, set[tuple[int, int]]](set) for _ in range(2))
         for (x1, y1), (x2, y2) in (sorted(pair) for path in paths for pair in itertools.pairwise(path)):
@@ -150,13 +150,13 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
             sides = [(across[y], x - 1), (across[y], x + 1), (upright[x], y - 1), (upright[x], y + 1)]
             ways = [any(start < step < end for start, end in segments) for segments, step in sides]
             if sum(ways) > 2:
-                found.append((kind, (x, y)))
-    return sorted(found)
+                junctions.append((kind, (x, y)))
+    return sorted(junctions)
 
 
 def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_Entry], int]:
     """Return the entries of the legend, in as many rows as it takes, and where it ends below."""
-    found: list[_Entry] = []
+    entries: list[_Entry] = []
     x, y = float(start[0]), start[1]
     for kind, text in _LEGENDS.items():
         room = 15 + _width(text, _FONT)
@@ -164,9 +164,9 @@ def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_
             continue
         if x > start[0] and x + room > right:
             x, y = float(start[0]), y + _LEGEND
-        found.append((kind, text, x, y, room))
+        entries.append((kind, text, x, y, room))
         x += room
-    return found, y + _LEGEND
+    return entries, y + _LEGEND
 
 
 def _fit(text: str, size: float, room: float) -> tuple[str, str]:

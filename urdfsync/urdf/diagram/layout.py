@@ -36,7 +36,7 @@ Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _Spans: TypeAlias = dict[str, list[int]]
-"""Per leader, the places from the first to the last of which its lines run."""
+"""Places per leader; its lines run from the first to the last of them."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -84,7 +84,7 @@ class Placement(NamedTuple):
 
     @property
     def centre(self) -> Point:
-        """The middle of the rectangle."""
+        """Middle of the rectangle."""
         return (self.x1 + self.x2) // 2, (self.y1 + self.y2) // 2
 
     def port(self, connector: str) -> Point:
@@ -94,7 +94,7 @@ class Placement(NamedTuple):
 
 
 class Diagram(NamedTuple):
-    """A finished layout on a grid of 2, by component names.
+    """A finished layout, by component names; all coordinates are even.
 
     `extent` (x1, y1, x2, y2) holds everything. A line leads from the first of its two ends, as they stand in the
     connect equation, to the second; lines at one of the model's own connectors end in its middle.
@@ -109,13 +109,13 @@ class _Grid(NamedTuple):
     """Points of the diagram by URDF names, and its edges."""
 
     links: Mapping[str, Point]
-    """Where a link's trunk meets the spine of its row."""
+    """Points at which the trunk of a link meets the spine of its row."""
     joints: Mapping[str, Point]
-    """Where the trunk of a joint's parent meets the spine of the joint's row."""
+    """Points at which the trunk of a joint's parent meets the spine of the joint's row."""
     couplings: Mapping[str, Point]
-    """Their middles, by follower."""
+    """Middles of the couplings, by follower."""
     detours: Mapping[str, Point]
-    """By follower: where the line to its leader leaves the gap between columns for the leader's row."""
+    """Points, by follower, at which the line to its leader leaves the gap between columns for the leader's row."""
     top: int
     right: int
     bottom: int
@@ -139,13 +139,13 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     # Tracks for lines to leaders, above each row and left of each column. A leader that does not move has no line.
     moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
     leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if mimic.joint in moving}
-    above, left = (defaultdict[int, _Spans](lambda: defaultdict(list)) for _ in range(2))
+    spans_above, spans_left = (defaultdict[int, _Spans](lambda: defaultdict(list)) for _ in range(2))
     for follower, leader in leaders.items():
         (row, column), (follower_row, follower_column) = joints[leader], joints[follower]
-        above[row][leader] += column, follower_column
-        left[follower_column][leader] += row, follower_row
-    tracks_above = [_tracks(above[row]) for row in range(last_row + 1)]
-    tracks_left = [_tracks(left[column]) for column in range(last_column + 1)]
+        spans_above[row][leader] += column, follower_column
+        spans_left[follower_column][leader] += row, follower_row
+    tracks_above = [_tracks(spans_above[row]) for row in range(last_row + 1)]
+    tracks_left = [_tracks(spans_left[column]) for column in range(last_column + 1)]
 
     with_axes = {joints[name][0] for name in names.drives}
     with_motors = {joints[name][0] for name, drive in names.drives.items() if drive.motor}
@@ -277,23 +277,23 @@ def _lines(
         return placements[component].port(port) if port else placements[component].centre
 
     def connect_frames(start: str, end: str, link: str) -> None:
-        one, other, (trunk, _) = place(start), place(end), grid.links[link]
-        lines[start, end] = "frame", _path([one, (trunk, one[1]), (trunk, other[1]), other])
+        start_point, end_point, (trunk, _) = place(start), place(end), grid.links[link]
+        lines[start, end] = "frame", _path([start_point, (trunk, start_point[1]), (trunk, end_point[1]), end_point])
 
     for name in grid.links:
-        own = f"{tree.link(name).component}.frame_a"
+        frame_a = f"{tree.link(name).component}.frame_a"
         if name == tree.links[0].name:
-            connect_frames("frame_a", own, name)
+            connect_frames("frame_a", frame_a, name)
         if name in names.frames:
-            connect_frames(own, names.frames[name], name)
+            connect_frames(frame_a, names.frames[name], name)
         for called in carried[name]:
-            connect_frames(own, f"{names.sensors[called]}.frame_a", name)
+            connect_frames(frame_a, f"{names.sensors[called]}.frame_a", name)
             if frame := names.sensor_frames.get(called):
                 port = f"{names.sensors[called]}.frame_b"
                 lines[port, frame] = "frame", (place(port), place(frame))
         for joint in children.get(name, ()):
             component = tree.joint(joint.name).component
-            connect_frames(own, f"{component}.frame_a", name)
+            connect_frames(frame_a, f"{component}.frame_a", name)
             connect_frames(f"{component}.frame_b", f"{tree.link(joint.child).component}.frame_a", joint.child)
     for name, drive in names.drives.items():
         axis, support = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support"))
@@ -307,17 +307,17 @@ def _lines(
     for joint, mimic in tree.followers():
         name, coupling = joint.name, names.couplings[joint.name]
         start, axis = f"{coupling}.follower", f"{tree.joint(name).component}.axis"
-        one, other = place(start), place(axis)
-        lines[start, axis] = motions[name], _path([one, (other[0], one[1]), other])
+        start_point, end_point = place(start), place(axis)
+        lines[start, axis] = motions[name], _path([start_point, (end_point[0], start_point[1]), end_point])
         if name in grid.detours:
             leader = mimic.joint
             start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[name]
-            one, other = place(start), place(axis)
-            bends = [(other[0], y)]
+            start_point, end_point = place(start), place(axis)
+            bends = [(end_point[0], y)]
             if leader in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
-                aside = other[0] + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
-                bends = [(aside, y), (aside, other[1] + 2), (other[0], other[1] + 2)]
-            lines[start, axis] = motions[leader], _path([one, (x, one[1]), (x, y), *bends, other])
+                aside = end_point[0] + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
+                bends = [(aside, y), (aside, end_point[1] + 2), (end_point[0], end_point[1] + 2)]
+            lines[start, axis] = motions[leader], _path([start_point, (x, start_point[1]), (x, y), *bends, end_point])
     return lines
 
 
@@ -340,11 +340,13 @@ def _count(tracks: Mapping[str, int]) -> int:
 
 def _path(points: Iterable[Point]) -> Path:
     """Return the polyline without repeated points and without points inside a straight run."""
-    found: list[Point] = []
+    corners: list[Point] = []
     for point in points:
-        if found and point == found[-1]:
+        if corners and point == corners[-1]:
             continue
-        if len(found) > 1 and (found[-2][0] == found[-1][0] == point[0] or found[-2][1] == found[-1][1] == point[1]):
-            found.pop()
-        found.append(point)
-    return tuple(found)
+        if len(corners) > 1:
+            (x1, y1), (x2, y2) = corners[-2:]
+            if x1 == x2 == point[0] or y1 == y2 == point[1]:
+                corners.pop()
+        corners.append(point)
+    return tuple(corners)

@@ -24,7 +24,7 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def guess_base(robot: Robot) -> Proposal:
-    """Guess from names whether a robot stands on the ground by itself; the reason tells the name that decided."""
+    """Guess from names whether a robot stands on the ground by itself. The reason has the name that decides."""
     root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":
         return Proposal("base", "fixed", f'its root link is named "{root}"')
@@ -33,7 +33,7 @@ def guess_base(robot: Robot) -> Proposal:
     turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
     for limbs, pattern in _LIMBS:
         for kind, names in (("link", {j.child for j in turning}), ("joint", {j.name for j in turning})):
-            found = sorted((name for name in names if pattern.search(_CAMEL.sub(" ", name))), key=natural_key)
-            if len(found) > 1:
-                return Proposal("base", "floating", f'{kind} "{found[0]}" and others sound like {limbs}')
+            matches = sorted((name for name in names if pattern.search(_CAMEL.sub(" ", name))), key=natural_key)
+            if len(matches) > 1:
+                return Proposal("base", "floating", f'{kind} "{matches[0]}" and others sound like {limbs}')
     return Proposal("base", "fixed", "no link or joint sounds like wheels or legs")

@@ -42,7 +42,7 @@ class _Axis(msgspec.Struct, frozen=True):
         return moment > _ROUNDING**2 * (i.ixx + i.iyy + i.izz) or (inertial.mass > 0 and self._is_off(centre))
 
     def _is_off(self, point: Vector) -> bool:
-        lever = [one - other for one, other in zip(point, self.point, strict=True)]
+        lever = [coordinate - origin for coordinate, origin in zip(point, self.point, strict=True)]
         return math.hypot(*_cross(lever, self.direction)) > _ROUNDING * (math.hypot(*point) + math.hypot(*self.point))
 
 
@@ -51,7 +51,7 @@ def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None =
 
     `passive` are joints without a drive; None for all. A joint is massless if no link below it has inertia about its
     axis, and its drive adds none. Links below a passive joint on the same axis do not count: that joint lets them stand
-    still. What followers of a joint move counts for it; they themselves are left out.
+    still. The links that a follower moves count for its leader; followers are not in the result.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}

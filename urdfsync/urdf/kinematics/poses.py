@@ -37,7 +37,8 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
     up, ahead = 2 * (x * y + w * z), 1 - 2 * (y * y + z * z)
     yaw = math.atan2(up, ahead)
     pitch = math.atan2(2 * (w * y - x * z), math.hypot(up, ahead))
-    # from what the turn back by yaw leaves, so that the errors of both cancel where the two turn about one axis
+    # roll is that of the orientation turned back by yaw: at a pitch of ±π/2, where both turn about one axis, the errors
+    # of the two cancel
     s, c = math.sin(yaw), math.cos(yaw)
     sine = 2 * s * (x * z + w * y) - 2 * c * (y * z - w * x)
     cosine = c * (1 - 2 * (x * x + z * z)) - 2 * s * (x * y - w * z)
@@ -78,12 +79,12 @@ def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[s
 
 
 def start_positions(tree: KinematicTree) -> Mapping[str, float]:
-    """Return where each joint is at the beginning: as close to zero as its limits and those of its followers allow."""
+    """Return where each joint starts: as close to zero as its limits and those of its followers allow."""
     ranges = {joint.name: own_range(joint) for joint in tree.joints}
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
         for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
-            if abs(mimic.multiplier) > math.ulp(1):  # with a smaller one the follower hardly moves: no end is reached
+            if abs(mimic.multiplier) > math.ulp(1):  # else the follower hardly moves, and reaches no limit
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])

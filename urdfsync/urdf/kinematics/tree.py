@@ -29,7 +29,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
     """In natural order of their names."""
 
     def __hash__(self) -> int:
-        """Return a hash of the elements; their names have none."""
+        """Return a hash of the elements; the mapping of their names has none."""
         return hash((self.links, self.joints, self.sensors))
 
     @classmethod
@@ -86,11 +86,11 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(link for link in self.links if link.name not in parents)
 
     def axes(self, motion: Motion) -> tuple[Joint, ...]:
-        """Return the joints with an axis of that kind that can be driven: all but those that follow another one."""
+        """Return the joints of that kind of motion that can be driven: all but those that follow another one."""
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:
-        """Yield the joints that follow another joint, and how."""
+        """Yield the joints that follow another joint, each with its relation to that."""
         return ((joint, joint.mimic) for joint in self.joints if joint.mimic is not None)
 
     def followers_by_leader(self) -> Mapping[str, tuple[tuple[Joint, Mimic], ...]]:

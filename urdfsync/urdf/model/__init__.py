@@ -1,1 +1,1 @@
-"""Robot to template data."""
+"""The data of templates, made from a robot."""

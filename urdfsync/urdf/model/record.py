@@ -27,7 +27,7 @@ def record_data(
 ) -> dict[str, Any]:
     """Return the data of the record of a whole robot; `name` is the robot's in the URDF.
 
-    All is counted from 1. Without a package around it, the record itself names the libraries that it uses.
+    All is counted from 1. A record outside of a package names the libraries that it uses.
     """
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
     links, joints, drawn = [], [], []
@@ -51,14 +51,14 @@ def record_data(
     numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
     moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
 
-    def referred(found: list[Joint]) -> list[dict[str, Any]]:
+    def referred(referred_joints: list[Joint]) -> list[dict[str, Any]]:
         return [
             {
                 "component": tree.joint(joint.name).component,
                 "type": joint.type,
                 "has_inertia": reflected_inertia(joint) is not None,
             }
-            for joint in found
+            for joint in referred_joints
         ]
 
     axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges

@@ -26,7 +26,7 @@ _FRAME_Y = -50  # where the benches of the library have the frame that the robot
 
 
 def joint_title(joint: Joint) -> str:
-    """Return what a joint is, in words."""
+    """Return a description of a joint: its type, its name and its links."""
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
 
 
@@ -46,8 +46,8 @@ def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
 def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
     """Return the data of the robot model; `tree` has no numbers.
 
-    A build compares the data with those of the last build, which mostly had the same tree. Serves the rows "one mass
-    changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
+    The last data are kept, since a build compares the data with those of the last build, which mostly had the same
+    tree. Serves the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     couplings: dict[str, dict[str, Any]] = {
@@ -142,7 +142,7 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
 
 
 def _icon_top(names: Connectors) -> int:
-    """Return where the icon ends above: over the picture there is a row for each connector at one side."""
+    """Return the upper end of the icon: above the picture, it has a row for each connector at one side."""
     rows = max(len(names.frames) + len(names.sensor_frames), len(names.drives))
     return _PICTURE + _ROW * rows + 10 if rows else _PICTURE
 

@@ -15,7 +15,7 @@ _OUTPUTS = {
     "imu": (("a", "m/s2", "acceleration minus gravity"), ("w", "rad/s", "angular velocity")),
     "force_torque": (("f", "N", "force"), ("t", "N.m", "torque")),
 }
-"""By kind: the outputs of a sensor, their units, and what they are."""
+"""Outputs of a sensor by its kind: name, unit, and quantity in words."""
 
 
 def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
@@ -56,9 +56,9 @@ def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any
             "component": names.sensors[sensor.name],
             "output": output,
             "unit": unit,
-            "text": f'{what} that sensor "{sensor.name}" shows',
+            "text": f'{quantity} that sensor "{sensor.name}" shows',
         }
         for sensor in tree.sensors
-        for output, unit, what in _OUTPUTS.get(sensor.kind, ())
+        for output, unit, quantity in _OUTPUTS.get(sensor.kind, ())
     ]
-    return [one | {"y": _TOP - _ROW * k, "icon_y": _ICON_TOP - _ICON_ROW * k} for k, one in enumerate(outputs)]
+    return [row | {"y": _TOP - _ROW * k, "icon_y": _ICON_TOP - _ICON_ROW * k} for k, row in enumerate(outputs)]

@@ -25,11 +25,11 @@ _IN_MODEL = ("component", "type", "label", "is_collision", "y")
 def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return a link's visuals and collisions, each with all that models and records say of it.
+    """Return a link's visuals and collisions, each with all data of models and records.
 
-    A shape whose mesh was never found is left out. Shapes are numbered as in the URDF, so that the others keep their
-    names when a mesh is found later. All collisions of a robot with a floating base touch the ground but meshes without
-    outermost points.
+    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF, so that the others keep their
+    names when a mesh is found later. All collisions of a robot with a floating base touch the ground, except meshes
+    without outermost points.
     """
     visuals: list[dict[str, Any]] = []
     for number, visual in enumerate(link.visuals, 1):
@@ -55,8 +55,8 @@ def link_model(
 ) -> dict[str, Any]:
     """Return the structure of a link, for its model: no number and no name of the URDF.
 
-    Each collision that touches the ground has a contact; see `link_shapes`. Of the numbers of `contact` only counts
-    which ones there are.
+    Each collision that touches the ground has a contact; see `link_shapes`. Of `contact`, only the names of the numbers
+    matter.
     """
     contacts = [
         {
@@ -81,12 +81,12 @@ def link_model(
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
     """Return the outermost points of an imported mesh, in metres; nothing for all other shapes."""
-    found = imports.get(lookup.key(geometry)) if isinstance(geometry, Mesh) else None
-    return found.facts["hull"] if found else ()
+    file = imports.get(lookup.key(geometry)) if isinstance(geometry, Mesh) else None
+    return file.facts["hull"] if file else ()
 
 
 def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
-    """Yield what of a link's collisions can touch the ground, and where it is; of a mesh, its outermost points."""
+    """Yield the collisions of a link that can touch the ground, with their poses; of a mesh, its outermost points."""
     for shape in link.collisions:
         if not isinstance(shape.geometry, Mesh):
             yield shape.origin, shape.geometry
@@ -140,27 +140,27 @@ def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package:
     colors = facts.get(lookup.PARTS) or facts.get(lookup.COLORS) or [None]
     files = [key, *(further_key(key, part) for part in range(1, len(colors) + 1))]
     if lookup.COLORS in facts and len(colors) > 1:
-        del files[0]  # the whole
+        del files[0]  # the whole mesh, which other shapes use
     for part, (color, file) in enumerate(zip(colors, files, strict=False), 1):
-        found = shape | {"color": tuple(color) if color else GREY, "opacity": 1.0}
+        colored = shape | {"color": tuple(color) if color else GREY, "opacity": 1.0}
         if len(colors) > 1:
             label = f"{shape['label']}, colour {part}"
-            found |= {
+            colored |= {
                 "component": f"{shape['component']}_{part}",
                 "label": label,
                 "title": shape["title"].replace(shape["label"], label, 1),
                 "uri": f"modelica://{package}/{imports[file].target}",
                 "bounds": imports[file].facts["bounds"],
             }
-        yield found
+        yield colored
 
 
 def _shape(
     word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
 ) -> dict[str, Any] | None:
-    """Return what visuals and collisions have in common; None for a shape that can't be shown."""
-    found = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
-    if isinstance(shape.geometry, Mesh) and found is None:
+    """Return the data that visuals and collisions share; None for a mesh that is not imported."""
+    mesh = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
+    if isinstance(shape.geometry, Mesh) and mesh is None:
         return None
     label = f"{word.capitalize()} {number}"
     return {
@@ -172,7 +172,7 @@ def _shape(
         "touches": False,
         "origin": shape.origin,
         "geometry": shape.geometry,
-        "uri": f"modelica://{package}/{found.target}" if found else "",
-        "bounds": found.facts["bounds"] if found else (),
+        "uri": f"modelica://{package}/{mesh.target}" if mesh else "",
+        "bounds": mesh.facts["bounds"] if mesh else (),
         "hull": (),
     }
