@@ -35,7 +35,7 @@ _KINDS = {
 
 
 class Change(msgspec.Struct, frozen=True):
-    """One change in the domain's words; `old` and `new` are plain data, None for what is not there."""
+    """One change in the domain's words; `old` and `new` are plain data, None for a value that a version lacks."""
 
     path: tuple[str, ...]
     kind: ChangeKind
@@ -46,7 +46,7 @@ class Change(msgspec.Struct, frozen=True):
 
     @property
     def element(self) -> str:
-        """The element that the change belongs to, for example `joint elbow`."""
+        """Element of the change, for example `joint elbow`."""
         return self.path[0]
 
     @property
@@ -57,7 +57,7 @@ class Change(msgspec.Struct, frozen=True):
         return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
 
     def __str__(self) -> str:
-        """The path as people read it: `joint elbow / origin / xyz[2]`."""
+        """Return the path as people read it: `joint elbow / origin / xyz[2]`."""
         return " / ".join(self.path)
 
 
@@ -70,7 +70,7 @@ class Changes(msgspec.Struct, frozen=True):
     generator: bool = False
     """Whether templates, options or the output revision differ."""
     options: tuple[str, ...] = ()
-    """The options that differ, if nothing else of what turns the model into files does."""
+    """The options that differ, if templates and output revision do not."""
 
     @property
     def change_class(self) -> ChangeClass:
@@ -122,7 +122,7 @@ def compare(
 
 
 def _weight(change: Change) -> tuple[bool, bool, bool]:
-    """Return what sorts changes for people: elements that come and go, structure, numbers, what hardly matters."""
+    """Return a sort key for people: first whole elements, then structure, numbers, and rounding."""
     is_structural = change.change_class is ChangeClass.STRUCTURAL
     return not is_structural, len(change.path) > 1, change.noise or change.change_class is ChangeClass.UNMODELLED
 
@@ -139,26 +139,26 @@ def moved_files(
     if old == new and not renames:
         return {}
     owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
-    gone = {f"{kind} {name}" for kind, name in displaced(renames)}
+    displaced_owners = {f"{kind} {name}" for kind, name in displaced(renames)}
     sources, targets = defaultdict[Hashable, list[str]](list), defaultdict[Hashable, list[str]](list)
-    staying = set()
+    unmoved = set()
     for path, (owner, template) in old.items():
-        if owner in gone:
+        if owner in displaced_owners:
             continue
         key = owners.get(owner, owner), template
         if new.get(path) == key:
-            staying.add(path)
+            unmoved.add(path)
         else:
             sources[key].append(path)
-    for path, found in new.items():
-        if path not in staying:
-            targets[found].append(path)
+    for path, key in new.items():
+        if path not in unmoved:
+            targets[key].append(path)
     pairs = ((paths, targets[key]) for key, paths in sources.items() if key in targets)
-    return {one[0]: two[0] for one, two in pairs if len(one) == len(two) == 1}
+    return {old_paths[0]: new_paths[0] for old_paths, new_paths in pairs if len(old_paths) == len(new_paths) == 1}
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number, and no truth value."""
+    """Return whether a value is a number, and no truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
@@ -182,8 +182,10 @@ def _of_values(path: tuple[str, ...], old: Any, new: Any) -> list[Difference]:
     """Return the differences of two values, in the order of their paths."""
     if old == new:
         return []
-    found = of_leaves(path, old, new)
-    return sorted(by_deepdiff(path, old, new) if found is None else found, key=lambda difference: difference.path)
+    differences = of_leaves(path, old, new)
+    if differences is None:
+        differences = by_deepdiff(path, old, new)
+    return sorted(differences, key=lambda difference: difference.path)
 
 
 def of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | None:
@@ -204,8 +206,13 @@ def of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | N
         return None
     else:
         return [Difference(path, ChangeKind.CHANGED, old, new)] if old != new else []
-    parts = [of_leaves(*pair) for pair in pairs]
-    return None if any(part is None for part in parts) else [found for part in parts for found in part or ()]
+    differences: list[Difference] = []
+    for pair in pairs:
+        part = of_leaves(*pair)
+        if part is None:
+            return None
+        differences += part
+    return differences
 
 
 def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:

@@ -20,9 +20,9 @@ from urdfsync.diagnostics import Diagnostic
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
 
-It is what comes back from JSON with sorted keys, so that what is made of it now can be made of its record again. It is
-keyed by element name, does not depend on the order of elements in the source, and holds all that artifacts are made
-from. Nobody changes it: versions of a model may share what they have in common.
+It equals its copy that comes back from JSON with sorted keys, so that the recorded model gives the same artifacts. It
+is keyed by element name, does not depend on the order of elements in the source, and holds all data of artifacts.
+Nobody changes it: versions of a model may share parts.
 """
 
 ElementKey: TypeAlias = tuple[str, str]
@@ -30,7 +30,7 @@ ElementKey: TypeAlias = tuple[str, str]
 
 
 class Role(enum.StrEnum):
-    """What a generated file is, as far as deciding about it goes."""
+    """Role of a generated file in the decision about it."""
 
     RECORD = "record"
     """Numbers and strings only: may be renewed while models wait for a conflict to be resolved."""
@@ -49,7 +49,7 @@ class Artifact(msgspec.Struct, frozen=True):
     role: Role
     template: str
     data: Mapping[str, Any]
-    """What the template is rendered with: plain data and structs, which JSON can hold."""
+    """Variables of the template: plain data and structs, which JSON can hold."""
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
 
@@ -75,14 +75,14 @@ class Dependency(msgspec.Struct, frozen=True):
     """A file that a source refers to and that is imported into the package."""
 
     key: str
-    """Identity within the model: what the source says of it (its URI, and how it is converted)."""
+    """Identity within the model: its URI in the source, and its conversion."""
     uri: str
     candidates: tuple[Path, ...]
-    """Where it may be, best first."""
+    """Paths at which it may be, best first."""
     target: str
-    """Where it goes: a POSIX path below the package folder that no other dependency has."""
+    """POSIX path of the imported file below the package folder; no other dependency has it."""
     noun: str
-    """What it is, in one lower-case word, for messages and the codes of diagnostics."""
+    """Its kind in one lower-case word, for messages and the codes of diagnostics."""
     line: int = 0
     """Line of the source that first refers to it; 0 if unknown."""
     guessed: bool = False
@@ -121,7 +121,7 @@ class Import(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class ChangeKind(enum.StrEnum):
-    """How two versions differ at a value or an element."""
+    """Kind of the difference of two versions at a value or an element."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -130,18 +130,18 @@ class ChangeKind(enum.StrEnum):
 
 
 class ChangeClass(enum.StrEnum):
-    """How far a change reaches, least first."""
+    """Reach of a change, least first."""
 
     NONE = "none"
     """Nothing differs."""
     UNMODELLED = "unmodelled"
-    """Nothing in the package says it."""
+    """No file of the package depends on it."""
     PARAMETER = "parameter"
-    """Records and imported files say it."""
+    """Records and imported files depend on it."""
     STRUCTURAL = "structural"
-    """Models, packages or their order say it."""
+    """Models, packages or their order depend on it."""
     GENERATOR = "generator"
-    """What turns the model into files is another: template, option or revision."""
+    """Template, option or revision differ, which turn the model into files."""
 
     @property
     def rank(self) -> int:
@@ -187,11 +187,11 @@ class Effect(msgspec.Struct, frozen=True):
     new: Any
     unit: str = ""
     hint: str = ""
-    """What to do about it, if there is anything."""
+    """Order to the user; empty if there is nothing to do."""
 
 
 class Reading(msgspec.Struct, frozen=True):
-    """What reading a source gave: the snapshot, unless a diagnostic is an error, and what there is to say."""
+    """A source as it was read: the snapshot, unless a diagnostic is an error, and the diagnostics."""
 
     snapshot: Snapshot | None
     diagnostics: tuple[Diagnostic, ...]
@@ -200,7 +200,7 @@ class Reading(msgspec.Struct, frozen=True):
 
 
 class Lookup(msgspec.Struct, frozen=True):
-    """Where to look for the files that a source refers to."""
+    """Places of the files that a source refers to."""
 
     source: Path
     """The source file, absolute."""
@@ -215,7 +215,7 @@ class Lookup(msgspec.Struct, frozen=True):
 
 
 class Target(msgspec.Struct, frozen=True):
-    """Where the generated package stands in Modelica's namespace."""
+    """Place of the generated package in Modelica's namespace."""
 
     package: str
     """Full name, for example `Plant.Robots.Arm`."""
@@ -224,7 +224,7 @@ class Target(msgspec.Struct, frozen=True):
 
 
 class Proposal(msgspec.Struct, frozen=True):
-    """What `init` writes for one option, and why."""
+    """Value that `init` writes for one option, with the reason."""
 
     option: str
     value: Any
@@ -232,7 +232,7 @@ class Proposal(msgspec.Struct, frozen=True):
 
 
 class Quantity(enum.StrEnum):
-    """What is compared with a reference: of a frame, of an axis, of the root, of the whole model; in SI units."""
+    """Quantity of a frame, an axis, the root or the whole model that is compared with a reference; in SI units."""
 
     POSITION = "position"
     ORIENTATION = "orientation"
@@ -245,7 +245,7 @@ class Quantity(enum.StrEnum):
 
 
 class Deviation(msgspec.Struct, frozen=True):
-    """How far one quantity of one element is from the reference, at most, over all instants."""
+    """Greatest deviation of one quantity of one element from the reference, over all instants."""
 
     quantity: Quantity
     element: str
@@ -260,7 +260,7 @@ class Deviation(msgspec.Struct, frozen=True):
 
     @property
     def relative(self) -> float:
-        """The difference against the greatest value of its kind, or 1: what is held against a tolerance."""
+        """Difference in relation to the greatest value of its kind, or to 1; a tolerance limits it."""
         return self.difference / max(1.0, self.size)
 
 
@@ -299,11 +299,11 @@ class Experiment(msgspec.Struct, frozen=True):
     compared: tuple[Compared, ...]
     """From the root outwards."""
     expected: Mapping[str, tuple[float, float]]
-    """Of each value at the beginning and at the end; it may be no number."""
+    """Expected number of each value at the beginning and at the end; NaN is possible."""
     notes: tuple[str, ...] = ()
-    """How `content` differs from what was given, and why: one sentence each, without a full stop."""
+    """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """What is not compared, and why, likewise."""
+    """Parts that are not compared, with reasons, likewise."""
 
 
 class Signal(msgspec.Struct, frozen=True):
@@ -318,7 +318,7 @@ class Signal(msgspec.Struct, frozen=True):
 
 
 class Axis(msgspec.Struct, frozen=True):
-    """What a simulation tells of one joint that moves."""
+    """Quantities of one moving joint in a simulation."""
 
     element: str
     """In the domain's words: `joint elbow`."""
@@ -329,7 +329,7 @@ class Axis(msgspec.Struct, frozen=True):
 
 
 class Bench(msgspec.Struct, frozen=True):
-    """How a package is simulated; models are named below the package."""
+    """Models and variables of a simulation; models are named below the package."""
 
     test: str
     """The model that needs no input."""
@@ -368,7 +368,7 @@ class Domain(Protocol):
         ...
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
-        """Return where another reader of a source without errors finds something else. `check` asks: it may take long.
+        """Return differences from the model that another reader finds in a source without errors. It may take long.
 
         `file` is the source's name in diagnostics.
         """
@@ -411,7 +411,7 @@ class Domain(Protocol):
         return Conversion(content, {})
 
     def import_findings(self, imports: Mapping[str, Import]) -> Iterable[tuple[str, Diagnostic]]:
-        """Return what there is to say of imported files: the key of one, empty for all, and a diagnostic without place.
+        """Return diagnostics about imported files, without place, each with the key of its file; empty for all files.
 
         The core adds the line of the dependency.
         """
@@ -478,13 +478,13 @@ class Domain(Protocol):
         return meanings
 
     def effects(self, old: Version, new: Version) -> Sequence[Effect]:
-        """Return what the differences do to the model as a whole; the versions are as read, not comparable ones."""
+        """Return the effects of the differences on the whole model; the versions are as read, not comparable ones."""
         return ()
 
     def interface(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
-        """Return what users may have connected to, and what has another name now, or is gone; old is None for new.
+        """Return changed names that users may have connected to; old is None for a new name, new for a removed one.
 
         `options` are those of the new version, and of the old one unless it has its own.
         """
@@ -510,7 +510,7 @@ class Domain(Protocol):
         return (target.name,)
 
     def bench(self, snapshot: Snapshot, target: Target, options: Any) -> Bench | None:
-        """Return how the package is simulated and what is told of it, or None if nothing in it can be. Pure."""
+        """Return the models and variables of a simulation, or None if nothing in the package can be simulated. Pure."""
         return None
 
     def record(
@@ -538,5 +538,5 @@ def brings_back(option: str, new_name: str = "") -> str:
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:
-    """Return the elements that are gone and whose names others have now."""
+    """Return the removed elements whose names other elements have now."""
     return {(kind, name) for (kind, _), name in renames.items()} - renames.keys()

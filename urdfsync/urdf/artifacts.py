@@ -1,4 +1,4 @@
-"""A robot to the files of its Modelica package: paths, templates and the data they are rendered with."""
+"""The files of a robot's Modelica package: paths, templates and the data that they are rendered with."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
     """Return every file of the robot's package but the imported meshes.
 
-    Raises KeyError or ValueError for what is no robot that passed all checks, or has meshes without their facts.
+    Raises KeyError or ValueError for a robot that does not pass all checks, or has meshes without their facts.
     """
     tree, package = _tree(robot, target), target.package
     names, structure = connector_names(tree, options), tree.structure()
@@ -59,13 +59,13 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
 def record(robot: Robot, target: Target, options: Options) -> Artifact:
     """Return the record of the whole robot without a package around it; `target` names the record itself.
 
-    It says what the record in a package says, if that is called like this one, and if no mesh has a part in it.
+    Its text is that of the record in a package, if that has the same name and the robot has no mesh.
     """
-    around = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
-    tree = _tree(robot, around)
-    data = record_data(robot.name, tree, connector_names(tree, options), {}, around.package, options)
-    found = _of_robot(_PARAMETERS, "record", around, options, data | {"record": target.name}, Role.RECORD)
-    return msgspec.structs.replace(found, path=f"{target.name}.mo")
+    robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
+    tree = _tree(robot, robot_target)
+    data = record_data(robot.name, tree, connector_names(tree, options), {}, target.package, options)
+    artifact = _of_robot(_PARAMETERS, "record", robot_target, options, data | {"record": target.name}, Role.RECORD)
+    return msgspec.structs.replace(artifact, path=f"{target.name}.mo")
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
@@ -91,7 +91,7 @@ def _tree(robot: Robot, target: Target) -> KinematicTree:
 def _of_robot(
     suffix: str, template: str, target: Target, options: Options, data: Mapping[str, Any], role: Role = Role.MODEL
 ) -> Artifact:
-    """Return a file of the robot itself; `suffix` is what its name has behind that of the robot."""
+    """Return a file of the robot itself, whose name is that of the robot with a suffix."""
     name = target.name
     common = {"within": target.package, "type": name, "title": f"robot {name}", "record": f"{name}{_PARAMETERS}"}
     data = {**common, "base": options.base, **data}

@@ -1,4 +1,4 @@
-"""What a simulation of a generated robot tells of its joints: variables, and the parameters that limit them."""
+"""The variables of joints in a simulation of a generated robot, and the parameters that limit them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None
     freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in tree.joints if joint.mimic is None)
     freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
     layouts = {"package": _axes(tree, options), "record": _generic_axes(tree)}
-    axes = tuple(tuple(found) for approach, found in layouts.items() if approach in options.approach)
+    axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
     if "package" in options.approach:
         return Bench(f"{target.name}Test", f"{target.name}Run", axes, freedoms)
     if has_bench(tree.joints, options):

@@ -1,4 +1,4 @@
-"""Names of what a robot has beside its links and joints: connectors and couplings, variables of Run, visuals.
+"""Names of the components beside links and joints: connectors, couplings, sensors, visuals, variables of Run.
 
 Such a name is made from the name of its element. Where an element has that name already, the connector gives way,
 with a number; so a new connector never renames an element, whose name is that of a file.
@@ -20,13 +20,13 @@ _VARIABLES: Mapping[Motion, Mapping[Command, str]] = {
     "rotational": {"position": "phi", "velocity": "w", "effort": "tau"},
     "translational": {"position": "s", "velocity": "v", "effort": "f"},
 }
-"""How the names of variables of Run end."""
+"""Suffixes of the variables of Run."""
 _IN_RUN: Mapping[Command, Sequence[Command]] = {
     "position": ("position", "effort"),
     "velocity": ("velocity", "effort"),
     "effort": ("position", "velocity", "effort"),
 }
-"""By what commands a joint, the variables that Run has of it: the command is the input, the others are outputs."""
+"""Variables of Run for a joint, by its command: the command is the input, the others are outputs."""
 
 
 class Drive(msgspec.Struct, frozen=True):
@@ -40,9 +40,9 @@ class Drive(msgspec.Struct, frozen=True):
     motor: str | None
     """The flange at the motor's side of the gear; None if there is none."""
     command: Command | None
-    """Which of the variables is the input of Run; None if Run does not drive the joint."""
+    """Variable that is the input of Run; None if Run does not drive the joint."""
     position: str | None
-    """A variable of Run. None if it is not there, or is one of the vector of all inputs."""
+    """Variable of Run; None if Run has none, or has it in the vector of all inputs."""
     velocity: str | None
     """Likewise."""
     effort: str | None
@@ -53,15 +53,15 @@ class Connectors(msgspec.Struct, frozen=True):
     """Names of components, by the URDF name of the link or joint that they belong to, in canonical order."""
 
     frames: dict[str, str]
-    """Of links: the leaves, and those that the options name."""
+    """Frames of links: the leaves, and those that the options name."""
     drives: dict[str, Drive]
-    """Of joints that can be driven."""
+    """Flanges and variables of joints that can be driven."""
     couplings: dict[str, str]
-    """Of joints that follow another one."""
+    """Couplings of joints that follow another one."""
     sensors: dict[str, str]
     """Components of sensors."""
     sensor_frames: dict[str, str]
-    """Of cameras and laser scanners."""
+    """Frames of cameras and laser scanners."""
 
     def __hash__(self) -> int:
         """Return a hash of the elements that have connectors."""
@@ -119,21 +119,22 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
 def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
     """Return the option that brings each connector, and each variable of Run, that the options leave out.
 
-    It is a line as the configuration has it.
+    An option is a line as the configuration has it.
     """
-    has, every = connector_names(tree, options), every_connector(tree, options)
+    names, all_names = connector_names(tree, options), every_connector(tree, options)
     named = () if isinstance(options.frames, str) else options.frames
-    found = {frame: _option("frames", (*named, link)) for link, frame in every.frames.items() if link not in has.frames}
-    for joint, drive in every.drives.items():
-        if not has.drives[joint].command:
-            driven = (name for name, one in has.drives.items() if one.command or name == joint)
+    absent = {link: frame for link, frame in all_names.frames.items() if link not in names.frames}
+    lines = {frame: _option("frames", (*named, link)) for link, frame in absent.items()}
+    for joint, drive in all_names.drives.items():
+        if not names.drives[joint].command:
+            driven = (name for name, other in names.drives.items() if other.command or name == joint)
             variables = filter(None, (drive.position, drive.velocity, drive.effort))
-            found |= dict.fromkeys(variables, _option("driven", driven))
+            lines |= dict.fromkeys(variables, _option("driven", driven))
         elif options.inputs == "vector" and (input_ := getattr(drive, drive.command or "position")):
-            found[input_] = 'inputs = "names"'
-        if drive.motor and not has.drives[joint].motor:
-            found[drive.motor] = 'drives = "motor"'
-    return found if options.inputs == "vector" else {input_vector(has): 'inputs = "vector"', **found}
+            lines[input_] = 'inputs = "names"'
+        if drive.motor and not names.drives[joint].motor:
+            lines[drive.motor] = 'drives = "motor"'
+    return lines if options.inputs == "vector" else {input_vector(names): 'inputs = "vector"', **lines}
 
 
 def input_vector(names: Connectors) -> str:
@@ -155,7 +156,7 @@ def _option(key: str, names: Iterable[str]) -> str:
 
 
 def taken_names(tree: KinematicTree) -> frozenset[str]:
-    """Return the names that are not to be had, in lower case."""
+    """Return the names of links, joints and generated components, in lower case."""
     return GENERATED | {identifier.component.lower() for identifier in tree.names.values()}
 
 

@@ -1,4 +1,4 @@
-"""The URDF domain as the core sees it: see `urdfsync.domain.Domain` for what each of its functions does."""
+"""The URDF domain as the core sees it: `urdfsync.domain.Domain` describes its functions."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class UrdfDomain(Domain):
         return options.uses
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
-        """Read a URDF; of one without errors, say also what can't be simulated."""
+        """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated."""
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
         if robot is None:
             return Reading(None, diagnostics, lines)
@@ -75,7 +75,7 @@ class UrdfDomain(Domain):
         return Reading(to_snapshot(robot), diagnostics, lines)
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
-        """Return where yourdfpy finds other links, joints or poses."""
+        """Return the differences from the links, joints and poses that yourdfpy reads."""
         from urdfsync.urdf.parse.second_reader import cross_check  # most of a second, which no build needs
 
         return cross_check(content, file)
@@ -83,8 +83,8 @@ class UrdfDomain(Domain):
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links and joints."""
         kinds = ("link", "joint")
-        found = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
-        return {f"{kind}s": {name: found[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
+        names = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
+        return {f"{kind}s": {name: names[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
@@ -114,12 +114,12 @@ class UrdfDomain(Domain):
 
     def import_findings(self, imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
         """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
-        for key, one in imports.items():
-            if missing := one.facts.get(COLORLESS):
+        for key, file in imports.items():
+            if missing := file.facts.get(COLORLESS):
                 message = f"mesh `{mesh(key).filename}` lacks colours: "
                 hint = "put what is missing beside the mesh, or give the visual a <material>"
                 yield key, Diagnostic(Severity.WARNING, "mesh-colors", message + "; ".join(missing), hint=hint)
-        count = sum(bool(one.facts.get(TEXTURED)) for one in imports.values())
+        count = sum(bool(file.facts.get(TEXTURED)) for file in imports.values())
         if count:
             message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
             yield "", Diagnostic(Severity.NOTE, "texture", message)
@@ -136,7 +136,7 @@ class UrdfDomain(Domain):
         """Guess whether the robot is mobile; allow what has to be left out."""
         from urdfsync.urdf.kinematics.base_guess import guess_base
 
-        base, codes = guess_base(from_snapshot(snapshot)), {found.code for found in diagnostics}
+        base, codes = guess_base(from_snapshot(snapshot)), {entry.code for entry in diagnostics}
         if not (needed := [code for code in get_args(LeftOut) if code in codes]):
             return (base,)
         return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))

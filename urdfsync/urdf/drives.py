@@ -1,9 +1,9 @@
-"""Which joints Run and Test drive.
+"""The joints that Run and Test drive.
 
-A joint can be driven if it has one axis and follows no other joint. Of these, some are passive, such as casters: where
-a source says of any joint that a transmission or ros2_control drives it, a continuous joint counts as passive if it
-has neither, and no limit. Other joints without a drive stay driven, since transmissions are often left out: a joint
-with a limit was meant to be moved by something. A source that says nothing of drives has no passive joints.
+A joint can be driven if it has one axis and follows no other joint. Some of these are passive, such as casters. Where a
+transmission or ros2_control drives any joint of a source, a continuous joint without them is passive, unless it has a
+limit. Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a
+limit was meant to be moved by something. A source without any drives has no passive joints.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 
 def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
-    """The names of the joints that are driven: those of the option `driven` if it is set, else all but passive ones.
+    """Return the names of the driven joints: those of the option `driven` if it is set, else all but passive ones.
 
-    No number of the joints counts, so those of a structure without numbers do. Names in the option that are no joint
-    that can be driven are left out: `check_options` reports them.
+    No number of a joint matters, so that a structure without numbers has the same drives. Names in the option that no
+    drivable joint has are left out: `check_options` reports them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))
@@ -26,7 +26,7 @@ def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
 
 
 def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
-    """The names of the joints that could be driven and, going by the source alone, are not."""
+    """Return the names of the joints that could be driven, but are not by the source alone."""
     joints = list(joints)
     if not any(joint.actuated for joint in joints):
         return frozenset()
@@ -35,10 +35,10 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
 
 
 def has_motor(joint: Joint, options: Options) -> bool:
-    """Whether the motor's side of the joint's gear has a flange."""
+    """Return whether the motor's side of the joint's gear has a flange."""
     return options.drives == "motor" and joint.transmission is not None and can_be_driven(joint)
 
 
 def can_be_driven(joint: Joint) -> bool:
-    """Whether a joint has one axis and follows no other joint."""
+    """Return whether a joint has one axis and follows no other joint."""
     return joint.type in MOTION_KINDS and joint.mimic is None

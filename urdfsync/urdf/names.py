@@ -77,7 +77,7 @@ def spell(name: str, kind: str) -> str:
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
-    """Sort key in which `link10` follows `link9`; total: distinct names have distinct keys.
+    """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys.
 
     Numbers go before words, by their value, however long they are, and then by the zeros that lead them.
     """
@@ -91,12 +91,12 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
     """Return identifiers of all links and joints; no two are equal when case is folded, none is in `taken`.
 
     A name keeps its spelling if that is free and not reserved; links go before joints, names that
-    need no change before others. What must give way gets `_link` or `_joint`, then a number.
+    need no change before others. A name that gives way gets `_link` or `_joint`, then a number.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
-    folded, taken = {one.lower() for one in spelled.values()}, {name.lower() for name in taken}
+    folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}
     if len(folded) == len(spelled) and folded.isdisjoint(taken) and not any(map(is_reserved, folded)):
-        return {key: Identifier(one) for key, one in spelled.items()}  # as nearly always: nobody gives way
+        return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no name gives way
     keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
     used = set(taken)
     result: dict[Key, Identifier] = {}

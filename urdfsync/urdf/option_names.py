@@ -1,8 +1,8 @@
-"""Names in the options of a robot, held against the robot: each has to be what the option asks for.
+"""Checks of the names in a robot's options: each is the name of a suitable link or joint.
 
-A joint in `driven` or a link in `frames` that is not there leaves the robot without a drive or a connector that the
-user counts on. No package is right then, so these are errors. A name that stands there twice is a warning: the second
-one may have been meant to be another.
+A joint in `driven` or a link in `frames` that does not exist leaves the robot without a drive or a connector that the
+user counts on. No package is right then, so these are errors. A name that an option has twice is a warning: the second
+may have been meant to be another.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ _DRIVABLE = "revolute, continuous or prismatic joint without <mimic>"
 def check_options(
     links: Collection[str], joints: Sequence[Joint], options: Options
 ) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield what there is to say of a robot's options, each with the option that it is about; without file and line.
+    """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
     `links` are the names of all links. The record approach has no use for these options.
     """
     if "package" not in options.approach:
         return
     drivable = [joint.name for joint in joints if can_be_driven(joint)]
-    for option, given, known, kind, code in (
+    for option, given, possible, kind, code in (
         ("frames", options.frames, links, "link", "frame-of-no-link"),
         ("driven", options.driven, drivable, _DRIVABLE, "drive-of-no-joint"),
     ):
@@ -38,8 +38,8 @@ def check_options(
             if count > 1:
                 message, hint = f"`{option}` names `{name}` more than once", "take one out, or correct its name"
                 yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
-            if name not in known:
-                near = nearest(name, known)
+            if name not in possible:
+                near = nearest(name, possible)
                 hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
                 message = f"`{option}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)

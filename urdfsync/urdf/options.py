@@ -1,4 +1,4 @@
-"""What generated packages need, and the options of the URDF domain as they stand in `urdfsync.toml`."""
+"""The options of the URDF domain in `urdfsync.toml`, and the libraries that generated packages need."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 """Libraries that all generated packages are written for."""
 # No release notes of Visualization2 are public. The version is that of the published URDFModelica_Tutorial.
 _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
-"""By visualizer, the library that its packages are written for, too."""
+"""Further library of the packages for a visualizer."""
 
 
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
@@ -18,7 +18,7 @@ LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a user can choose for one robot."""
+    """The options of one robot."""
 
     base: Literal["fixed", "floating"] = "fixed"
     """`fixed`: the root link is bolted down; `floating`: a mobile robot that moves freely and touches the ground."""

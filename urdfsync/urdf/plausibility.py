@@ -1,4 +1,4 @@
-"""What is legal in a URDF and yet hardly meant: no inertia, numbers in another unit, a shape far outside of its link.
+"""Legal but hardly meant parts of a URDF: no inertia, numbers in another unit, a shape far outside of its link.
 
 The bounds leave a wide margin, since a warning about a sound robot is worse than none.
 """
@@ -45,7 +45,7 @@ _LIGHT = 0.05
 
 
 def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield a warning for all that is hardly meant in a robot that passed all checks."""
+    """Yield a warning for each part that is hardly meant in a robot that passed all checks."""
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
     distances, masses = {tree.links[0].name: 0.0}, dict(own_masses)
     for joint in tree.joints:
@@ -63,7 +63,7 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
 
 
 def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
-    """Whatever a joint moves has a mass, and the robot is no denser than steel.
+    """Check that each joint moves a mass, and that the robot is no denser than steel.
 
     `masses` are those of each link with all links behind it.
     """
@@ -86,7 +86,7 @@ def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: floa
 
 
 def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
-    """Some body as large as the link, which has a mass, has its radius of gyration."""
+    """Check that a body as large as the link can have its radius of gyration; the link has a mass."""
     gyration, radius, place = _gyration(inertial), _radius(link), f"link {link.name} / inertial"
     if gyration == 0 and radius and inertial.mass > _LIGHT:
         message = f"{place}: a body of {inertial.mass:g} kg that has a shape has no inertia"
@@ -100,7 +100,7 @@ def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Fi
 
 
 def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
-    """No shape is far outside of the robot."""
+    """Check that no shape is far outside of the robot."""
     groups: Mapping[str, Sequence[Visual | Collision]] = {"visual": link.visuals, "collision": link.collisions}
     for kind, shapes in groups.items():
         for number, shape in enumerate(shapes, start=1):
@@ -114,7 +114,7 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
 
 
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
-    """The joint is no farther from its parent, and its limits are no wider, than in SI units.
+    """Check that the place of a joint and its limits are as small as they are in SI units.
 
     `mass` is that of the child link: without one, the joint may be one of those that let a robot go anywhere.
     """

@@ -38,16 +38,16 @@ MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
 
 class JointKind(msgspec.Struct, frozen=True):
-    """What follows from the type of a joint; how far it moves its child is in `kinematics.poses.motion`."""
+    """The properties of a type of joint; `kinematics.poses.motion` has the motion itself."""
 
     does: str
-    """For the documentation of generated models."""
+    """Its motion in words, for the documentation of generated models."""
     motion: Motion | None = None
     """Kind of motion of a joint with one degree of freedom: these alone have flanges, mimic and are mimicked."""
     has_axis: bool = False
-    """Also whether damping and friction have an effect."""
+    """Whether it has an axis; damping and friction have an effect then, too."""
     has_limits: bool = False
-    """Of its position."""
+    """Whether its position has limits."""
 
 
 JOINT_KINDS: Mapping[JointType, JointKind] = {
@@ -112,7 +112,7 @@ class Material(msgspec.Struct, frozen=True, gc=False):
 
 
 class Visual(msgspec.Struct, frozen=True, gc=False):
-    """What a link looks like: one of its shapes."""
+    """A visible shape of a link."""
 
     geometry: Geometry
     origin: Origin = Origin()
@@ -121,7 +121,7 @@ class Visual(msgspec.Struct, frozen=True, gc=False):
 
 
 class Collision(msgspec.Struct, frozen=True, gc=False):
-    """What of a link touches other things: one of its shapes."""
+    """A shape with which a link touches other bodies."""
 
     geometry: Geometry
     origin: Origin = Origin()
@@ -148,7 +148,7 @@ class Inertial(msgspec.Struct, frozen=True, gc=False):
 
 
 class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaults=True):
-    """How the collisions of a link feel at the ground; None for what the ground itself says."""
+    """Contact properties of a link's collisions at the ground; None for those of the ground itself."""
 
     mu: float | None = None
     kp: Annotated[float | None, Unit("N/m")] = None
@@ -156,7 +156,7 @@ class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaul
     kd: Annotated[float | None, Unit("N·s/m")] = None
     """Its damping beside that of the ground."""
     min_depth: Annotated[float | None, _LENGTH] = None
-    """How deep in the ground a point is without a force."""
+    """Depth in the ground up to which a point has no force."""
 
 
 class Link(msgspec.Struct, frozen=True, gc=False):
@@ -178,7 +178,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
-    """That of `acceleration` if it is None."""
+    """None if it is that of `acceleration`."""
     jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
 
 
@@ -197,7 +197,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     reduction: Annotated[float, Unit("", "rad/m")] = 1.0
     offset: Annotated[float, _POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
-    """Of the motor, on its own side of the gear."""
+    """Inertia of the motor, on its own side of the gear."""
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
@@ -243,11 +243,11 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     transmission: Transmission | None = None
     """None if there is no gear: neither reduction nor offset nor rotor."""
     command: Command = "position"
-    """What `<ros2_control>` gives the joint."""
+    """Quantity by which `<ros2_control>` commands the joint."""
 
 
 def reflected_inertia(joint: Joint) -> float | None:
-    """Return what the drive adds to the inertia about or along the axis; None if the source gives nothing."""
+    """Return the inertia that the drive adds about or along the axis; None if the source has no number of it."""
     armature = joint.dynamics.armature if joint.dynamics else None
     rotor = joint.transmission.rotor_inertia if joint.transmission else None
     if joint.transmission is None or rotor is None:
@@ -256,7 +256,7 @@ def reflected_inertia(joint: Joint) -> float | None:
 
 
 def effective(joint: Joint) -> Joint:
-    """Return the joint without what has no effect on one of its type. Records are made from this."""
+    """Return the joint without the numbers that have no effect on one of its type. Records are made from this."""
     kind = JOINT_KINDS[joint.type]
     limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
@@ -323,7 +323,7 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     kind: SensorKind
     at: str
     origin: Origin = Origin()
-    """Of a force-torque sensor, the axes alone."""
+    """Pose of the sensor; a force-torque sensor uses its axes alone."""
     update_rate: Annotated[float, Unit("Hz")] = 0.0
     camera: Camera | None = None
     lidar: Lidar | None = None

@@ -7,8 +7,8 @@
      "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}}}   if there are any
 
 Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
-What the model does not have (no inertial, no limit, no colour, no drive) is left out, so that its coming and going is
-one block of a diff; every number is there, defaults too, so that a change of a number is one changed line.
+A part that the model does not have (no inertial, no limit, no colour, no drive) is left out, so that a diff shows its
+coming and going as one block. Every number is written, defaults too, so that its change is one changed line.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ def _plain(element: Link | Joint | Sensor) -> Mapping[str, Any]:
 
 def _without_none(data: dict[str, Any]) -> dict[str, Any]:
     """Return a struct's data without fields that are None; lists are of numbers, or of structs."""
-    found: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     for key, item in data.items():
         if isinstance(item, dict):
-            found[key] = _without_none(item)
+            fields[key] = _without_none(item)
         elif item and isinstance(item, list) and isinstance(item[0], dict):
-            found[key] = [_without_none(one) for one in item]
+            fields[key] = [_without_none(struct) for struct in item]
         elif item is not None:
-            found[key] = item
-    return found
+            fields[key] = item
+    return fields
 
 
 def from_snapshot(snapshot: Snapshot) -> Robot:

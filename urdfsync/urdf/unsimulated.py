@@ -1,4 +1,4 @@
-"""Joints that a simulation of the package or of the generic robot can't move, told where the URDF says them."""
+"""Diagnostics about joints that a simulation of the package or of the generic robot can't move."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ _HINTS = {
 def find_unsimulated(
     tree: KinematicTree, options: Options, file: str, lines: Mapping[str, int]
 ) -> Iterator[Diagnostic]:
-    """Yield what the approaches that are chosen can't simulate. `file` and `lines` are those of `RobotReading`."""
+    """Yield diagnostics about parts that the chosen approaches can't simulate.
+
+    `file` and `lines` are those of `RobotReading`.
+    """
     if "record" in options.approach:
         yield from out_of_scope(tree, file, lines)
     if "package" not in options.approach:
@@ -33,8 +36,7 @@ def find_unsimulated(
             hint = 'add "package" to `approach` for them'
             yield Diagnostic(Severity.NOTE, "not-in-record", message, file, hint=hint)
         return
-    # Driven joints count as fixed: they move as prescribed, so a passive joint behind one or before one gets no motion
-    # from it that would undo its own.
+    # Driven joints count as fixed. They move as prescribed, so that none can undo the motion of a passive joint.
     passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - driven_joints(tree.joints, options)
     for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
@@ -63,18 +65,18 @@ def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> It
     if unfit:
         return
     inertials = [link.inertial for link in tree.links if link.inertial is not None]
-    has_mass = any(one.mass or one.inertia.ixx or one.inertia.iyy or one.inertia.izz for one in inertials)
+    has_mass = any(part.mass or part.inertia.ixx or part.inertia.iyy or part.inertia.izz for part in inertials)
     if not has_mass and any(joint.type in MOTION_KINDS for joint in tree.joints):
         message = "no link has a mass, so the joints of the generic robot can be moved by position only"
         yield warning("moves-no-mass", message, "give the links an <inertial>", "robot")
         return
-    found = set(find_massless_joints(tree))
-    behind = set[str]()  # links behind a joint that was named: what moves them is not named, too
+    massless = set(find_massless_joints(tree))
+    behind = set[str]()  # links behind a joint with a warning: no further joint there gets one
     for joint in tree.joints:
-        if joint.name in found and joint.parent not in behind:
+        if joint.name in massless and joint.parent not in behind:
             message = f"joint '{joint.name}' moves no inertia about its axis, or only one that is behind "
             message += "another joint on the same axis, so the generic robot can move it by position only"
             hint = "give the link right behind it an <inertial>, or make it a fixed joint"
             yield warning("moves-no-mass", message, hint, f"joint {joint.name}")
-        if joint.name in found or joint.parent in behind:
+        if joint.name in massless or joint.parent in behind:
             behind.add(joint.child)

@@ -1,4 +1,4 @@
-"""What can be wrong with a URDF, by code, and what must hold in a robot, whatever it was read from.
+"""The diagnostics about a URDF by their codes, and the checks of a robot, whatever it was read from.
 
 A finding is an error where no right model exists, and a warning where one does. docs/findings.md explains the codes.
 """
@@ -125,7 +125,7 @@ _WARNINGS = {
     "inertia-not-positive": "export the inertia again; simulation may not be physical",
     "inertia-triangle": "export the inertia again; simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
-    # what is hardly meant
+    # legal, but hardly meant
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "masses are in kg",
     "inertia-size": "inertias are in kg·m², about the centre of mass: export them again",
@@ -184,7 +184,7 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
 
 def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Iterator[Finding]:
-    """No two elements of one kind share a name; a link and a joint may."""
+    """Check that no two elements of one kind share a name; a link and a joint may."""
     seen = set[str]()
     for path, element in elements:
         if element.name in seen:
@@ -229,7 +229,7 @@ def unit_vector(axis: Vector) -> Vector:
 
 
 def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: bool) -> Iterator[Finding]:
-    """The joints connect all links to one tree."""
+    """Check that the joints connect all links to one tree."""
     links = {link.name for link in robot.links}
     if not links:
         if complete:
@@ -272,7 +272,7 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
 
 
 def _check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Some body has the mass properties of the link, and its shapes are not empty."""
+    """Check that a body can have the mass properties of the link, and that its shapes are not empty."""
     if link.inertial is not None:
         mass, place = link.inertial.mass, f"{path} / inertial"
         if mass < 0:
@@ -330,7 +330,7 @@ def _is_empty(geometry: Geometry) -> bool:
 
 
 def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
-    """The axis has a direction, the limits are a range and magnitudes, and the joint loses energy if it has losses."""
+    """Check the axis of a joint (it has a direction), its limits (a range, and magnitudes) and its losses."""
     kind, length = JOINT_KINDS[joint.type], math.hypot(*joint.axis)
     if kind.has_axis and length == 0:
         yield Finding("zero-axis", f"{path} / axis", f"{path}: the axis has no direction")
@@ -354,7 +354,7 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
 
 
 def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:
-    """Mimic relations are between joints of one degree of freedom; chains are legal, cycles are not."""
+    """Check that mimic relations are between joints of one degree of freedom; chains are legal, cycles are not."""
     joints: dict[str, Joint] = {}
     leaders: dict[str, str] = {}
     for _, joint in numbered:

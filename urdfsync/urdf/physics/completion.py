@@ -1,7 +1,7 @@
 """Copies of URDF files that Pinocchio can read, and in which every moving joint carries mass.
 
-Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. And where a moving joint
-carries no mass, only its kinematics could be compared. Package and reference are both made from the copy.
+Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. Where a moving joint carries no
+mass, only its kinematics could be compared. Package and reference are both made from the copy.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ _NEEDED = {
     "link/inertial/mass": {"value": "0"},
     "link/inertial/inertia": dict.fromkeys(Inertia.__struct_fields__, "0"),
 }
-"""Attributes that Pinocchio's reader insists on."""
+"""Attributes that Pinocchio's reader requires."""
 _PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
-"""Of made-up inertias, in the order of the fields, for 1 kg: not diagonal, and those of some body."""
+"""Made-up inertias of 1 kg, in the order of the fields: not diagonal, and possible for a body."""
 
 
 class CompletedSource(NamedTuple):
-    """A copy of a URDF, the same bytes if nothing is missing, and what was done: sentences without a full stop."""
+    """A copy of a URDF, the same bytes if nothing is missing, and notes on its changes, without full stops."""
 
     content: bytes
     notes: tuple[str, ...] = ()
 
 
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
-    """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader insists on."""
+    """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires."""
     root = xml.parse(content).root
     added = set() if root.get("name") else {"the robot's name"}
     root.set("name", root.get("name") or "robot")

@@ -1,4 +1,4 @@
-"""The experiment of the URDF domain: a probe for a compiler, and what Pinocchio expects of it."""
+"""The experiment of the URDF domain: a probe for a compiler, and the values that Pinocchio expects of it."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _UNCHECKED = (
 
 
 def experiment(content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
-    """See `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
+    """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
     reading = read_robot(content, file, options.allow)
-    if left_out := [found.message for found in reading.diagnostics if found.code in options.allow]:
+    if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
     if loose := obstacles(robot.joints):
@@ -42,7 +42,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
     courses = [motion.axis_course(joint) for joint in axes]
     with np.errstate(all="ignore"):  # numbers without end in the source
         instants = [reference.solve(reference.state(time, courses)) for time in (0.0, motion.DURATION)]
-        first, last = ([float(x) for found in _expected(instant, tree) for x in found] for instant in instants)
+        first, last = ([float(x) for values in _expected(instant, tree) for x in values] for instant in instants)
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
@@ -55,7 +55,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
 
 
 def _expected(instant: Instant, tree: KinematicTree) -> Iterator[Iterable[float]]:
-    """Yield what the reference says of each quantity, in the order of `RobotVariables.compared`."""
+    """Yield the values of each quantity by the reference, in the order of `RobotVariables.compared`."""
     for link in tree.links:
         place, axes = instant.frame(link.name)
         yield place

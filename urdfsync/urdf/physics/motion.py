@@ -1,4 +1,4 @@
-"""How a robot moves in the comparison: a function of names and limits alone, the same on every machine.
+"""The motion of a robot in the comparison: a function of names and limits alone, the same on every machine.
 
 The base and all driven axes follow polynomials of time.
 """
@@ -29,7 +29,7 @@ class Course(NamedTuple):
     acceleration: float
 
     def at(self, time: float) -> Course:
-        """The course as it is later."""
+        """Return the course as it is at a later time."""
         position = self.position + self.speed * time + self.acceleration * time**2 / 2
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
@@ -43,7 +43,7 @@ TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
 
 
 def axis_course(joint: Joint) -> Course:
-    """The course of a driven axis: it begins near the middle of its range, if that is finite and sensible.
+    """Return the course of a driven axis. It begins near the middle of its range, if that is finite and sensible.
 
     The joint's name decides, so that a new joint leaves the motion of the others alone. No speed is close to zero,
     where faults do not show.
@@ -62,5 +62,5 @@ def axis_course(joint: Joint) -> Course:
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:
-    """Joints with a drive, first those that turn, then those that slide."""
+    """Return the joints with a drive, first those that turn, then those that slide."""
     return tuple(joint for motion in MOTIONS for joint in tree.axes(motion))

@@ -48,23 +48,23 @@ _BASE = """
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
-"""What the robot does to the base that moves it, resolved in the root link's frame."""
+"""Force and torque of the robot on the base that moves it, resolved in the root link's frame."""
 MASS = ("mass",)
 CENTRE = tuple(f"centre[{i}]" for i in (1, 2, 3))
-"""Of mass in the world; zero without any mass."""
+"""Centre of mass in the world; zero without any mass."""
 
 
 class RobotVariables(msgspec.Struct, frozen=True):
     """Names in a model that has the robot as `robot`."""
 
     declaration: str
-    """Of the robot, up to the modifiers that depend on the comparison."""
+    """Declaration of the robot, up to the modifiers that depend on the comparison."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
     flanges: Mapping[str, str]
-    """By joint that can be driven: the connector of its axis."""
+    """Connector of the axis of each joint that can be driven."""
     compared: tuple[Compared, ...]
-    """All that is compared, from the root outwards."""
+    """Quantities that are compared, from the root outwards."""
 
 
 def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
@@ -112,7 +112,7 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
 
 
 def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
-    """A model in which every axis of the robot moves, and the values to compare."""
+    """Return a model in which every axis of the robot moves, and the values to compare."""
     names = robot_variables(tree, target, options)
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
@@ -142,5 +142,5 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    values = tuple(value for one in names.compared for value in one.values)
+    values = tuple(value for quantity in names.compared for value in quantity.values)
     return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, values)

@@ -1,7 +1,7 @@
 """The reference: poses and efforts of a robot by Pinocchio, at prescribed motion.
 
-Nothing of ours is between the file and the reference but what Pinocchio's reader leaves out: `mimic` elements, and
-what drives add to the inertia of joints.
+Pinocchio reads the file by itself. Only the parts that its reader leaves out are added here: `mimic` elements, and the
+inertia that drives add to joints.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes, so that
@@ -28,18 +28,18 @@ from urdfsync.urdf.robot import Mimic, effective, reflected_inertia
 Array = NDArray[np.float64]
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
-"""In s/rad and s/m: the dry friction of generated joints is f·tanh(s·v/2)."""
+"""Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
 
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
 class PinocchioRobot(NamedTuple):
-    """What the reference knows of a robot."""
+    """A robot as Pinocchio reads it, with the mimic relations that its reader leaves out."""
 
     model: Any
     """Pinocchio's model; its first joint is the free motion of the root link."""
     followers: Mapping[str, Mimic]
-    """By joint."""
+    """Mimic relation of each follower, by the names of joints."""
 
 
 def read(content: bytes, file: str) -> PinocchioRobot:
@@ -68,7 +68,7 @@ def read(content: bytes, file: str) -> PinocchioRobot:
 
 
 def pinocchio() -> Any:
-    """The library; raises SourceError if it is not installed."""
+    """Return the library. Raises SourceError if it is not installed."""
     try:
         import pinocchio  # an optional extra
     except ImportError:
@@ -95,13 +95,13 @@ class Reference:
         self.axes = tuple(axes)
         self.projection, self._offset = self._mimic(robot)
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
-        """Of the dry friction, for each coordinate of Pinocchio's velocity; in s/rad or s/m, as in the records."""
+        """Steepness of dry friction for each coordinate of Pinocchio's velocity, in s/rad or s/m as in the records."""
         for joint in self.model.joints:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def state(self, time: float, courses: Sequence[Course]) -> Configuration:
-        """Return where the robot is, `courses` being those of the axes from time 0."""
+        """Return the configuration at a time; `courses` are those of the axes from time 0."""
         pin, model = self.pin, self.model
         p, speeds, gains = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
         q = pin.integrate(model, pin.neutral(model), self.projection @ p + self._offset)
@@ -143,17 +143,17 @@ class Reference:
 
 
 class Instant(msgspec.Struct, frozen=True):
-    """What the reference says of a robot at one instant."""
+    """Poses and efforts of a robot at one instant, by the reference."""
 
     reference: Reference
     data: Any
-    """Pinocchio's, with the poses of all frames."""
+    """Pinocchio's data, with the poses of all frames."""
     q: Array
     force: Array
-    """On the root link, in its frame."""
+    """Force on the root link, in its frame."""
     torque: Array
     efforts: Array
-    """Of the driven axes."""
+    """Efforts of the driven axes."""
 
     def frame(self, link: str) -> tuple[Array, Array]:
         """Return place and axes (as columns) of a link's frame in the world."""
