@@ -180,24 +180,6 @@ def test_who_writes_the_new_value_himself_has_no_conflict(project: Path) -> None
         assert kinds(run()) == {RECORD: Reason.KEEP}
 
 
-@pytest.mark.parametrize("edited", [False, True])
-def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) -> None:
-    merging()
-    run()
-    if edited:
-        edit(RECORD, "end R1", MAY)
-    edit(RECORD, "\n", "\r\n")
-    for request in ({}, {"full": True}):
-        assert kinds(run(**request)) == ({RECORD: Reason.KEEP} if edited else {})
-    resistor(150)
-    assert kinds(run())[RECORD] is (Reason.MERGE if edited else Reason.UPDATE)
-    text = Path(RECORD).read_bytes()
-    assert b"150" in text
-    assert (b"// measured in May" in text) is edited
-    assert text.count(b"\r\n") == text.count(b"\n")
-    assert kinds(run()) == ({RECORD: Reason.KEEP} if edited else {})
-
-
 @pytest.mark.parametrize("path", [R1, RECORD, f"{LADDER}/Elements/package.order"])
 @pytest.mark.parametrize("length", [7, 8])  # 8 where both branches gave a file another name
 def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str, length: int) -> None:

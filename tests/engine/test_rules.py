@@ -19,6 +19,9 @@ from urdfsync.engine.rules import (
     decide,
     decide_file,
     files_after,
+    hold,
+    keep_needed,
+    pending_choices,
     valid_choices,
 )
 from urdfsync.state.record import Choice, FileRecord, UsersChoice, sides_hash
@@ -175,3 +178,66 @@ def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
         Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Reason.KEEP, Reason.CONFLICT)
     ]
     assert [valid_choices(pending, [action], is_pending=True) for action in actions] == [{}, pending]
+
+
+HELD = {
+    "Conflict.mo": (Action("Conflict.mo", Reason.CONFLICT, Role.MODEL), False),
+    "New.mo": (Action("New.mo", Reason.CREATE, Role.MODEL), True),
+    "Number.mo": (Action("Number.mo", Reason.UPDATE, Role.RECORD), False),
+    "Renamed.mo": (Action("Renamed.mo", Reason.UPDATE, Role.RECORD), True),
+    "Structure.mo": (Action("Structure.mo", Reason.UPDATE, Role.RECORD), True),
+    "Restored.mo": (Action("Restored.mo", Reason.RESTORE, Role.MODEL, base="old", generated="old"), False),
+    "Renewed.mo": (Action("Renewed.mo", Reason.RESTORE, Role.MODEL, base="old", generated="new"), True),
+    "package.order": (Action("package.order", Reason.RESTORE, Role.ORDER), True),
+    "new.stl": (Action("new.stl", Reason.CREATE, Role.IMPORT), False),
+    "old.stl": (Action("old.stl", Reason.DELETE, Role.IMPORT), True),
+    "Taken.mo": (
+        Action("Taken.mo", Reason.UPDATE, Role.MODEL, base="a", generated="a", choice=Choice.TAKE),
+        False,
+    ),
+    "Undone.mo": (Action("Undone.mo", Reason.UNDO, Role.MODEL, choice=Choice.UNDO), False),
+    "Kept.mo": (Action("Kept.mo", Reason.KEEP, Role.MODEL, choice=Choice.KEEP), True),
+}
+"""Actions beside a conflict, and whether they wait for it: what the package compiles with does not."""
+
+
+@pytest.mark.parametrize("moves", [False, True])
+def test_what_waits_for_a_conflict(moves: bool) -> None:
+    actions = [action for action, _ in HELD.values()]
+    held = {one.path for one in hold(actions, {"Number.mo", "Renamed.mo"}, {"Renamed.mo"}, moves) if one.held}
+    assert held == {path for path, (_, waits) in HELD.items() if waits or (moves and path != "Conflict.mo")}
+
+
+def test_choices_wait_with_their_actions_but_not_those_to_undo() -> None:
+    actions = [
+        Action(choice, Reason.CONFLICT, Role.MODEL, choice=choice, held=held)
+        for choice, held in ((Choice.TAKE, True), (Choice.KEEP, False), (Choice.UNDO, True), (Choice.EDIT, True))
+    ]
+    texts = {Choice.TAKE: "generated", Choice.EDIT: "both"}
+    pending = {path: choice.text for path, choice in pending_choices(actions, texts).items()}
+    assert pending == {Choice.TAKE: None, Choice.EDIT: "both"}
+
+
+def test_a_package_stays_for_the_one_inside_that_stays() -> None:
+    packages = ("P/package.mo", "P/Q/package.mo", "P/R/package.mo")
+    actions = [Action(path, Reason.DELETE, Role.PACKAGE) for path in packages]
+    actions.append(Action("P/A.mo", Reason.DELETE, Role.RECORD))
+    inside = {"P/package.mo": {"P/A.mo", *packages[1:]}, "P/Q/package.mo": {"P/Q/Mine.mo"}, "P/R/package.mo": set()}
+    kept = keep_needed(actions, lambda path, gone: bool(inside[path] - set(gone)), used=())
+    assert [one.path for one in kept if one.reason is Reason.NEEDED] == ["P/package.mo", "P/Q/package.mo"]
+    kept = keep_needed(actions[3:], lambda *_: False, used=["P/A.mo", "P/Gone.mo"])
+    assert [one.reason for one in kept] == [Reason.NEEDED]
+
+
+def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None:
+    """A goes to B, B to C and C to D, where something of the user's is."""
+    files = {name: File(Role.MODEL, "", FileRecord(("base",)), "edited", "new") for name in "ABC"}
+    files["D"] = File(Role.MODEL, "", on_disk="mine", generated="new")
+    assert all(action.origin is None for action in decide(files, {"B": "A", "C": "B", "D": "C"}))
+
+
+def test_while_something_is_open_files_count_that_are_as_generated() -> None:
+    files = {reason.name: reason for reason in (Reason.ADOPT, Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
+    actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]
+    records = files_after(actions, dict.fromkeys(files, FileRecord(("old",))), is_complete=False)
+    assert [path for path, record in records.items() if record.hashes == ("new",)] == ["ADOPT", "UNCHANGED", "UPDATE"]

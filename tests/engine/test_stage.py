@@ -15,9 +15,11 @@ from support.networks import (
     R1,
     R2,
     RECORD,
+    configure,
     edit,
     kinds,
     mentioned,
+    own_model,
     rename,
     resistor,
     run,
@@ -195,3 +197,39 @@ def test_damaged_lines_are_out_of_step_and_mended(project: Path, damage: Callabl
     assert not run(dry=True).in_step
     run()
     assert {file.name: file.read_bytes() for file in BASES.iterdir()} == before
+
+
+@pytest.mark.parametrize("edited", [False, True])
+def test_line_ends_of_windows_are_no_edit_and_stay(project: Path, edited: bool) -> None:
+    configure('on_conflict = "merge"\n')
+    run()
+    if edited:
+        edit(RECORD, "end R1", "  // measured in May\nend R1")
+    edit(RECORD, "\n", "\r\n")
+    for request in ({}, {"full": True}):
+        assert kinds(run(**request)) == ({RECORD: Reason.KEEP} if edited else {})
+    resistor(150)
+    assert kinds(run())[RECORD] is (Reason.MERGE if edited else Reason.UPDATE)
+    text = Path(RECORD).read_bytes()
+    assert b"150" in text
+    assert (b"// measured in May" in text) is edited
+    assert text.count(b"\r\n") == text.count(b"\n")
+    assert kinds(run()) == ({RECORD: Reason.KEEP} if edited else {})
+
+
+def test_an_import_counts_as_renewed_when_its_copy_is(conflict: str) -> None:
+    Path(f"{LADDER}/Resources/step.txt").write_text("mine")
+    table = Path("step.csv")
+    table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
+    run()
+    assert Path(MANIFEST).read_text().count("source_hash") == 1
+
+
+def test_what_no_file_says_is_not_recorded(project: Path) -> None:
+    own_model("")
+    run()
+    template = Path("own/element/model.mo.jinja")
+    template.write_text(f"<# a note #>{template.read_text()}")
+    before = Path(MANIFEST).read_bytes()
+    assert run().in_step
+    assert Path(MANIFEST).read_bytes() == before

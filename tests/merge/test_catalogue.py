@@ -16,6 +16,7 @@ from urdfsync.merge import Merge, merge
 
 CATALOGUE = Path(__file__).with_name("catalogue")
 ONE_WAY = {
+    "an-annotation-that-goes-leaves-what-the-user-added",
     "rounding-by-the-export-is-no-change",
     "the-digits-that-the-export-rounds-are-an-edit-if-the-user-typed-them",
     "a-component-that-the-user-renamed",

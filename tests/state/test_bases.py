@@ -42,6 +42,7 @@ def test_a_file_of_bases_is_sorted_and_comes_back() -> None:
     content = bases.dumps(texts)
     assert bases.loads(content) == texts
     assert content.splitlines() == sorted(content.splitlines())
+    assert bases.dumps(dict(reversed(texts.items()))) == content
 
 
 @pytest.mark.parametrize(

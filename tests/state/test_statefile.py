@@ -6,7 +6,7 @@ import re
 
 import msgspec
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
@@ -33,6 +33,7 @@ values = st.recursive(st.none() | st.booleans() | st.floats(allow_nan=False, all
 snapshots = st.dictionaries(names, values | st.dictionaries(names, values, max_size=3), min_size=1, max_size=3)
 
 
+@settings(max_examples=30)
 @given(snapshots, snapshots, st.dictionaries(names, values.filter(lambda value: value is not None)))
 def test_a_record_comes_back(snapshot: dict[str, object], seen: dict[str, object], options: dict[str, object]) -> None:
     record = msgspec.structs.replace(ARM, snapshot=snapshot, options=options, open=Open({}, seen, {}))
@@ -65,6 +66,33 @@ def test_what_git_united_is_not_known_for_sure(line: str) -> None:
     record = united(line)
     assert record.is_united
     assert loads(dumps(record), "arm.state").is_united, "until a build is complete"
+
+
+def test_a_sum_beside_another_one_is_none() -> None:
+    """Of two branches each has its own, and a third one may fit."""
+    sums = [line for line in TEXT.split("\n") if line.startswith("sum ")]
+    assert len(sums) == 1
+    assert united(f'sum "{B}"').is_united
+    assert loads(TEXT.replace(sums[0], ""), "arm.state").is_united
+
+
+def test_the_greatest_revision_counts_wherever_it_stands() -> None:
+    for line in ("revision 2", "revision 4"):
+        assert united(line).generator.revision == max(3, int(line[-1]))
+    assert loads(f"revision 4\n{TEXT}", "arm.state").generator.revision == 4
+
+
+@pytest.mark.parametrize(
+    ("line", "lost"),
+    [
+        (f'choice ["Arm.mo",{{"choice":"take","sides":"{B}"}}]', {"choices": {}}),
+        ('renamed ["link","end","hand"]', {"seen": {}, "renamed": {}}),
+        ('seen ["links","tip",{"mass":3.0}]', {"seen": {}, "renamed": {}}),
+    ],
+)
+def test_of_what_is_open_none_counts_that_two_branches_say_otherwise(line: str, lost: dict[str, object]) -> None:
+    text = dumps(msgspec.structs.replace(ARM, open=OPEN))
+    assert loads(f"{text}\n{line}", "arm.state").open == msgspec.structs.replace(OPEN, **lost)
 
 
 def test_a_model_that_git_united_is_at_hand_unless_an_element_stands_twice() -> None:

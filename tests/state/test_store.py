@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from support.commands import Execute
 from support.files import unchanged
 from support.networks import BASES, MANIFEST, edit, failure, resistor, run, stored
@@ -56,3 +57,38 @@ def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(project: Pat
         assert run().in_step
     path.write_bytes(b"\xff")
     assert "not UTF-8" in failure()
+
+
+@pytest.mark.parametrize("after", [b"new", None], ids=["saved", "deleted"])
+def test_what_was_loaded_is_compared_with_what_is_there(tmp_path: Path, after: bytes | None) -> None:
+    store = Store(tmp_path)
+    state, expanded = store.path("arm"), store.expansion("arm")
+    state.parent.mkdir(parents=True)
+    state.write_bytes(b"old")
+    store.save(state, b"x"), store.save(expanded, b"x")
+    hashes = store.hashes()
+    assert Store(tmp_path).is_unchanged(hashes)
+    expanded.write_bytes(b"made")
+    assert not Store(tmp_path).is_unchanged(hashes)
+    assert Store(tmp_path).is_unchanged(hashes, but=[expanded])
+    expanded.unlink()
+    state.write_bytes(after) if after else state.unlink()
+    assert not Store(tmp_path).is_unchanged(hashes)
+
+
+def test_a_file_that_has_its_content_is_not_saved(tmp_path: Path) -> None:
+    path = tmp_path / "arm.state"
+    path.write_bytes(b"a\r\nb\r\n")
+    store = Store(tmp_path)
+    assert store.save(path, b"a\nb\n") == store.save(tmp_path / "none", None) == []
+    assert [change.content for change in store.save(path, b"a\n")] == [b"a\n"]
+    assert [change.content for change in store.save(path, None)] == [None]
+
+
+def test_versions_of_what_conflicts_no_more_go(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    for name in ("A.base.mo", "B.base.mo"):
+        store.conflicts("arm").joinpath(name).parent.mkdir(parents=True, exist_ok=True)
+        store.conflicts("arm").joinpath(name).write_bytes(b"text")
+    changes = store.save_conflicts("arm", {"A.base.mo": b"text", "C.base.mo": b"new"})
+    assert {change.path.name: change.content for change in changes} == {"B.base.mo": None, "C.base.mo": b"new"}

@@ -12,7 +12,7 @@ from unittest import mock
 
 import msgspec
 import pytest
-from support.crashes import Operation, before_each
+from support.crashes import CHANGES, Operation, before_each
 
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest
@@ -226,3 +226,51 @@ def test_a_full_disk_leaves_a_file_as_it_was(tmp_path: Path, monkeypatch: pytest
     with pytest.raises(OSError, match="No space"):
         save(file, b"old", b"new")
     assert contents(tmp_path) == {"mine.toml": b"old"}
+
+
+def test_bases_are_there_first_and_go_last_and_the_record_comes_after_all(
+    tmp_path: Path, transactions: Transactions
+) -> None:
+    files = ["robots/arm.state", "bases/arm/0", "../Arm.mo", "bases/arm/1", "../Old.mo"]
+    paths = [Path(os.path.normpath(tmp_path / "state" / file)) for file in files]
+    for path in paths[3:]:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"old")
+    changes = [FileChange(path, b"new", None) for path in paths[:3]]
+    changes += [FileChange(path, None, digest(b"old")) for path in paths[3:]]
+    order: list[Path] = []
+
+    def note(operation: Operation) -> None:
+        if operation.name in CHANGES:
+            order.extend(path for path in operation.paths if path in paths)
+
+    with before_each(note):
+        transactions.apply("arm", changes)
+    assert [paths.index(path) for path in order] == [1, 2, 4, 3, 0]
+
+
+def test_what_is_written_through_an_open_handle_takes_its_place_again(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange]
+) -> None:
+    """The old file was exchanged already when its editor saves it."""
+    with changes[0].path.open("r+b", buffering=0) as handle:
+
+        def write(operation: Operation) -> None:
+            if changes[1].path in operation.paths:
+                handle.write(b"mine")
+
+        with before_each(write):
+            applied = transactions.apply("arm", changes)
+    assert applied.not_done == (changes[0].path, changes[3].path)
+    assert changes[0].path.read_bytes().startswith(b"mine")
+
+
+@pytest.mark.parametrize("robots", [[], ["leg"]])
+def test_planned_hashes_of_an_overtaken_robot_go_with_it(
+    tmp_path: Path, changes: list[FileChange], robots: list[str]
+) -> None:
+    transactions = Transactions(tmp_path, tmp_path / "state", robots=robots)
+    changes[0].path.write_bytes(b"mine")
+    assert transactions.apply("leg", changes).not_done
+    assert not transactions.apply("arm", [FileChange(tmp_path / "Arm.mo", b"new", None)]).not_done
+    assert is_interrupted(tmp_path / "state") == bool(robots)

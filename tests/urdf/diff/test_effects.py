@@ -156,6 +156,13 @@ def test_a_renamed_joint_shows_its_new_connectors() -> None:
     assert {one.hint for one in driven} == {""}
 
 
+def test_another_motion_is_told_of_an_axis_that_keeps_its_name() -> None:
+    turns, slides = (version(*STAR[:2], joint("v", kind, "base", "a")) for kind in ("revolute", "prismatic"))
+    renamed = version(*STAR[:2], joint("w", "prismatic", "base", "a"))
+    assert changed(turns, slides)["joint v / motion"] == ("rotational", "translational")
+    assert "joint w / motion" not in changed(turns, renamed, {("joint", "v"): "w"})
+
+
 def test_the_order_of_positions_counts_where_they_are_one_vector() -> None:
     old = version(*STAR[:3], joint("jb", "continuous", "base", "a"), joint("jc", "continuous", "base", "b"))
     new = version(

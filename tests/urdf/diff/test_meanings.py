@@ -167,6 +167,15 @@ def test_each_of_two_changes_of_one_shape_has_its_own_class() -> None:
     assert found == {"size[0]": PARAMETER, "name": UNMODELLED}
 
 
+def test_a_value_that_only_one_version_models_is_modelled() -> None:
+    def edit(data: Data) -> None:
+        put("joint spin / type", "revolute")(data)
+        put("joint spin / limit / lower", 1.0)(data)
+
+    found = {str(change).rpartition(" / ")[2]: change.change_class for change in changes(edit)}
+    assert found == {"type": STRUCTURAL, "lower": PARAMETER}
+
+
 def test_what_is_named_by_its_element_alone_came_or_went() -> None:
     def add(data: Data) -> None:
         data["links"]["nine"] = {"visuals": [], "collisions": []}
@@ -251,6 +260,8 @@ EYE = '<link name="b"><sensor name="camera"/></link>'
 
 
 IMU = '<gazebo reference="{}"><sensor name="imu" type="imu"><pose>{} 0 0 0 0 0</pose></sensor></gazebo>'
+FORCE = '<gazebo reference="{}"><sensor name="s" type="force_torque"><force_torque>{}</force_torque></sensor></gazebo>'
+CHILD = "<frame>child</frame>"
 COMMAND = '<ros2_control name="c"><joint name="wheel"><command_interface name="{}"/></joint></ros2_control>'
 
 
@@ -324,6 +335,21 @@ DRIVES = {
         (*PAIR, IMU.format("b", 1)),
         (*(element.replace('"b"', '"c"') for element in PAIR), IMU.format("c", 1)),
         {"link b: renamed, structural"},
+    ),
+    "a sensor moves with the new name of its joint": (
+        (*PAIR, FORCE.format("a", CHILD)),
+        (PAIR[0], PAIR[1].replace('name="a"', 'name="c"'), FORCE.format("c", CHILD)),
+        {"joint a: renamed, structural"},
+    ),
+    "a sensor measures in the frame of the other link": (
+        (*PAIR, FORCE.format("a", CHILD)),
+        (*PAIR, FORCE.format("a", "<frame>parent</frame>")),
+        {"sensor s / in_parent: changed, structural"},
+    ),
+    "a sensor measures the other way": (
+        (*PAIR, FORCE.format("a", CHILD)),
+        (*PAIR, FORCE.format("a", f"{CHILD}<measure_direction>parent_to_child</measure_direction>")),
+        {"sensor s / on_child: changed, structural"},
     ),
     "a caster that is fixed has no drive to speak of": ((*CASTERS, WHEEL),
         with_caster("continuous", "fixed"), {"joint caster / type: changed, structural"}),

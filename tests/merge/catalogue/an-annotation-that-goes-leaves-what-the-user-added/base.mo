@@ -1,0 +1,3 @@
+model A
+  B b annotation (Dialog(group = "a"));
+end A;

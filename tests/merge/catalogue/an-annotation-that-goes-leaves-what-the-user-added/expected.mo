@@ -1,0 +1,3 @@
+model A
+  B b annotation (choicesAllMatching = true);
+end A;

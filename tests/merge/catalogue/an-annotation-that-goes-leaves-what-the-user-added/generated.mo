@@ -1,0 +1,3 @@
+model A
+  B b;
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b annotation (choicesAllMatching = true, Dialog(group = "a"));
+end A;

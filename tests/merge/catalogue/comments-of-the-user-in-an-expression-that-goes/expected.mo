@@ -1,0 +1,3 @@
+model A
+  B b(x = f(2) /* mine */);
+end A;

@@ -1,0 +1,3 @@
+model A
+  B b(x = f(1 /* mine */ /* old */));
+end A;
