@@ -164,37 +164,7 @@ def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path)
         Path(MANIFEST).write_text("it need not be readable")
 
 
-# Hand edits
-
-
-def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
-    project: Path, snapshot_of: Snapshot
-) -> None:
-    run()
-    before = snapshot_of(project / LADDER)
-    resistor(120)
-    source('"R2"', '"R3"')
-    edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
-    first = run()
-    assert kinds(first) == {"Elements/R1Parameters.mo": Reason.UPDATE, "Ladder.mo": Reason.CONFLICT}
-    after = snapshot_of(project / LADDER)
-    assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
-    assert b"// mine" in after["Ladder.mo"][1]
-    waiting = {f"Elements/R{n}{kind}.mo" for n in "23" for kind in ("", "Parameters")} | {"Elements/package.order"}
-    for result in (first, run()):
-        assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.held} == waiting
-        assert exit_code([result]) is Exit.CONFLICT
-    source('"R3"', '"R2"')
-    assert kinds(run()) == {"Ladder.mo": Reason.KEEP}, "the source came back"
-    source('"R2"', '"R3"')
-    assert kinds(run()) == {"Ladder.mo": Reason.CONFLICT}
-    Path(f"{LADDER}/Ladder.mo").unlink()
-    resolved = run()
-    assert exit_code([resolved]) is Exit.IN_STEP
-    assert kinds(resolved)["Ladder.mo"] is Reason.RESTORE
-    assert kinds(resolved)["Elements/R3.mo"] is Reason.CREATE
-    assert not (project / LADDER / "Elements/R2.mo").exists()
-    assert run().in_step
+# Other versions
 
 
 def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -230,27 +200,6 @@ def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
     resistor(120)
     assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
     assert run().in_step
-
-
-def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
-    run()
-    elements = project / LADDER / "Elements"
-    edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
-    source('"R2"', '"R3"')
-    source("220.5", "330")
-    orphans = {"Elements/R2.mo": Reason.ORPHAN, "Elements/R2Parameters.mo": Reason.NEEDED}
-    assert kinds(run()).items() >= orphans.items()
-    assert "R2Parameters" in (elements / "R2.mo").read_text()
-    assert (elements / "R2Parameters.mo").exists()
-    lines = (elements / "package.order").read_text().split()
-    assert {"R2", "R2Parameters", "R3", "R3Parameters"} <= set(lines), "a class that stays keeps its line"
-    for request in ({}, {"full": True}):
-        assert kinds(run(**request)) == orphans
-        assert run(**request).in_step
-    (elements / "R2.mo").unlink()
-    gone = {"Elements/R2.mo": Reason.FORGET, "Elements/R2Parameters.mo": Reason.DELETE}
-    assert kinds(run()) == {**gone, "Elements/package.order": Reason.UPDATE}
-    assert kinds(run()) == {}
 
 
 # The packages around

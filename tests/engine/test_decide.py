@@ -14,13 +14,16 @@ from typing import Any
 import pytest
 from support.files import unchanged
 from support.networks import (
+    BASES,
     C1,
     LADDER,
     R1,
     R2,
     RECORD,
+    Snapshot,
     configure,
     edit,
+    failure,
     kinds,
     own_model,
     rename,
@@ -36,6 +39,7 @@ from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.state.record import Choice
 
 ASIDE = Path(".urdfsync/conflicts/ladder/Elements")
+BELOW = f"{LADDER}/"
 SHUNT = f"{LADDER}/Elements/Shunt.mo"
 MAY, SENSOR = "  // measured in May\nend R1", "  // a sensor here\nequation"
 
@@ -196,6 +200,13 @@ def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str, len
             assert (found.file, found.line, found.code) == (path, 1, "merge-markers")
 
 
+def test_merge_markers_are_refused_in_a_file_that_would_move(project: Path) -> None:
+    run()
+    edit(R1, "end R1;", "<<<<<<< HEAD\nend R1;")
+    rename("R1", "Shunt")
+    assert f"{R1}:" in failure()
+
+
 # Renames
 
 
@@ -302,10 +313,38 @@ def test_a_choice_holds_until_the_others_are_made(two_conflicts: tuple[str, str]
     assert run().in_step
 
 
+def test_of_two_choices_on_one_file_the_last_counts(two_conflicts: tuple[str, str]) -> None:
+    one, two = two_conflicts
+    assert conflicts(choices={one: Choice.KEEP}) == [two]
+    assert conflicts(choices={one: Choice.TAKE}) == [two]
+    run(choices={two: Choice.TAKE})
+    assert "+ 1" not in Path(one).read_text()
+
+
 def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
     edit("urdfsync.toml", "robots.ladder", "robots.leiter")
     assert len(run().conflicts) == 2
     assert [path.name for path in (project / ".urdfsync/conflicts").iterdir()] == ["leiter"]
+
+
+# What stays, and in which order
+
+
+def test_a_text_that_could_not_be_given_back_is_not_deleted(project: Path) -> None:
+    run()
+    for file in BASES.iterdir():
+        file.write_bytes(b"")
+    drop("C1")
+    assert kinds(run())[C1] is Reason.ORPHAN
+
+
+@pytest.mark.parametrize("adopts", [False, True])
+def test_own_classes_beside_a_new_package_are_listed_if_it_is_adopted(project: Path, adopts: bool) -> None:
+    own = Path(LADDER, "Mine.mo")
+    own.parent.mkdir(parents=True)
+    own.write_text("within Ladder;\nmodel Mine\nend Mine;\n")
+    run(adopts=adopts)
+    assert ("Mine" in Path(LADDER, "package.order").read_text().split()) is adopts
 
 
 # Names that the package has no more
@@ -622,3 +661,54 @@ def test_a_record_that_is_needed_stays_when_its_element_gets_another_name_later(
     rename("C1", "Tank")
     run()
     assert record.exists()
+
+
+def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
+    project: Path, snapshot_of: Snapshot
+) -> None:
+    run()
+    before = snapshot_of(project / LADDER)
+    resistor(120)
+    source('"R2"', '"R3"')
+    edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
+    first = run()
+    assert kinds(first, BELOW) == {"Elements/R1Parameters.mo": Reason.UPDATE, "Ladder.mo": Reason.CONFLICT}
+    after = snapshot_of(project / LADDER)
+    assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
+    assert b"// mine" in after["Ladder.mo"][1]
+    waiting = {f"Elements/R{n}{kind}.mo" for n in "23" for kind in ("", "Parameters")} | {"Elements/package.order"}
+    for result in (first, run()):
+        assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.held} == waiting
+        assert exit_code([result]) is Exit.CONFLICT
+    source('"R3"', '"R2"')
+    assert kinds(run(), BELOW) == {"Ladder.mo": Reason.KEEP}, "the source came back"
+    source('"R2"', '"R3"')
+    assert kinds(run(), BELOW) == {"Ladder.mo": Reason.CONFLICT}
+    Path(f"{LADDER}/Ladder.mo").unlink()
+    resolved = run()
+    assert exit_code([resolved]) is Exit.IN_STEP
+    assert kinds(resolved, BELOW)["Ladder.mo"] is Reason.RESTORE
+    assert kinds(resolved, BELOW)["Elements/R3.mo"] is Reason.CREATE
+    assert not (project / LADDER / "Elements/R2.mo").exists()
+    assert run().in_step
+
+
+def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
+    run()
+    elements = project / LADDER / "Elements"
+    edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
+    source('"R2"', '"R3"')
+    source("220.5", "330")
+    orphans = {"Elements/R2.mo": Reason.ORPHAN, "Elements/R2Parameters.mo": Reason.NEEDED}
+    assert kinds(run(), BELOW).items() >= orphans.items()
+    assert "R2Parameters" in (elements / "R2.mo").read_text()
+    assert (elements / "R2Parameters.mo").exists()
+    lines = (elements / "package.order").read_text().split()
+    assert {"R2", "R2Parameters", "R3", "R3Parameters"} <= set(lines), "a class that stays keeps its line"
+    for request in ({}, {"full": True}):
+        assert kinds(run(**request), BELOW) == orphans
+        assert run(**request).in_step
+    (elements / "R2.mo").unlink()
+    gone = {"Elements/R2.mo": Reason.FORGET, "Elements/R2Parameters.mo": Reason.DELETE}
+    assert kinds(run(), BELOW) == {**gone, "Elements/package.order": Reason.UPDATE}
+    assert kinds(run(), BELOW) == {}

@@ -213,7 +213,7 @@ def test_choices_wait_with_their_actions_but_not_those_to_undo() -> None:
         Action(choice, Reason.CONFLICT, Role.MODEL, choice=choice, held=held)
         for choice, held in ((Choice.TAKE, True), (Choice.KEEP, False), (Choice.UNDO, True), (Choice.EDIT, True))
     ]
-    texts = {Choice.TAKE: "generated", Choice.EDIT: "both"}
+    texts: dict[str, str] = {Choice.TAKE: "generated", Choice.EDIT: "both"}
     pending = {path: choice.text for path, choice in pending_choices(actions, texts).items()}
     assert pending == {Choice.TAKE: None, Choice.EDIT: "both"}
 
