@@ -50,13 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     ending = "\r\n" if "\r\n" in text else "\n"
     new = f"{text}{'' if text.endswith(chr(10)) else ending}{tables.replace(chr(10), ending)}"
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
-    try:
-        config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
-    except ConfigError as error:
-        if error.diagnostics[0].code != "toml-syntax":
-            raise
-        message, hint = "no table can follow `robots = {…}`", "write each robot as a table `[robots.NAME]`"
-        raise ConfigError.of("inline-robots", message, shown(loaded.file), hint=hint) from None
+    config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
     with write_errors(loaded.file):
         save(loaded.file, content, new.encode())
     console.warnings(warnings)

@@ -1,25 +1,32 @@
-"""The user's editor on one file outside of the project: that of `$VISUAL` or `$EDITOR`.
+"""`urdfsync resolve --edit`: the user's editor on files outside of the project: that of `$VISUAL` or `$EDITOR`.
 
 Nothing else chooses the program: the project may be a clone of a stranger's, and its folders may pose as repositories.
 """
 
 from __future__ import annotations
 
+import difflib
 import os
 import shlex
 import subprocess
 import tempfile
-from pathlib import Path
+from collections.abc import Sequence
+from pathlib import Path, PurePosixPath
 
 from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.package_files import encode
+from urdfsync.merge.texts import find_flaw
+from urdfsync.modelica.parser import parse
 
 _HINT = "set $VISUAL or $EDITOR"
 
 
-def edit(name: str, content: bytes) -> Path:
-    """Let the user edit a file called `name`; return it as it was saved, in a folder of its own.
+def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
+    """Let the user make one text of both sides of each conflict.
 
-    Raises UrdfsyncError if there is no editor, or if it fails.
+    Returns the folder with the edited files, and their texts by the paths of the conflicts. Raises UrdfsyncError if
+    there is no editor, if it fails, and for a text that can't be used; the folder stays.
     """
     command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or ""
     try:
@@ -28,14 +35,45 @@ def edit(name: str, content: bytes) -> Path:
         raise UrdfsyncError.of("no-editor", f"`{command}` is no command: {str(error).lower()}", hint=_HINT) from None
     if not words:
         raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
-    folder = Path(tempfile.mkdtemp(prefix="urdfsync-edit-"))
-    file = folder / name
-    file.write_bytes(content)
-    try:  # not in the project's folder, where an editor may look for settings
-        code = subprocess.run([*words, str(file)], cwd=folder, check=False).returncode  # noqa: S603
-    except OSError as error:
-        raise UrdfsyncError.of("no-editor", f"`{words[0]}` can't be started: {error.strerror}", hint=_HINT) from error
-    if code:
-        message = f"the editor ended with exit code {code}; nothing was changed"
-        raise UrdfsyncError.of("editor-failed", message, hint=f"what it saved is in {file}")
-    return file
+    folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
+    hint = f"what you edited is in {folder}; --edit begins anew"
+    for number, conflict in enumerate(conflicts):
+        file = folder / str(number) / PurePosixPath(conflict.path).name  # many have the same name
+        file.parent.mkdir()
+        proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
+        file.write_bytes(encode(proposal))
+        try:  # not in the project's folder, where an editor may look for settings
+            code = subprocess.run([*words, str(file)], cwd=file.parent, check=False).returncode  # noqa: S603
+        except OSError as error:
+            message = f"`{words[0]}` can't be started: {error.strerror}"
+            raise UrdfsyncError.of("no-editor", message, hint=_HINT) from None
+        if code:
+            message = f"the editor ended with exit code {code}; nothing was changed"
+            raise UrdfsyncError.of("editor-failed", message, hint=hint)
+        content = file.read_bytes()
+        if flaw := _flaw(content, conflict):
+            raise UrdfsyncError.of("no-edit", f"the edited text {flaw}; nothing was changed", conflict.path, hint=hint)
+        texts[conflict.path] = content.decode()
+    return folder, texts
+
+
+def _both(mine: str, generated: str) -> str:
+    """Return both texts as one, with markers around what differs: there is no base to merge with."""
+    sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
+    lines: list[str] = []
+    for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
+        own, new = sides[0][places[0] : places[1]], sides[1][places[2] : places[3]]
+        lines += own if what == "equal" else ["<<<<<<< mine", *own, "=======", *new, ">>>>>>> generated"]
+    return ("\r\n" if "\r\n" in mine else "\n").join([*lines, ""])
+
+
+def _flaw(content: bytes, conflict: Conflict) -> str:
+    """Return why an edited text can't be used, as the end of a sentence; empty if it can."""
+    try:
+        text = content.decode()
+    except UnicodeDecodeError:
+        return "is not UTF-8"
+    if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
+        return flaw
+    wanted, given = ([str(one.name) for one in parse(side).classes] for side in (conflict.generated, text))
+    return "" if given == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"

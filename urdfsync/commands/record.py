@@ -17,7 +17,7 @@ from urdfsync.domain import Target
 from urdfsync.engine import source as sources
 from urdfsync.engine.generate import Package
 from urdfsync.engine.result import Exit
-from urdfsync.files import kind_of, normalised, put, shown
+from urdfsync.files import normalised, put, shown
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
 from urdfsync.output.console import Console, line
 
@@ -92,25 +92,26 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
     A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
     for what can't be written.
     """
-    content, problem = record.encode(), ("", "", "")
+    content = record.encode()
     try:
-        if file.exists() and not file.is_file():
-            problem = "output-in-the-way", f"{kind_of(file.stat().st_mode)} is in its place", "name a file"
-        elif file.exists() and normalised(read_unrecorded(file)) == content:
-            return False
-        elif file.exists() and file.samefile(source):
-            problem = "output-is-source", "the record would replace its source", "name another file"
-        elif file.exists() and not force:
-            hint = "name another one, or replace it with --force"
-            problem = "file-exists", "the file exists, and holds something else", hint
-        else:
-            put(file.resolve(), content)
-            return True
+        if file.exists():
+            if normalised(read_unrecorded(file)) == content:
+                return False
+            if file.samefile(source):
+                message = "the record would replace its source"
+                raise OutputError.of("output-is-source", message, shown(file), hint="name another file")
+            if not force:
+                message, hint = (
+                    "the file exists, and holds something else",
+                    "name another one, or replace it with --force",
+                )
+                raise OutputError.of("file-exists", message, shown(file), hint=hint)
+        put(file.resolve(), content)
     except OSError as error:
         hint = "check that its folder exists and may be written to, and that there is space on the disk"
-        problem = "output-not-writable", f"it can't be written: {error.strerror}", hint
-    code, message, hint = problem
-    raise OutputError.of(code, message, shown(file), hint=hint)
+        message = f"it can't be written: {error.strerror}"
+        raise OutputError.of("output-not-writable", message, shown(file), hint=hint) from None
+    return True
 
 
 def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:

@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import msgspec
 
 from urdfsync import config
 from urdfsync.commands import arguments, editor
 from urdfsync.commands.build import build_and_check
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Kind, Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.conflicts import Conflict
-from urdfsync.engine.package_files import encode, key_of
+from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.merge.texts import find_flaw
-from urdfsync.modelica.parser import parse
-from urdfsync.output.conflicts import find_conflicts
 from urdfsync.output.console import Console, first_lines
 from urdfsync.output.results import file_line, show_result, show_results
 from urdfsync.state.record import Choice, UsersChoice
 
 _LINES = 20
 """So many files are listed at most, without --verbose."""
-_FEW = 5
-"""So many conflicts are named in a message; of more, only the first ones and their number."""
 _MEANINGS = {
     Choice.KEEP: "your file as it is",
     Choice.TAKE: "the generated file; --undo brings your edits back",
@@ -101,18 +94,16 @@ def run(args: argparse.Namespace, console: Console) -> int:
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
     choices = {action.path: UsersChoice(choice, action.sides) for _, action in targets.values()}
-    files: dict[str, Path] = {}
+    edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:  # this plan has the texts of files that wait after another choice, too
         again = build(configuration, robots, arguments.request(args, console, dry=True, choices=choices))
-        files = _edit([texts for result in again for texts in result.conflict_texts if texts.path in targets])
-    for path, file in files.items():
-        choices[path] = msgspec.structs.replace(choices[path], text=file.read_bytes().decode())
+        disputed = [texts for result in again for texts in result.conflict_texts if texts.path in targets]
+        folder, edited = editor.edit(disputed) if disputed else (None, {})
+    for path, text in edited.items():
+        choices[path] = msgspec.structs.replace(choices[path], text=text)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
     results = show_results(console, build_and_check(configuration, robots, request))
     accepted, problems = _compare(targets, results, choice)
-    remaining = {path: file for path, file in files.items() if args.dry_run or path not in accepted}
-    for path in files.keys() - remaining.keys():
-        shutil.rmtree(files[path].parent)
     if not args.dry_run:
         lines = [
             file_line(shown(configuration.root / path), "accepted", "green", _meaning(action))
@@ -123,7 +114,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if problems and code is Exit.IN_STEP:
         is_error = any(one.severity is Severity.ERROR for one in problems)
         code = Exit.ERROR if is_error else Exit.CONFLICT
-    return console.end(code, [*problems, *map(_remains, remaining.values())])
+    if folder and not args.dry_run and edited.keys() <= accepted.keys():
+        shutil.rmtree(folder)
+    elif folder:
+        hint = "put what you want of it into your file, or edit again"
+        message = "what you edited was not used, or not all of it"
+        problems.append(Diagnostic(Severity.NOTE, "edit-left", message, shown(folder), hint=hint))
+    return console.end(code, problems)
 
 
 def _choice(args: argparse.Namespace) -> Choice:
@@ -165,13 +162,10 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
     failed = [result for result in planned if result.failed]
     for result in failed:
         show_result(console, result)
-    subject = f"{' and '.join(f'`{path}`' for path in unknown)} {'has' if len(unknown) == 1 else 'have'}"
-    names = [target.shown for target in find_conflicts(planned)]
-    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
-    hint = "correct the errors first" if failed else "no file is in conflict"
-    hint = f"in conflict: {', '.join(names[:_FEW])}{more}" if names else hint
-    code = exit_code(failed) if failed else Exit.ERROR
-    return console.end(code, [Diagnostic(Severity.ERROR, "no-conflict", f"{subject} no conflict", hint=hint)])
+    hint = "correct the errors first" if failed else "see `urdfsync status` for the conflicts"
+    message = f"nothing conflicts in {', '.join(f'`{path}`' for path in unknown)}"
+    found = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
+    return console.end(exit_code(failed) or Exit.ERROR, [found])
 
 
 def _compare(
@@ -217,57 +211,3 @@ def _meaning(action: Action) -> str:
     if action.generated is None and action.choice is not Choice.UNDO:
         words = "deleted; --undo brings it back" if action.reason is Reason.DELETE else "yours from now on"
     return f"{words}, once the other conflicts are resolved" if action.held else words
-
-
-# --- the user's editor --------------------------------------------------------------------------------------------
-
-
-def _edit(conflicts: Sequence[Conflict]) -> dict[str, Path]:
-    """Let the user edit each file; return where its text is then, by its path.
-
-    Raises UrdfsyncError if one can't be used; it names those that could, too.
-    """
-    files = dict[str, Path]()
-    try:
-        for conflict in conflicts:
-            files[conflict.path] = _edit_file(conflict)
-    except UrdfsyncError as error:
-        raise UrdfsyncError(*error.diagnostics, *map(_remains, files.values())) from error
-    return files
-
-
-def _edit_file(conflict: Conflict) -> Path:
-    proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
-    file = editor.edit(PurePosixPath(conflict.path).name, encode(proposal))
-    if flaw := _flaw(file.read_bytes(), conflict):
-        message, hint = f"the edited text {flaw}; nothing was changed", f"it stays in {file}; --edit begins anew"
-        raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint)
-    return file
-
-
-def _both(mine: str, generated: str) -> str:
-    """Return both texts as one, with markers around what differs: there is no base to merge with."""
-    sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
-    lines: list[str] = []
-    for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
-        own, new = sides[0][places[0] : places[1]], sides[1][places[2] : places[3]]
-        lines += own if what == "equal" else ["<<<<<<< mine", *own, "=======", *new, ">>>>>>> generated"]
-    return ("\r\n" if "\r\n" in mine else "\n").join([*lines, ""])
-
-
-def _flaw(content: bytes, conflict: Conflict) -> str:
-    """Return why an edited text can't be used, as the end of a sentence; empty if it can."""
-    try:
-        text = content.decode()
-    except UnicodeDecodeError:
-        return "is not UTF-8"
-    wanted, given = ([str(one.name) for one in parse(one).classes] for one in (conflict.generated, text))
-    if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
-        return flaw
-    return "" if given == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"
-
-
-def _remains(file: Path) -> Diagnostic:
-    message = "the text that you edited was not used"
-    hint = "put what you want of it into your file, or edit again"
-    return Diagnostic(Severity.NOTE, "edit-left", message, shown(file), hint=hint)
