@@ -33,9 +33,9 @@ MODELICA = "modelica"
 VARIABLE = "variable"
 """How an environment variable is checked, whose name stands in the place of a path: by its value."""
 _NOTHING = (0,)
-"""What is found where there is nothing."""
+"""The facts about a path without a file."""
 Entries = dict[tuple[str, str], tuple[int, ...]]
-"""Checks and paths with what was found: a `Stat`, a tuple of the file type, `_NOTHING`."""
+"""Checks and paths with their facts: a `Stat`, a tuple of the file type, `_NOTHING`."""
 
 
 class Dependencies:
@@ -57,9 +57,9 @@ class Dependencies:
             _current.reset(self._token)
         self._token = None  # a worker sends its record to the process that prints the answer
 
-    def add(self, check: str, path: str | os.PathLike[str], found: tuple[int, ...]) -> None:
-        """Record what was found at a path, before its content is read."""
-        if self.entries.setdefault((check, os.fspath(path)), found) != found:
+    def add(self, check: str, path: str | os.PathLike[str], facts: tuple[int, ...]) -> None:
+        """Record the facts about a path, before its content is read."""
+        if self.entries.setdefault((check, os.fspath(path)), facts) != facts:
             self.complete = False  # it changed between two reads
 
     def add_modules(self) -> None:
@@ -74,34 +74,34 @@ _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=N
 
 
 def mark_incomplete() -> None:
-    """Say that the answer depends on more than what is recorded: it can't be saved."""
+    """Mark the record as incomplete: the answer depends on more, and can't be saved."""
     if (dependencies := _current.get()) is not None:
         dependencies.complete = False
 
 
-def include(found: Dependencies) -> None:
-    """Record what another process recorded for this one."""
+def include(other: Dependencies) -> None:
+    """Add the record of another process to that of this one."""
     if (dependencies := _current.get()) is not None:
-        for (check, path), value in found.entries.items():
+        for (check, path), value in other.entries.items():
             dependencies.add(check, path, value)
-        dependencies.complete &= found.complete
+        dependencies.complete &= other.complete
 
 
-def is_young(found: tuple[int, ...], now: int) -> bool:
+def is_young(facts: tuple[int, ...], now: int) -> bool:
     """Whether a file changed less than two seconds before `now` (ns), or later.
 
     The next change may show the same stat values, since no clock of a file system is coarser than that of FAT.
     """
-    return max(found[-2:]) > now - YOUNG
+    return max(facts[-2:]) > now - YOUNG
 
 
 def stat_of(status: os.stat_result) -> Stat:
-    """The values that differ once a file has changed."""
+    """Return the values that differ once a file has changed."""
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
 def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return what is at a path now, in the form of `Entries`. Raises OSError if the system does not tell."""
+    """Return the facts about a path now, in the form of `Entries`. Raises OSError if the system does not tell."""
     if check == VARIABLE:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
@@ -118,19 +118,19 @@ def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
 
 
 def _look(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return what is at a path now, and record it. Raises OSError if the system does not tell."""
+    """Return the facts about a path now, and record them. Raises OSError if the system does not tell."""
     try:
-        found = check_path(check, path)
+        facts = check_path(check, path)
     except OSError:
         mark_incomplete()
         raise
     if (dependencies := _current.get()) is not None:
-        dependencies.add(check, path, found)
-    return found
+        dependencies.add(check, path, facts)
+    return facts
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
-    """The file type (see `stat.S_IFMT`) at a path; 0 for nothing there. Raises OSError if the system does not tell."""
+    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the system does not tell."""
     return _look(STAT_TYPE if follow else LSTAT_TYPE, path)[0]
 
 
@@ -145,7 +145,7 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 
 def read_variable(name: str) -> str | None:
-    """The value of an environment variable; None if it is not set."""
+    """Return the value of an environment variable; None if it is not set."""
     _look(VARIABLE, name)
     return os.environ.get(name)
 
@@ -172,18 +172,18 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
 
 
 def read_mode(path: str | os.PathLike[str]) -> int:
-    """The mode of a path, links not followed, before its content is read; 0 for nothing there. Raises OSError."""
+    """Return the mode of a path, links not followed, before its content is read; 0 for none. Raises OSError."""
     return _look(LSTAT, path)[0]
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
-    """The names in a folder, in no order. Raises OSError."""
+    """Return the names in a folder, in no order. Raises OSError."""
     depend_on(folder)
     return os.listdir(folder)
 
 
 def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """The entries of a folder, in no order, of which files of Modelica and folders matter alone. Raises OSError."""
+    """Return the entries of a folder, in no order; its folders and Modelica files are recorded. Raises OSError."""
     if _current.get() is not None:
         _look(MODELICA, folder)
     with os.scandir(folder) as entries:
@@ -191,11 +191,11 @@ def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
 
 
 def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
-    """The number of folders and files of Modelica, and a checksum of their names; hidden ones are left out."""
+    """Return the number of folders and files of Modelica, and a checksum of their names, without hidden ones."""
     names = sorted(
-        one.name
-        for one in entries
-        if not one.name.startswith(".") and (one.name.endswith(".mo") or one.is_dir(follow_symlinks=False))
+        entry.name
+        for entry in entries
+        if not entry.name.startswith(".") and (entry.name.endswith(".mo") or entry.is_dir(follow_symlinks=False))
     )
     return len(names), hash(
         int.from_bytes("/".join(names).encode(errors="surrogateescape"))
@@ -212,7 +212,7 @@ def depend_on(path: str | os.PathLike[str]) -> None:
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
-    """The paths of all regular files below a folder, and of links to such files; links to folders are not followed."""
+    """Yield the paths of all regular files below a folder, and of links to such; links to folders are not followed."""
     waiting = [os.fspath(folder)]
     while waiting:
         current = waiting.pop()
@@ -221,10 +221,10 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
         except OSError:
             continue  # the folder is missing, or can't be read
         for path in [f"{current}{os.sep}{name}" for name in names]:
-            found = file_type(path)
-            if found == stat.S_IFREG:
+            kind = file_type(path)
+            if kind == stat.S_IFREG:
                 yield path
-            elif found == stat.S_IFDIR and os.path.islink(path):
+            elif kind == stat.S_IFDIR and os.path.islink(path):
                 depend_on(path)
-            elif found == stat.S_IFDIR:
+            elif kind == stat.S_IFDIR:
                 waiting.append(path)

@@ -1,4 +1,4 @@
-"""What urdfsync tells people about their input: severity, code, message, file and line."""
+"""Findings about the user's input: severity, code, message, file and line."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
     """Lines that people see with `--verbose` only."""
 
     def __post_init__(self) -> None:
-        """Cut what is too long for a line."""
+        """Cut texts that are too long for a line."""
         for field, text in (("message", self.message), ("hint", self.hint)):
             if len(text) > _LONGEST:
                 msgspec.structs.force_setattr(self, field, cut(text, _LONGEST))
@@ -67,7 +67,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
             msgspec.structs.force_setattr(self, "details", tuple(cut(detail, _LONGEST) for detail in self.details))
 
     def __str__(self) -> str:
-        """The finding as one line: `file:line:column: severity: message; hint [code]`."""
+        """Return the finding as one line: `file:line:column: severity: message; hint [code]`."""
         numbers = [str(number) for number in (self.line, self.column) if number]
         place = ":".join([self.file, *numbers]) + ": " if self.file else ""
         hint = f"; {self.hint}" if self.hint else ""
@@ -129,7 +129,7 @@ class OutputError(UrdfsyncError):
 
 
 def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
-    """Return what an error says, that of the system included, as findings."""
+    """Return the findings of an error, also of one by the system."""
     if isinstance(error, UrdfsyncError):
         return error.diagnostics
     place = os.fsdecode(error.filename or "")

@@ -1,4 +1,4 @@
-"""What a file is that was taken for a robot, such as an archive of one, or a launch file that loads one."""
+"""Kinds of files that users take for a robot, such as an archive of one, or a launch file that loads one."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class FileKind(NamedTuple):
 
 
 def find_kind(content: bytes) -> FileKind | None:
-    """Return what a file is, if it is none that has a robot in it as XML, or one of unknown kind."""
+    """Return the kind of a file that holds no robot as XML; None for other files, and if the kind is unknown."""
     packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"

@@ -26,7 +26,7 @@ _HINTS = {
 
 
 def shown(path: Path) -> str:
-    """A path as people see it: relative to the working folder if it is inside it."""
+    """Return a path as people see it: relative to the working folder if it is inside it."""
     text = str(path)
     try:
         current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
@@ -39,17 +39,17 @@ def shown(path: Path) -> str:
 
 
 def digest(content: bytes) -> str:
-    """SHA-256 (hex) of bytes as they are."""
+    """Return the SHA-256 (hex) of bytes as they are."""
     return hashlib.sha256(content).hexdigest()
 
 
 def text_digest(content: bytes) -> str:
-    r"""SHA-256 (hex) of a text file's bytes with `\r\n` and `\r` read as `\n`."""
+    r"""Return the SHA-256 (hex) of a text file's bytes with `\r\n` and `\r` read as `\n`."""
     return digest(normalised(content))
 
 
 def normalised(content: bytes) -> bytes:
-    r"""A text file's bytes with `\r\n` and `\r` as `\n`."""
+    r"""Return a text file's bytes with `\r\n` and `\r` as `\n`."""
     return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in content else content
 
 
@@ -66,7 +66,7 @@ def put(file: Path, content: bytes) -> None:
 
 
 def templates_digest(folders: Sequence[Path]) -> str:
-    """SHA-256 (hex) over the templates in use, by name and content; an earlier folder hides names of a later one.
+    """Return the SHA-256 (hex) of the templates in use, by name and content; earlier folders hide names of later ones.
 
     Hidden files are left out.
     """
@@ -82,19 +82,19 @@ def templates_digest(folders: Sequence[Path]) -> str:
 
 
 def failure(error: OSError, path: Path, what: str = "it can't be written") -> OutputError:
-    """What the system says of a file or folder, with what to do about it."""
+    """Return an error of the system about a file or folder, with a hint."""
     hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
     message = f"{what}: {error.strerror or error}"
     return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(path), hint=hint))
 
 
 def kind_of(mode: int) -> str:
-    """What a thing is that is no regular file, in words; `mode` is that of `os.lstat`."""
+    """Return the kind of a file that is not regular, in words; `mode` is that of `os.lstat`."""
     return "a symbolic link" if stat.S_ISLNK(mode) else "a folder" if stat.S_ISDIR(mode) else "no regular file"
 
 
 def placed(prefix: str, key: str) -> str:
-    """The path of a file as a string, by its POSIX path from a folder, which `prefix` is with a separator at its end.
+    """Return the path of a file by its POSIX path from a folder; `prefix` is the folder with a separator at its end.
 
     There are thousands of files, and hardly any has a detour in its path.
     """
@@ -105,7 +105,7 @@ def placed(prefix: str, key: str) -> str:
 class Tree:
     """The files below `root`, which no path may leave, not even through a symbolic link.
 
-    Each folder is looked at once: one that comes later is found by another tree.
+    Each folder is looked at once: only another tree finds a folder that was made since.
     """
 
     def __init__(self, root: Path) -> None:
@@ -118,7 +118,7 @@ class Tree:
         return os.fspath(path).startswith(self._below)
 
     def read(self, path: str | os.PathLike[str]) -> bytes | None:
-        """The content of a file below the root, None if there is none.
+        """Read a file below the root; None if there is none.
 
         A path that is a string is absolute and without detours.
 

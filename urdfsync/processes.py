@@ -58,7 +58,7 @@ def exit_cause(code: int) -> str:
         return f"exception 0x{code:08X}"
     if code >= 0:
         return f"exit code {code}"
-    names = {one.value: f" ({one.name})" for one in signal.Signals}
+    names = {number.value: f" ({number.name})" for number in signal.Signals}
     return f"signal {-code}{names.get(-code, '')}"
 
 

@@ -17,7 +17,7 @@ _OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
 
 
 def domain(name: str) -> Domain:
-    """The domain of this name. Raises ConfigError, without file and line, if there is none or it can't be loaded."""
+    """Load the domain of this name. Raises ConfigError, without file and line, for one that is missing or broken."""
     place = _place(name)
     if not place:
         near = nearest(name, names())
@@ -32,12 +32,12 @@ def domain(name: str) -> Domain:
 
 
 def top_level(name: str) -> str:
-    """The top-level package or module that has the code of a domain; empty if there is no such domain."""
+    """Return the top-level package or module that has the code of a domain; empty if there is no such domain."""
     return _place(name).partition(":")[0].partition(".")[0]
 
 
 def names() -> list[str]:
-    """The names of all domains that are installed, sorted."""
+    """Return the names of all installed domains, sorted."""
     return sorted(_OWN.keys() | _installed().keys())
 
 

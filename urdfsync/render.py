@@ -61,7 +61,7 @@ MAX_OUTPUT = 200_000_000
 _MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
 """A template's file and line, in front of the text that comes from there; no text of a model has NUL in it."""
 _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
-"""What a line with marks begins with."""
+"""The marks and blanks at the beginning of a line."""
 GRACE = 30.0
 """Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
 own, such as a power of large numbers, or the comparison of lists that hold each other many times."""
@@ -228,14 +228,14 @@ class Renderer:
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
 
     def render(self, template: str, data: Mapping[str, Any]) -> str:
-        """The template's text with `data`. Raises jinja2.TemplateError for a template that can't be used.
+        """Render a template with `data`. Raises jinja2.TemplateError for a template that can't be used.
 
-        What is not allowed to a template, and what takes too long or too much, is a SecurityError or MemoryError.
+        Raises SecurityError or MemoryError for a template that does what is not allowed, or takes too much.
         """
         return _render(self._environment, template, data)
 
     def comes_from_user(self, template: str) -> bool:
-        """Whether a file of the user's is part of a template that was rendered."""
+        """Whether a template that was rendered includes a file of the user's."""
         names = [template]
         if isinstance(self._environment, _Sandbox):
             for name in names:
@@ -243,9 +243,9 @@ class Renderer:
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
-        """The user's file that a line of a rendered text comes from, or else the text before it, and the line there.
+        """Return the user's file, and the line there, that a line of a rendered text or the text before it comes from.
 
-        An empty name and 0 if that can't be said. Raises what `render` does.
+        Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
         """
         marked = _render(self._environment.overlay(extensions=[_MarkLines]), template, data)
         if _MARK.sub("", marked) != text:  # a filter counts characters, say

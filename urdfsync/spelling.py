@@ -1,12 +1,12 @@
-"""Slips of the pen: the known name that somebody may have meant."""
+"""Misspelled names: the known name that the user may have meant."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
 
-def nearest(name: str, known: Iterable[str], likeness: float = 0.6) -> str:
-    """Return the known name most like `name`, with a ratio of at least `likeness`; empty if there is none."""
+def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
+    """Return the candidate most like `name`, with a ratio of at least `likeness`; empty if there is none."""
     import difflib
 
-    return next(iter(difflib.get_close_matches(name, list(known), 1, likeness)), "")
+    return next(iter(difflib.get_close_matches(name, list(candidates), 1, likeness)), "")

@@ -38,7 +38,7 @@ class Stream:
         return len(text)
 
     def flush(self) -> None:
-        """Pass on what is held back."""
+        """Pass on the buffered text."""
         self._try(self._inner.flush)
 
     def _try(self, function: Any, *arguments: str) -> None:
@@ -60,11 +60,11 @@ class Stream:
         return self.error.strerror or str(self.error)
 
     def without_transcript(self) -> Stream:
-        """The same stream for text that does not stay, such as a progress bar."""
+        """Return the same stream for text that does not stay, such as a progress bar."""
         return Stream(self._inner, self._name)
 
     def close_broken(self) -> None:
-        """Discard what a broken stream still holds back: Python would report it at its exit, with exit code 120."""
+        """Discard the buffer of a broken stream: Python would report it at its exit, with exit code 120."""
         if self.error is None:
             return
         try:

@@ -23,7 +23,7 @@ _MARKER = r"^(<{7,}|={7}|>{7,})(\s|$)"
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
-    """The document as nested dictionaries, no deeper than `DEEPEST`.
+    """Parse a document to nested dictionaries, no deeper than `DEEPEST`.
 
     Raises `error` with file, line and column if it is not TOML.
     """
@@ -70,7 +70,7 @@ def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
 
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:
-    """The line, counted from 1, at which each key or table first stands, by its full path."""
+    """Return the first line of each key or table, counted from 1, by its full path."""
     lines: dict[tuple[str, ...], int] = {}
     for number, (_, path) in enumerate(_paths(text), start=1):
         for length in range(1, min(len(path), DEEPEST) + 1):
@@ -79,7 +79,7 @@ def key_lines(text: str) -> dict[tuple[str, ...], int]:
 
 
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
-    """Whether each line opens a table, and the full path of the table or key in it; else that of the table around."""
+    """Yield for each line whether it opens a table, and the full path of its key or table, else of the table around."""
     header: tuple[str, ...] = ()
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()
@@ -93,7 +93,7 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
 
 
 def without_table(text: str, *table: str) -> str:
-    """The text without a table and those inside of it.
+    """Return the text without a table and those inside of it.
 
     Comments that touch a table go along. Those behind a blank line at its end stay: they belong to what follows.
     """
@@ -104,7 +104,7 @@ def without_table(text: str, *table: str) -> str:
         while start and _is_comment(lines[start - 1]):
             start -= 1
         begins.append(start)
-    kept = lines[: min(begins, default=len(lines))]
+    remaining = lines[: min(begins, default=len(lines))]
     for start, begin, end in zip(starts, begins, [*begins, len(lines)][1:], strict=True):
         part = lines[begin:end]
         if paths[start][1][: len(table)] == table:
@@ -114,10 +114,10 @@ def without_table(text: str, *table: str) -> str:
             part = lines[last + 1 : end]
             blank = next((number for number, line in enumerate(part) if not line.strip()), len(part))
             part = part[blank + 1 :]
-            while end == len(lines) and not part and kept and not kept[-1].strip():
-                kept.pop()
-        kept += part
-    return "".join(kept)
+            while end == len(lines) and not part and remaining and not remaining[-1].strip():
+                remaining.pop()
+        remaining += part
+    return "".join(remaining)
 
 
 def _is_comment(line: str) -> bool:
@@ -125,6 +125,6 @@ def _is_comment(line: str) -> bool:
 
 
 def nearest(lines: dict[tuple[str, ...], int], *path: str) -> int:
-    """The line of the key at `path`, or else of the nearest table above it; 0 if there is none."""
+    """Return the line of the key at `path`, or else of the nearest table above it; 0 if there is none."""
     paths = (path[:length] for length in range(len(path), 0, -1))
     return next((lines[prefix] for prefix in paths if prefix in lines), 0)

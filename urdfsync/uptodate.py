@@ -1,4 +1,4 @@
-"""The up-to-date check: say again what a command said, while nothing that its answer depended on has changed.
+"""The up-to-date check: repeat the answer of a command, while nothing has changed that it depends on.
 
 `.urdfsync/stamp-build` holds the last answer of `build`, a list of all paths that it depended on, and a hash of what
 the system said of these paths; so do `stamp-status` and `stamp-hook`. A file in any other state is no answer, and the
@@ -29,18 +29,18 @@ _MAX_CHARACTERS = 2_000_000
 
 
 def _stamp(config_file: str, command: str) -> str:
-    """The file of a command's answer."""
+    """Return the file of a command's answer."""
     return os.path.join(os.path.dirname(config_file), ".urdfsync", f"stamp-{command}")
 
 
 def _program() -> str:
-    """Who saved an answer: another version or another user may come to another one."""
+    """Return who saves an answer: another version or another user may come to another one."""
     user = (os.geteuid(), os.getegid(), *sorted(os.getgroups())) if hasattr(os, "geteuid") else 0
     return repr((__version__, sys.version, sys.prefix, sys.byteorder, user, __file__))
 
 
 def find_config(arguments: list[str]) -> str | None:
-    """The absolute path of the configuration that a command is about; None if there is none."""
+    """Return the absolute path of the configuration that a command is about; None if there is none."""
     try:
         folder = os.getcwd()
     except FileNotFoundError:
@@ -57,14 +57,14 @@ def find_config(arguments: list[str]) -> str | None:
 
 
 def answer_key(arguments: list[str], config_file: str) -> str:
-    """A command with all that its answer depends on beside files."""
+    """Return a command with all that its answer depends on beside files."""
     terminals = ((stream.isatty(), stream.encoding) for stream in (sys.stdout, sys.stderr))
     variables = map(os.environ.get, _VARIABLES)
     return repr((arguments, config_file, os.getcwd(), *terminals, *variables))
 
 
 def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
-    """The saved answer of a command, if its dependencies have not changed; None if there is none.
+    """Return the saved answer of a command, if its dependencies have not changed; None if there is none.
 
     It counts only if this program wrote it in this very file: a copy, such as a committed one, is somebody else's.
     """
@@ -77,21 +77,21 @@ def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
             text = file.read() if status.st_size <= MAX_FILE else ""
         if not text.startswith(f"{_bound(status)}\0\0"):  # nobody else's is taken apart, which could take minutes
             return None
-        _, (found,), checks, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
+        _, (saved_hash,), checks, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
         # Python gives tuples of integers the same hash in each process
         now = hash(tuple(check_path(check, path) for check, path in zip(checks[::2], checks[1::2], strict=True)))
-        return answer if saved_key == key and now == int(found) and end == ["end"] else None
+        return answer if saved_key == key and now == int(saved_hash) and end == ["end"] else None
     except (OSError, ValueError):
         return None
 
 
 def _bound(status: os.stat_result) -> str:
-    """How the text of a file begins that this program wrote as this very file."""
+    """Return the beginning of a file's text that shows that this program wrote this very file."""
     return "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()])
 
 
 def saved_answer(arguments: list[str]) -> list[str] | None:
-    """The saved answer of a command; None if there is none, or if it does not hold any more."""
+    """Return the saved answer of a command; None if there is none, or if it does not hold any more."""
     config_file = find_config(arguments)
     return find_answer(config_file, arguments[0], answer_key(arguments, config_file)) if config_file else None
 
@@ -124,12 +124,12 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
     here, stamp = os.getcwd(), _stamp(config_file, command)
     dependencies.add_modules()
     recorded = {
-        (check, path if check == VARIABLE else os.path.join(here, path)): found
-        for (check, path), found in dependencies.entries.items()
+        (check, path if check == VARIABLE else os.path.join(here, path)): facts
+        for (check, path), facts in dependencies.entries.items()
     }
     if (STAT, str(PurePath(config_file))) not in recorded:
         return  # such as `--help`, which reads nothing
-    if any(is_young(found, dependencies.started) for (check, _), found in recorded.items() if check in (LSTAT, STAT)):
+    if any(is_young(facts, dependencies.started) for (check, _), facts in recorded.items() if check in (LSTAT, STAT)):
         return
     checks = [text for pair in recorded for text in pair]
     if any(not text or "\0" in text for text in (*checks, key, *answer)):
@@ -142,9 +142,9 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
             os.utime(descriptor, ns=(0, 0))
             if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
                 return  # on Windows, FAT and sshfs, a file has no time of change that nobody can set
-            found = str(hash(tuple(recorded.values())))
+            facts_hash = str(hash(tuple(recorded.values())))
             # the last section says that the file is whole
-            text = "\0\0".join([_bound(status), found, "\0".join(checks), "\0".join([key, *answer]), "end"])
+            text = "\0\0".join([_bound(status), facts_hash, "\0".join(checks), "\0".join([key, *answer]), "end"])
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))
             os.utime(descriptor, ns=(status.st_mtime_ns, status.st_mtime_ns))
             os.replace(temporary, stamp)

@@ -77,8 +77,8 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
         raise
     finally:
         executor.shutdown()
-        for one in (*end, steps):
-            one.close()
+        for resource in (*end, steps):
+            resource.close()
 
 
 def tell(step: str) -> None:

@@ -67,9 +67,9 @@ def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> N
     [
         (("--csv", "modelica"), "modelica: error: a folder is in its place"),
         (("--csv", "nowhere/a.csv"), "there is no such folder"),
-        (("--csv", "arm.urdf"), "it is the source of the robot"),
-        (("--csv", "urdfsync.toml"), "it is the configuration"),
-        (("--input", "m.csv", "--csv", "m.csv"), "it is the file with the inputs"),
+        (("--csv", "arm.urdf"), "the source of the robot has this name"),
+        (("--csv", "urdfsync.toml"), "the configuration has this name"),
+        (("--input", "m.csv", "--csv", "m.csv"), "the file with the inputs has this name"),
         (("--plot", "a.pdf"), "a plot is one of .png, .svg"),
         (("--csv", "a.svg", "--plot", "a.svg"), "two outputs have this name"),
         (("--input", "absent.csv"), "absent.csv"),

@@ -47,7 +47,7 @@ _fields = functools.cache(msgspec.structs.fields)
 
 
 def find(start: Path) -> Path:
-    """The configuration file of `start` or of the nearest folder above it. Raises ConfigError if there is none."""
+    """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
         if dependencies.is_file(folder / FILE_NAME):
             return folder / FILE_NAME
@@ -74,7 +74,7 @@ def load(file: Path) -> Config:
 
 
 def parse(text: str, file: Path, name: str) -> Config:
-    """The configuration in `text`, which is (or would be) at the absolute path `file`; errors call it `name`.
+    """Read the configuration in `text`, which is (or would be) at the absolute path `file`; errors call it `name`.
 
     Raises ConfigError with one diagnostic for each fault.
     """
@@ -90,7 +90,7 @@ def parse(text: str, file: Path, name: str) -> Config:
 
 
 def in_words(kind: Any) -> str:
-    """What a value may be: `a string`, `"fixed" or "floating"`, `a list of strings`."""
+    """Return the values that a key may have in words: `a string`, `"fixed" or "floating"`, `a list of strings`."""
     origin, arguments = get_origin(kind), get_args(kind)
     if origin is Literal:
         return " or ".join(map(json.dumps, arguments))
@@ -126,17 +126,17 @@ class _Reader:
         self._file, self._root = file, root
 
     def check_characters(self) -> None:
-        """No name, path or option has a use for a control character, and some systems stop at one."""
+        """Report control characters: no name, path or option has a use for one, and some systems stop at one."""
         for path, text in tomlfile.strings(self._document):
             if any(ord(char) < 32 or ord(char) == 127 for char in text):
                 message = f"there is a control character in {text!r}"
                 self._report("control-character", self._line(*path), message, "write it without")
 
     def robots(self) -> Iterator[RobotConfig]:
-        """Every robot whose table is right."""
+        """Yield every robot whose table is right."""
         self._refuse_unknown(self._table("the configuration", self._document), {"check", "defaults", "robots"})
         defaults, robots = self._subtable("defaults"), self._subtable("robots")
-        known = set(_KEY_NAMES)
+        allowed = set(_KEY_NAMES)
         for name, values in robots.items():
             if not isinstance(values, dict):
                 self._report("wrong-value", self._line("robots", name), f"`robots.{name}` must be a table")
@@ -152,7 +152,7 @@ class _Reader:
                 line = self._line(*(("robots", name) if "domain" in values else ("defaults",)), "domain")
                 self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]
                 continue
-            known |= _names_of(domain.options)
+            allowed |= _names_of(domain.options)
             if (robot := self._robot(name, values, defaults, domain)) is not None:
                 yield robot
         table = self._table("`[defaults]`", defaults, "defaults")
@@ -160,10 +160,10 @@ class _Reader:
             if key in defaults:
                 message = f"`{key}` can't have a default: every robot has its own"
                 self._report("unknown-key", table.lines[key], message)
-        self._refuse_unknown(table, known)
+        self._refuse_unknown(table, allowed)
 
     def check(self) -> tuple[CheckConfig, Mapping[str, int]]:
-        """The table `[check]`, and the lines of its keys."""
+        """Read the table `[check]`, and the lines of its keys."""
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckConfig))
         keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
@@ -172,7 +172,7 @@ class _Reader:
         return keys, table.lines
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
-        """Two robots must not share a record or a package's folder, nor may one stand in the other's."""
+        """Report robots that share a name or a package's folder, or of which one stands in the other's."""
         names: dict[str, str] = {}
         folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:
@@ -187,24 +187,24 @@ class _Reader:
                 self._report("clash", robot.lines["package"], message)
 
     def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
-        """What is ignored has to be the code of a warning, in one of the formats here."""
+        """Report ignored codes that no warning has, in any format of the robots."""
         domains = {robot.domain for robot in robots}
-        known = IGNORABLE.union(*(registry.domain(one).warnings for one in domains))
-        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - known}
+        codes = IGNORABLE.union(*(registry.domain(domain).warnings for domain in domains))
+        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - codes}
         for line, code in sorted(wrong):
-            near = nearest(code, sorted(known))
+            near = nearest(code, sorted(codes))
             hint = f"did you mean `{near}`?" if near else "errors can't be ignored, and warnings end with their code"
             self._report("unknown-code", line, f"no warning or note has the code `{code}`", hint)
 
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
-        """A robot by its own table and the defaults; None if anything in it is wrong."""
-        before, known = len(self.problems), _KEY_NAMES | _names_of(domain.options)
-        inheritable = known.difference(OWN_KEYS, own)
+        """Read a robot by its own table and the defaults; None if anything in it is wrong."""
+        before, allowed = len(self.problems), _KEY_NAMES | _names_of(domain.options)
+        inheritable = allowed.difference(OWN_KEYS, own)
         inherited = {key: value for key, value in defaults.items() if key in inheritable}
         lines = {key: self._line("defaults", key) for key in inherited}
         lines |= {key: self._line("robots", name, key) for key in ("", *own)}
         table = _Table(f"robot `{name}`", inherited | own, lines)
-        self._refuse_unknown(table, known)
+        self._refuse_unknown(table, allowed)
         keys, options = self._read(table, Keys), self._read(table, domain.options)
         if keys is None:
             return None
@@ -242,7 +242,7 @@ class _Reader:
         )
 
     def _read(self, table: _Table, struct: type[msgspec.Struct]) -> Any:
-        """The keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
+        """Read the keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
         values: dict[str, Any] = {}
         before = len(self.problems)
         for field in _fields(struct):
@@ -277,11 +277,11 @@ class _Reader:
         """Return a path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
         return Path(os.path.normpath(self._root / path))
 
-    def _refuse_unknown(self, table: _Table, known: Collection[str]) -> None:
+    def _refuse_unknown(self, table: _Table, allowed: Collection[str]) -> None:
         for key in table.values:
-            if key not in known:
-                near = nearest(key, sorted(known))
-                hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(sorted(known))}"
+            if key not in allowed:
+                near = nearest(key, sorted(allowed))
+                hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(sorted(allowed))}"
                 self._report("unknown-key", table.lines[key], f"unknown key `{key}` in {table.name}", hint)
 
     def _table(self, name: str, values: Mapping[str, Any], *path: str) -> _Table:

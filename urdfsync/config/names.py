@@ -17,13 +17,13 @@ def is_robot_name(name: str) -> bool:
 
 
 def model_class(package: str, chosen: str) -> str:
-    """The class of the robot model: the chosen one, or the last part of the package's name."""
+    """Return the class of the robot model: the chosen one, or the last part of the package's name."""
     last = package.rpartition(".")[2]
     return chosen or last[:1].upper() + last[1:]
 
 
 def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
-    """Key, message and hint for each fault of the keys `package` and `class`; `chosen` is the class or empty."""
+    """Return key, message and hint for each fault of `package` and `class`; `chosen` is the class or empty."""
     parts = package.split(".")
     problems = []
     for key, name in [*(("package", part) for part in parts), *([("class", chosen)] if chosen else [])]:

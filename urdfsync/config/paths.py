@@ -14,7 +14,7 @@ from urdfsync.modelica.names import LIBRARY
 
 
 def working_folder() -> Path:
-    """The working folder. Raises ConfigError if it was deleted."""
+    """Return the working folder. Raises ConfigError if it was deleted."""
     try:
         return Path.cwd()
     except FileNotFoundError:
@@ -23,7 +23,7 @@ def working_folder() -> Path:
 
 
 def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
-    """The folders that hold packages of ROS 1, by ROS_PACKAGE_PATH, and those of ROS 2, by AMENT_PREFIX_PATH."""
+    """Return the folders of ROS 1 packages, by ROS_PACKAGE_PATH, and of ROS 2 packages, by AMENT_PREFIX_PATH."""
     folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     paths = [*filter(None, folders), *(f"{prefix}/share" for prefix in prefixes if prefix)]
@@ -31,22 +31,22 @@ def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
 
 
 def library_folder() -> Path:
-    """The folder to put on MODELICAPATH: it holds the library `UrdfSync`."""
+    """Return the folder to put on MODELICAPATH: it holds the library `UrdfSync`."""
     return _data_folder("modelica")
 
 
 def find_own_library(name: str, package: str) -> Path | None:
-    """The library UrdfSync, if that is `name`, for a package that needs it: not for one that is the library itself."""
+    """Return the library UrdfSync, if that is `name` and `package` is not in that library; else None."""
     return library_folder() / LIBRARY if name == LIBRARY != package.partition(".")[0] else None
 
 
 def templates_folder(domain: Domain) -> Path:
-    """The folder of a domain's own templates."""
+    """Return the folder of a domain's own templates."""
     return domain.templates or _data_folder("templates") / domain.name
 
 
 def _data_folder(name: str) -> Path:
-    """A folder of a wheel, or of the repository that an editable installation stands in."""
+    """Return a folder of a wheel, or of the repository around an editable installation."""
     package = Path(urdfsync.__file__).parent
     installed = package / "_data" / name
     return installed if dependencies.is_folder(installed) else package.parent / name

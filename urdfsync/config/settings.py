@@ -1,4 +1,4 @@
-"""What a configuration says: the keys of its tables, and the robots that follow from them."""
+"""The values of a configuration: the keys of its tables, and the robots that follow from them."""
 
 from __future__ import annotations
 
@@ -98,7 +98,9 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Leave out the warnings and notes that are ignored; errors never are."""
-        return tuple(one for one in diagnostics if one.severity is Severity.ERROR or one.code not in self.ignore)
+        return tuple(
+            finding for finding in diagnostics if finding.severity is Severity.ERROR or finding.code not in self.ignore
+        )
 
 
 class Config(msgspec.Struct, frozen=True):
@@ -117,24 +119,24 @@ class Config(msgspec.Struct, frozen=True):
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Leave out the warnings and notes about no robot that all robots ignore."""
-        kept = {one for robot in self.robots for one in robot.without_ignored(diagnostics)}
-        return tuple(one for one in diagnostics if one in kept)
+        shown_findings = {finding for robot in self.robots for finding in robot.without_ignored(diagnostics)}
+        return tuple(finding for finding in diagnostics if finding in shown_findings)
 
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
-        """The robots that are meant, or all for none: by their names, their sources, or what their packages are in.
+        """Return the robots that names, sources, or places around their packages mean; all robots without `names`.
 
-        Raises ConfigError for what means no robot, and if there is none.
+        Raises ConfigError for a name that means no robot, and for a configuration without robots.
         """
         if not self.robots:
             message, hint = "the configuration has no robot", "`urdfsync add SOURCE` adds one"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-robots", message, shown(self.file), hint=hint))
-        known, chosen = [robot.name for robot in self.robots], set[str]()
+        robot_names, chosen = [robot.name for robot in self.robots], set[str]()
         for name in names:
             place = Path(os.path.normpath(working_folder() / name))
-            meant = [name] if name in known else [robot.name for robot in self.robots if robot.is_at(place)]
+            meant = [name] if name in robot_names else [robot.name for robot in self.robots if robot.is_at(place)]
             if not meant:
-                near = nearest(name, known)
-                hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(known)}"
+                near = nearest(name, robot_names)
+                hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(robot_names)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
             chosen.update(meant)

@@ -1,4 +1,4 @@
-"""What a configuration asks for in vain: warnings before the work, each once for all robots."""
+"""Keys of a configuration without effect: warnings before the work, each once for all robots."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _SUFFIX = ".jinja"
 
 
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
-    """Search paths that do not exist; files in template folders that no template of the domain or other file names."""
-    warnings = (said for robot in robots for said in robot.without_ignored(_find_warnings(config, robot)))
+    """Find search paths that do not exist, and files in template folders that replace and serve no template."""
+    warnings = (warning for robot in robots for warning in robot.without_ignored(_find_warnings(config, robot)))
     return tuple(dict.fromkeys(warnings))
 
 
@@ -31,22 +31,22 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
         yield Diagnostic(Severity.WARNING, code, message, shown(config.file), line, hint=hint)
     if robot.templates is None or not is_folder(robot.templates):
         return
-    known = set(_files(templates_folder(registry.domain(robot.domain))))
+    templates = set(_files(templates_folder(registry.domain(robot.domain))))
     own = _files(robot.templates)
-    for name in sorted(own.keys() - known):
+    for name in sorted(own.keys() - templates):
         replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
-        if replaces != name and replaces not in known:
+        if replaces != name and replaces not in templates:
             continue  # a text that only lies there
         if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
             continue
-        near = nearest(replaces, sorted(known), 0.5)
-        hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(known))}"
+        near = nearest(replaces, sorted(templates), 0.5)
+        hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(templates))}"
         message = "no template of urdfsync has this name, so this one replaces none"
         yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 
 
 def _files(folder: Path) -> dict[str, Path]:
-    """The files below a folder by their names in it, POSIX; hidden ones are left out."""
+    """Return the files below a folder by their names in it, POSIX; hidden ones are left out."""
     files = {path.relative_to(folder): path for path in map(Path, walk_files(folder))}
     return {
         name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)

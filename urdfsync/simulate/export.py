@@ -116,12 +116,12 @@ def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
     """Write higher derivatives as FMI has them, `der(x,2)`, where OpenModelica 1.27 has `der(der(x))`."""
     corrected = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as exported, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
-        for one in exported.infolist():
-            data = exported.read(one)
-            if one.filename == _DESCRIPTION:
+        for member in exported.infolist():
+            data = exported.read(member)
+            if member.filename == _DESCRIPTION:
                 data = _HIGHER_DERIVATIVE.sub(lambda name: b"der(%b,%d)" % (name[2], name[1].count(b"(")), data)
                 data = data if with_model_exchange else _MODEL_EXCHANGE.sub(b"", data, count=1)
-            fmu.writestr(one, data)
+            fmu.writestr(member, data)
     return corrected.getvalue()
 
 

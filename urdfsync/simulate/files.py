@@ -23,7 +23,7 @@ _MODULES = {"parquet": "pyarrow", "plot": "matplotlib"}
 
 
 def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None:
-    """Raise an error for what can't be written, before anything is simulated. `inputs` must not be replaced.
+    """Raise an error for a file that can't be written, before the simulation. `inputs` must not be replaced.
 
     The kinds of `files` are `csv`, `parquet` and `plot`.
     """
@@ -47,10 +47,10 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
         raise not_writable(file, "there is no such folder", "make it first")
     target = file if file.exists() else file.resolve().parent
     if not os.access(target, os.W_OK) or not os.access(file.resolve().parent, os.W_OK):
-        raise not_writable(file, "it can't be written: no permission", "name a file elsewhere")
+        raise not_writable(file, "the file can't be written: no permission", "name a file elsewhere")
     for what, other in inputs.items():
         if file.exists() and file.samefile(other):
-            raise not_writable(file, f"it is {what}", "name another file")
+            raise not_writable(file, f"{what} has this name", "name another file")
 
 
 def write_file(file: Path, content: bytes) -> None:
@@ -59,7 +59,7 @@ def write_file(file: Path, content: bytes) -> None:
         put(file.resolve(), content)
     except OSError as error:
         hint = "check that its folder may be written to, and that there is space on the disk"
-        raise not_writable(file, f"it can't be written: {error.strerror}", hint) from None
+        raise not_writable(file, f"the file can't be written: {error.strerror}", hint) from None
 
 
 def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:

@@ -87,7 +87,7 @@ def try_out(
         options, model=exported.model, stop=stop, step=exported.step, tolerance=_REFERENCE_TOLERANCE, as_exported=True
     )
     reference = simulate(config, robot, wanted, progress)
-    if any(one.severity is Severity.ERROR for one in reference.diagnostics):
+    if any(finding.severity is Severity.ERROR for finding in reference.diagnostics):
         raise UrdfsyncError(*reference.diagnostics)
     times = [index * exported.step for index in range(round(stop / exported.step) + 2)]
     request = _Request(
@@ -139,14 +139,14 @@ def _judge(answer: _Examined, reference: Series) -> Trial:
 
 
 def _examine(request: _Request) -> Iterator[_Examined]:
-    """Yield what FMPy says, in a process of its own: an FMU is native code."""
+    """Yield FMPy's answer, in a process of its own: an FMU is native code."""
     import numpy as np
     from fmpy import read_model_description, simulate_fmu
     from fmpy.validation import validate_fmu
 
-    findings = [one_line(str(one))[:_LONGEST_MESSAGE] for one in validate_fmu(request.file)]
+    findings = [one_line(str(problem))[:_LONGEST_MESSAGE] for problem in validate_fmu(request.file)]
     description: Any = read_model_description(request.file, validate=False)
-    variables = {one.name for one in description.modelVariables}
+    variables = {variable.name for variable in description.modelVariables}
     names = [name for name in request.names if name in variables]
     signals: Any = None
     if request.inputs:
@@ -178,7 +178,7 @@ def _examine(request: _Request) -> Iterator[_Examined]:
 
 
 def _differences(series: Series, reference: Series) -> dict[str, float]:
-    """The greatest difference of each variable that both have, relative to its greatest value or 1.
+    """Return the greatest difference of each variable that both have, relative to its greatest value or 1.
 
     Where the reference has several results at one time, at an event, the nearest counts.
     """

@@ -1,4 +1,4 @@
-"""Joints over a simulation: where they are in a model, what they did, and which of their limits they passed."""
+"""Joints over a simulation: their places in a model, their motion, and the limits that they passed."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ Layouts: TypeAlias = Sequence[Sequence[Axis]]
 
 
 def pattern(layouts: Layouts) -> str:
-    """Return a regular expression for all that is read of joints, wherever in a model the robot is."""
+    """Return a regular expression for the variables of joints, wherever in a model the robot is."""
     axes = [axis for layout in layouts for axis in layout]
     names = dict.fromkeys(name for axis in axes for signal in _signals(axis) for name in _names(signal))
     return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
 
 
 def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
-    """Return what each joint of each robot in a model did, in the order of its layout."""
+    """Return the result of each joint of each robot in a model, in the order of its layout."""
     results = []
     for place, layout in robots(layouts, series):
         for axis in layout:
@@ -46,7 +46,7 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
                 if signal and values[name] is not None
             }
             passed = [
-                one for name in quantities for one in _passed(name, quantities[name], series["time"], values[name])
+                limit for name in quantities for limit in _passed(name, quantities[name], series["time"], values[name])
             ]
             if quantities:
                 results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
@@ -79,7 +79,7 @@ def _names(signal: Signal) -> Iterator[str]:
 
 def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
     """Return the numbers of a signal as an array; None if the model does not have it."""
-    name, *added = (_below(place, one) for one in (signal.variable, *(signal.added or ())))
+    name, *added = (_below(place, name) for name in (signal.variable, *(signal.added or ())))
     if name not in series:
         return None
     import numpy as np  # 100 ms, which go by while the compiler is at work if there is a plot
@@ -91,7 +91,7 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
 
 
 def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float]) -> Range:
-    limits = [parameters.get(_below(place, one), math.inf) for one in signal.limits] or [math.inf]
+    limits = [parameters.get(_below(place, limit), math.inf) for limit in signal.limits] or [math.inf]
     limits = [-limits[0], limits[0]] if len(limits) == 1 else limits
     lower, upper = (limit if abs(limit) < _ENDLESS else None for limit in limits)
     name = _below(place, signal.variable)

@@ -1,4 +1,4 @@
-"""The model that is simulated: where it is, what it extends, its inputs, and what its annotation says."""
+"""The model that is simulated: its file, its base classes, its inputs and the settings of its annotation."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ class Input(msgspec.Struct, frozen=True):
 
 
 class Driven(msgspec.Struct, frozen=True):
-    """Changes to a model, so that its inputs can follow a table."""
+    """The changes to a model by which its inputs can follow a table."""
 
     changed: Mapping[Path, bytes]
-    """Contents in which the inputs are outputs, by file: another block of the same model may then say what they are."""
+    """Contents in which the inputs are outputs, by file: the model's own equations may then set them."""
     modifiers: tuple[str, ...]
     """They switch the filters of drives off."""
 
@@ -53,7 +53,7 @@ class Model:
         self.node, self.name = node, str(node)
         # as the parser had it, since components say where they begin
         self._text = functools.cache(lambda file: text_of(content(file)))
-        self._nodes = [one for one in _with_bases(scopes, node) if one.file]
+        self._nodes = [base for base in _with_bases(scopes, node) if base.file]
 
     @functools.cached_property
     def settings(self) -> dict[str, float]:
@@ -89,9 +89,9 @@ class Model:
         return inputs
 
     def driven(self, package: str) -> Driven:
-        """Return what makes the inputs follow a table, and the drives of the package follow the inputs as they are.
+        """Return the changes by which inputs follow a table, and drives of the package their inputs without a filter.
 
-        Drives of the user's own models stay: without a filter, start values may contradict the motion there.
+        Drives of the user's own models keep theirs: without it, start values may contradict the motion there.
         """
         changed: dict[str, list[int]] = {}
         modifiers = []
@@ -147,8 +147,8 @@ def _with_bases(scopes: Scopes, node: Node) -> Iterator[Node]:
     """Yield a class, and then those that it extends, each once."""
     waiting, seen = [node], {OPAQUE}
     while waiting:
-        one = waiting.pop(0)
-        if one not in seen:
-            seen.add(one)
-            yield one
-            waiting += [base.node for base in scopes.bases(one)]
+        current = waiting.pop(0)
+        if current not in seen:
+            seen.add(current)
+            yield current
+            waiting += [base.node for base in scopes.bases(current)]

@@ -62,7 +62,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
             _refuse(file, f"the time does not go on: {before:g} s, then {time:g} s", line, hint)
     if (start := columns["time"][0]) != 0:
         _refuse(file, f"the time begins at {start:g} s", rows[0][0], "let it begin at 0")
-    return Motion(tuple(columns["time"]), tuple((one, tuple(columns[one.name])) for one in inputs))
+    return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
 def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
@@ -91,7 +91,7 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
     """Return a motion in which all inputs stay at 0 until `stop`."""
-    return Motion((0.0, stop), tuple((one, (0.0, 0.0)) for one in inputs))
+    return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
@@ -99,18 +99,18 @@ def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
     from scipy.interpolate import CubicSpline, make_interp_spline
 
     samples = {}
-    for one, values in motion.values:
+    for signal, values in motion.values:
         curve = (
-            CubicSpline(motion.times, values) if one.unit in _SMOOTH else make_interp_spline(motion.times, values, 1)
+            CubicSpline(motion.times, values) if signal.unit in _SMOOTH else make_interp_spline(motion.times, values, 1)
         )
-        samples[one.name] = [float(value) for value in curve(times)]
+        samples[signal.name] = [float(value) for value in curve(times)]
     return samples
 
 
 def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> dict[str, float]:
     """Return the columns in their order, each with what its unit is in that of the input."""
     factors: dict[str, float] = {}
-    units = {"time": "s", **{one.name: one.unit for one in inputs}}
+    units = {"time": "s", **{signal.name: signal.unit for signal in inputs}}
     for cell in header:
         match = _HEADER.fullmatch(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
@@ -205,10 +205,10 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
     def held(self, motion: Motion, step: float) -> ModelicaMotion:
         """Return the motion as an FMU for co-simulation gets it, whose inputs change at each step alone."""
         declarations, whens, equations = [], [], []
-        for number, (one, values) in enumerate(motion.values, 1):
+        for number, (signal, values) in enumerate(motion.values, 1):
             declarations.append(f"discrete Real held{number}(start = {values[0]!r}, fixed = true);")
             whens.append(f"held{number} = course{number}(time);")
-            equations.append(f"{one.name} = held{number};")
+            equations.append(f"{signal.name} = held{number};")
         when = [f"when sample(0, {step!r}) then", *whens, "end when;"]
         return ModelicaMotion(self.functions, tuple(declarations), (*when, *equations))
 
@@ -217,15 +217,15 @@ def in_modelica(motion: Motion) -> ModelicaMotion:
     """Return functions of a package, and an equation for each input that calls them."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))
-    for number, (one, values) in enumerate(motion.values, 1):
-        bends = second_derivatives(motion.times, values) if one.unit in _SMOOTH else [0.0] * count
+    for number, (signal, values) in enumerate(motion.values, 1):
+        bends = second_derivatives(motion.times, values) if signal.unit in _SMOOTH else [0.0] * count
         lines += [_constant(f"q{number}", values), _constant(f"m{number}", bends)]
         for name, inputs, value, derivative in _KINDS:
             annotation = f"\n    annotation {derivative.format(number)};" if derivative else ""
             words = {"inputs": inputs, "value": value.format(number), "annotation": annotation}
             text = _FUNCTION.format(name=name, number=number, count=count, halvings=halvings, **words)
             lines.append(text)
-        equations.append(f"{one.name} = course{number}(time);")
+        equations.append(f"{signal.name} = course{number}(time);")
     return ModelicaMotion("".join(lines), (), tuple(equations))
 
 
@@ -240,4 +240,4 @@ def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[
     """
     from scipy.interpolate import CubicSpline  # half a second, which no other simulation needs
 
-    return [float(one) for one in CubicSpline(times, values)(times, 2)]
+    return [float(number) for number in CubicSpline(times, values)(times, 2)]

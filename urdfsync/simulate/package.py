@@ -1,4 +1,4 @@
-"""The model that is simulated or exported, with the package of the robot on disk; and what compilers say of it."""
+"""The model that is simulated or exported, with the package of the robot on disk; and the compiler's answers."""
 
 from __future__ import annotations
 
@@ -139,14 +139,14 @@ def run_task(
     if result.problem:
         # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
         unread = [*check_layout(package.files), *check_around(package.robot.output, package.around)]
-        if errors := [one for one in unread if one.severity is Severity.ERROR]:
+        if errors := [finding for finding in unread if finding.severity is Severity.ERROR]:
             raise UrdfsyncError(*errors)
         file = Path(model.node.file)
         outside = None if package.files.folder in file.parents else file
         complaints = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
         if names_set := ", ".join(task.parameters):
             hint = f"perhaps one of these is final, or gets the wrong kind of value: {names_set}"
-            complaints = [msgspec.structs.replace(one, hint=hint) for one in complaints]
+            complaints = [msgspec.structs.replace(finding, hint=hint) for finding in complaints]
         faults += complaints
     if faults:
         raise UrdfsyncError(*faults)

@@ -22,7 +22,7 @@ _NOTHING = 5e-7
 
 
 def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
-    """Yield all that there is to say of a simulation but for its diagnostics."""
+    """Yield the lines about a simulation, without its diagnostics."""
     took = "as simulated before" if result.is_known else f"{result.seconds:.1f} s"
     about = f": {result.model}, {result.stop:g} s in steps of {result.step:g} s; {took}"
     yield line((result.robot, "bold"), (about, ""))
@@ -44,7 +44,7 @@ def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
 
 
 def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
-    """The cells of a joint, and their style."""
+    """Return the cells of a joint, and their style."""
     position, limits = "-", "-"
     if joint.position:
         position = f"{_digits(joint.position.least)} … {_digits(joint.position.greatest)} {joint.position.unit}"
@@ -56,7 +56,7 @@ def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
 
 
 def _size(quantity: Range | None) -> str:
-    """The greatest absolute value, and its limit: `0.31/5 rad/s`."""
+    """Return the greatest absolute value, and its limit: `0.31/5 rad/s`."""
     if quantity is None:
         return "-"
     size = max(abs(quantity.least), abs(quantity.greatest))
@@ -69,7 +69,7 @@ def _digits(number: float) -> str:
 
 
 def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]:
-    """A simulation as plain data, without its series."""
+    """Return a simulation as plain data, without its series."""
     return {
         "name": result.robot,
         "model": result.model,
@@ -86,7 +86,7 @@ def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]
 
 
 def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
-    """Yield all that there is to say of an FMU but for its diagnostics."""
+    """Yield the lines about an FMU, without its diagnostics."""
     kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
     size = len(exported.content) / 1e6
     about = (
@@ -97,8 +97,8 @@ def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None,
         if not trial.findings and not trial.problems:
             yield line(("  FMPy finds nothing wrong", "green"))
         for short, difference in trial.agreement.items():
-            said = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
-            yield line((f"  {_WORDS[short]}: {trial.compared} variables {said} {difference:.1e}", ""))
+            verdict = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
+            yield line((f"  {_WORDS[short]}: {trial.compared} variables {verdict} {difference:.1e}", ""))
     yield line(("  fmu: ", ""), (str(file), "bold"))
 
 
@@ -110,7 +110,7 @@ def fmu_to_json(
     file: Path,
     diagnostics: Sequence[Diagnostic],
 ) -> dict[str, Any]:
-    """An FMU as plain data; `diagnostics` are of the export and of the trial."""
+    """Return an FMU as plain data; `diagnostics` are of the export and of the trial."""
     return {
         "name": robot,
         "model": exported.model,

@@ -50,7 +50,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     diagnostics = [
         *prepared.warnings,
         *_end(model, options, simulation),
-        *(_warning(joint, one) for joint in results for one in joint.passed),
+        *(_warning(joint, passed) for joint in results for passed in joint.passed),
     ]
     if not results and any(layouts):
         message = f"`{model.name}` has no joint of {robot.target.package}, so none is shown"
@@ -74,7 +74,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     cache, begin, package, model = UserCache.default(), time.monotonic(), prepared.package, prepared.model
     task, plain, changed = _task(options, prepared)
     (run,) = task.runs
-    facts = task, *(sorted(one.items()) for one in (package.files.texts, package.around, changed))
+    facts = task, *(sorted(files.items()) for files in (package.files.texts, package.around, changed))
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
     if key and (earlier := cache.load(key, SimulationResult)):
         return earlier, run, True
@@ -108,7 +108,7 @@ def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
 
 
 def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
-    """Return what the compiler is to do, its text without other values of parameters, and files that change for it."""
+    """Return the compiler's task, its text without other values of parameters, and the files that change for it."""
     robot, model, values = prepared.package.robot, prepared.model, prepared.values
     inputs, changes, changed = model.inputs(), modifiers(values), dict[Path, bytes]()
     stop = options.stop or model.settings.get("StopTime", STOP)
@@ -124,18 +124,21 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
         driven = model.driven(robot.target.package)
         changed = dict(driven.changed)
         if not options.as_exported:
-            changes = [*(one for one in driven.modifiers if one.partition("(")[0] not in values), *changes]
+            changes = [
+                *(modifier for modifier in driven.modifiers if modifier.partition("(")[0] not in values),
+                *changes,
+            ]
     elif inputs:
-        names = ",".join(["time", *(one.name for one in inputs)])
+        names = ",".join(["time", *(signal.name for signal in inputs)])
         hint = f"give a CSV file with `--input`; its first line is {names}"
         raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
     tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
-    wanted = [_OWN, joints.pattern(prepared.bench.layouts), *(_glob(one) for one in options.variables)]
+    wanted = [_OWN, joints.pattern(prepared.bench.layouts), *(_glob(variable) for variable in options.variables)]
     task = CompileTask(
         "Probe_.Probe",
         _probe(robot, model.name, course, changes),
         (Simulation(stop, model.step(stop, options.step), tolerance=tolerance, method=options.method),),
-        pattern="|".join(f"(?:{one})" for one in wanted if one),
+        pattern="|".join(f"(?:{pattern})" for pattern in wanted if pattern),
         parameters=tuple(values),
         title=model.name,
     )
@@ -156,7 +159,7 @@ def _glob(text: str) -> str:
 
 
 def _end(model: Model, options: SimulateOptions, run: SimulationResult) -> Iterator[Diagnostic]:
-    """Yield why a simulation did not reach its end."""
+    """Yield the reasons why a simulation did not reach its end."""
     file = shown(Path(model.node.file))
     if run.termination:
         message = f"`{model.name}` ends the simulation at {run.values['time'][-1]:g} s: {_shortened(run.termination)}"

@@ -17,10 +17,11 @@ _SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
 def read_values(given: Iterable[str]) -> dict[str, str]:
     """Return the value of each parameter, in Modelica. Raises ConfigError for what is no parameter or no value."""
     values: dict[str, str] = {}
-    for one in given:
-        name, is_assigned, value = (part.strip() for part in one.partition("="))
+    for assignment in given:
+        name, is_assigned, value = (part.strip() for part in assignment.partition("="))
         if not is_assigned:
-            _refuse(f"`{one}` gives no value", "write NAME=VALUE, such as `robot.elbow.parameters.dynamics.damping=4`")
+            hint = "write NAME=VALUE, such as `robot.elbow.parameters.dynamics.damping=4`"
+            _refuse(f"`{assignment}` gives no value", hint)
         if not all(is_identifier(part) for part in name.split(".")):
             hint = "give the whole vector, as in `axis={0,1,0}`" if "[" in name else ""
             _refuse(f"`{name}` can't be a parameter", hint)
@@ -32,30 +33,32 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
     return values
 
 
-def find_unknown(model: str, names: Iterable[str], known: Collection[str]) -> list[Diagnostic]:
+def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) -> list[Diagnostic]:
     """Return an error for each of some names that is none of the parameters of a model; none if these are not known."""
     findings = []
-    for name in names if known else ():
-        if name not in known:
-            near = nearest_parameter(name, known)
+    for name in names if parameters else ():
+        if name not in parameters:
+            near = nearest_parameter(name, parameters)
             hint = f"did you mean `{near}`?" if near else ""
             findings.append(Diagnostic(Severity.ERROR, "set", f"`{model}` has no parameter `{name}`", hint=hint))
     return findings
 
 
-def nearest_parameter(name: str, known: Iterable[str]) -> str:
+def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
     """Return the parameter that somebody may have meant: its name is much like `name`, or its last part is.
 
     Of several with such a last part it is one that has most of the other parts, the shortest; empty if there is none.
     """
-    known = list(known)
-    if near := nearest(name, known, _LIKENESS):
+    parameters = list(parameters)
+    if near := nearest(name, parameters, _LIKENESS):
         return near
     *path, last = name.split(".")
-    end = nearest(last, {one.rpartition(".")[2] for one in known}, _LIKENESS)
-    alike = [one for one in known if one.rpartition(".")[2] == end]
+    end = nearest(last, {parameter.rpartition(".")[2] for parameter in parameters}, _LIKENESS)
+    alike = [parameter for parameter in parameters if parameter.rpartition(".")[2] == end]
     return min(
-        alike, key=lambda one: (-sum(bool(nearest(part, one.split("."))) for part in path), len(one)), default=""
+        alike,
+        key=lambda parameter: (-sum(bool(nearest(part, parameter.split("."))) for part in path), len(parameter)),
+        default="",
     )
 
 
@@ -78,13 +81,13 @@ def modifiers(values: Mapping[str, str]) -> list[str]:
 def _modifier(name: str, value: str | dict[str, Any]) -> str:
     if isinstance(value, str):
         return f"{name} = {value}"
-    return f"{name}({', '.join(_modifier(*one) for one in value.items())})"
+    return f"{name}({', '.join(_modifier(*item) for item in value.items())})"
 
 
 def _is_literal(value: str) -> bool:
     """Whether a text is made of numbers, truth values and texts alone, or of vectors of them."""
     tokens, faults = lex(value)
-    words = [one.text for one in tokens[:-1]]
+    words = [token.text for token in tokens[:-1]]
     is_plain = all(word in _SIGNS or word[0] in '0123456789."' for word in words)
     return bool(words) and not faults and is_plain and words.count("{") == words.count("}")
 

@@ -64,7 +64,7 @@ class CheckQueue:
             self._thread.join(_PATIENCE)
 
     def use(self, config: Config) -> None:
-        """Check by this configuration from now on, whatever was found before."""
+        """Check by this configuration from now on, and forget earlier results."""
         self._checker = BuildChecker(config, self._options)
         self._jobs.clear()
         self._last.clear()

@@ -41,7 +41,7 @@ _PAUSE = 0.25
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
-    """What the command line asks for; times in seconds."""
+    """The options of the command line; times in seconds."""
 
     file: Path
     """The configuration."""
@@ -56,7 +56,7 @@ class WatchOptions(msgspec.Struct, frozen=True):
     rescan: float = 30.0
     """Between two reads of everything."""
     command: str = ""
-    """What to run after a build that changed something; empty for nothing."""
+    """The command after a build that changed something; empty for none."""
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)
 
 
@@ -141,8 +141,8 @@ class Daemon:
         except LockedError:
             message = f"{lock.holder()} watches this configuration already"
             hint = "use that one, or stop it first"
-            found = Diagnostic(Severity.ERROR, "watched", message, shown(self._options.file.absolute()), hint=hint)
-            raise LockedError(found) from None
+            finding = Diagnostic(Severity.ERROR, "watched", message, shown(self._options.file.absolute()), hint=hint)
+            raise LockedError(finding) from None
 
     def _note(self, diagnostics: tuple[Diagnostic, ...]) -> None:
         if diagnostics:
@@ -239,7 +239,9 @@ class Daemon:
             self._listener(event)
 
     def _watch_folders(self) -> None:
-        self._watched = find_watched_paths(self._config, {name: one.paths for name, one in self._robots.items()})
+        self._watched = find_watched_paths(
+            self._config, {name: watched.paths for name, watched in self._robots.items()}
+        )
         unwatched = self._observer.watch_folders(self._watched)
         told = {diagnostic.hint for diagnostic in self._unwatched}
         self._note(tuple(diagnostic for diagnostic in unwatched if diagnostic.hint not in told))
@@ -271,7 +273,7 @@ class Daemon:
     # Builds
 
     def _has_to_be_built(self, watched: WatchedRobot) -> bool:
-        """Return whether the files of a robot are other than after the last build, which then rests."""
+        """Whether the files of a robot are other than after the last build; if not, the robot rests."""
         # a build that failed may work now, whatever it failed of
         if watched.failure is not None or watched.hashes != watched.built:
             return True
@@ -367,7 +369,7 @@ class Daemon:
         files = tuple(Path(os.path.normpath(result.root / action.path)) for action in decided if action.writes)
         left_alone = frozenset((action.path, str(action.reason)) for action in decided if not action.writes)
         if result.is_broken:
-            left_alone |= {(one.file, one.message) for one in result.diagnostics}
+            left_alone |= {(finding.file, finding.message) for finding in result.diagnostics}
         if watched.is_told or files or recovered or left_alone != watched.left_alone:
             self._listener(events.Built(result, files, recovered))
         watched.failure, watched.invalid_until, watched.left_alone = None, 0.0, left_alone

@@ -28,7 +28,7 @@ class CommandEnded(msgspec.Struct, frozen=True):
     robot: str
     code: int
     problem: str
-    """What went wrong, in words that follow `the command`; empty if nothing did."""
+    """The failure, in words that follow `the command`; empty if the command succeeded."""
 
 
 class CommandRunner:

@@ -48,9 +48,9 @@ def find_robot_paths(
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         state = store.load(robot.name)
         if (expanded := store.load_expansion(robot.name)) is not None:
-            known = Inputs(config.root, robot.source, (*robot.package_paths, *package_paths))
-            inputs.update(map(str, known.paths(expanded.files)))
-            patterns.update(map(str, known.paths(expanded.patterns)))
+            expansion_inputs = Inputs(config.root, robot.source, (*robot.package_paths, *package_paths))
+            inputs.update(map(str, expansion_inputs.paths(expanded.files)))
+            patterns.update(map(str, expansion_inputs.paths(expanded.patterns)))
             outputs.add(str(store.expansion(robot.name)))
         if state is not None:
             prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118

@@ -1,7 +1,7 @@
-"""What `urdfsync watch` shows: to people lines above the status of each robot, to programs a line of JSON per event.
+"""The output of `urdfsync watch`: for people lines above the status of each robot, for programs JSON, a line per event.
 
-Lines scroll: one per build with what changed, errors and conflicts as `build` has them. What the last build of a robot
-said is not said again by the next: conflicts, warnings, and files that are kept although they are no longer generated.
+Lines scroll: one per build with its changes, errors and conflicts as `build` shows them. Conflicts, warnings and
+orphans of a robot's last build are not shown again by the next one.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _SPACED = 4
 
 
 class Activity(enum.StrEnum):
-    """What a robot is at, in words; those that need the user's attention come first."""
+    """The activity of a robot in words; those that need the user's attention come first."""
 
     ERROR = "error"
     CONFLICT = "conflict"
@@ -85,7 +85,7 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events that are one line, and only with `--verbose`, but for the last one; and what the robot is at then."""
+"""Events that are one line, all but the last one with `--verbose` alone; and the robot's activity after them."""
 
 
 class RobotStatus(NamedTuple):
@@ -118,7 +118,7 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
     for name, value in msgspec.structs.asdict(event).items():
         if isinstance(value, Result):
             inside = result_values(value)
-            inside["actions"] = [one for one in inside["actions"] if one["reason"] != Reason.UNCHANGED.word]
+            inside["actions"] = [action for action in inside["actions"] if action["reason"] != Reason.UNCHANGED.word]
             values |= {"robot": inside["name"], **inside}
         else:
             values[name] = msgspec.to_builtins(value, enc_hook=str)
@@ -140,7 +140,7 @@ class Report:
         self._area = StatusArea(sys.stdout) if has_status else None
         self._column = 0
         self._told: dict[tuple[str, str], set[Hashable]] = {}
-        """What was told of a robot's last build, by robot and topic."""
+        """The findings that were shown of a robot's last build, by robot and topic."""
         self._results: dict[str, RobotStatus] = {}
         """By robots, in the order of the configuration: after the last build."""
         self._builds: dict[str, RobotStatus] = {}
@@ -229,22 +229,24 @@ class Report:
         """Yield the line of a build that did or found anything, below its new findings and above its new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
         was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
-        errors = [found for found in result.diagnostics if found.severity is Severity.ERROR]
+        errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
         new = self._new(robot, "findings", map(_key, result.diagnostics))
         new_errors = self._new(robot, "broken", map(_key, errors))
-        conflicts = self._new(robot, "conflicts", ((one.path, one.mine, one.generated) for one in result.conflicts))
-        kept = self._new(robot, "kept", (one.path for one in result.actions.decided if one.reason in _KEPT))
+        conflicts = self._new(
+            robot, "conflicts", ((conflict.path, conflict.mine, conflict.generated) for conflict in result.conflicts)
+        )
+        orphans = self._new(robot, "kept", (action.path for action in result.actions.decided if action.reason in _KEPT))
         yield from self._findings(
-            [found for found in result.diagnostics if verbose or (_key(found) in new and found not in errors)]
+            [finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)]
         )
         if new_errors:
             more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
             yield self._line(clock, robot, f"{_with_error('broken', errors)}{more}", "bold red", error=True)
         if self._console.quiet and not conflicts:
             return
-        untold = frozenset() if kept else _KEPT
+        untold = frozenset() if orphans else _KEPT
         words = []
-        if event.files or event.recovered or result.effective_changes or conflicts or kept:
+        if event.files or event.recovered or result.effective_changes or conflicts or orphans:
             words = [*_changes(result), *action_counts(result, {Reason.KEEP} | untold)]
         if not (result.conflicts or result.is_broken) and (event.recovered or not was_in_step):
             words.append("in step again")
@@ -255,7 +257,7 @@ class Report:
         yield self._line(clock, robot, ", ".join(words), "yellow" if result.conflicts else "")
         if not self._console.quiet:
             hidden = frozenset() if verbose else _CONFLICTS | untold
-            actions = Actions(one for one in result.actions if one.reason not in hidden)
+            actions = Actions(action for action in result.actions if action.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
         if conflicts or (verbose and result.conflicts):
@@ -345,13 +347,13 @@ class Report:
             yield line((f"… and {counts.total()} more: {rest}", "dim"))
 
 
-def _key(found: Diagnostic) -> Hashable:
-    """Return all that tells findings apart but the line, which changes when something above it does."""
-    return found.code, found.message, found.file
+def _key(finding: Diagnostic) -> Hashable:
+    """Return what identifies a finding: not its line, which changes with the lines above it."""
+    return finding.code, finding.message, finding.file
 
 
 def _changes(result: Result) -> list[str]:
-    """Return what changed in the model: a few changes in words, else how many."""
+    """Return the changes of the model: a few in words, else their number."""
     if result.effective_changes is None:
         return []
     changes, lines = result.effective_changes, change_lines(result.effective_changes)
@@ -363,7 +365,9 @@ def _changes(result: Result) -> list[str]:
 
 def _with_error(words: str, diagnostics: Sequence[Diagnostic]) -> str:
     """Return words with place and message of the first error, or else of the first finding, if there is any."""
-    error = next((one for one in diagnostics if one.severity is Severity.ERROR), next(iter(diagnostics), None))
+    error = next(
+        (finding for finding in diagnostics if finding.severity is Severity.ERROR), next(iter(diagnostics), None)
+    )
     if error is None:
         return words
     place = f"{error.file}:{error.line}: " if error.line else f"{error.file}: " if error.file else ""

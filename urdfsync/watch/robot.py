@@ -33,16 +33,16 @@ class SeenFile(NamedTuple):
     """None if it has to be read again whatever the system says of it, since it has just changed."""
 
 
-def read_state(path: str, known: SeenFile | None = None, *, follow: bool = True) -> SeenFile:
-    """Read a path; what can't be read has a state, too, and so has a link that is not followed.
+def read_state(path: str, before: SeenFile | None = None, *, follow: bool = True) -> SeenFile:
+    """Read a path; an unreadable file has a state, too, and so has a link that is not followed.
 
-    A file is not read again if `known` has its stat values.
+    A file is not read again if it has the stat values of `before`.
     """
     try:
         status = os.stat(path, follow_symlinks=follow)  # noqa: PTH116 - many, and often
         facts = stat_of(status)
-        if known is not None and known.stat == facts:
-            return known
+        if before is not None and before.stat == facts:
+            return before
         if not stat.S_ISREG(status.st_mode):
             return SeenFile("folder" if stat.S_ISDIR(status.st_mode) else "other")
         content = read_unrecorded(path)
@@ -105,11 +105,11 @@ class WatchedRobot(msgspec.Struct):
         return {path: read_state(path, self.files.get(path), follow=path not in outputs) for path in paths}
 
     def has_files(self, paths: Collection[str]) -> bool:
-        """Return whether all paths are files of the robot, not folders or links on the way to one."""
+        """Whether all paths are files of the robot, not folders or links on the way to one."""
         return all(path in self.files or path in self.paths.outputs for path in paths)
 
     def has_changed(self, paths: Collection[str] = ()) -> bool:
-        """Return whether files have changed since they were last read; with `paths`, at these alone.
+        """Whether files have changed since they were last read; with `paths`, at these alone.
 
         If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
         """
@@ -127,7 +127,7 @@ class WatchedRobot(msgspec.Struct):
         return bool(changed)
 
     def has_new_input(self, before: Hashes) -> bool:
-        """Return whether an input is other than before: somebody saved it, since the daemon writes none."""
+        """Whether an input is other than before: a user saved it, since the daemon writes none."""
         changed = [path for path in self.paths.inputs if path in before and before[path] != self.files[path].sha256]
         self.changed_file = min(changed, default="")
         return bool(changed)
