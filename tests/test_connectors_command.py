@@ -27,7 +27,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(project: Path, execute: Execute) -> None:
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    hint = '`frames = ["arm"]` brings it back'
+    hint = 'set `frames = ["arm"]` to bring it back'
     printed = execute("diff", "arm.urdf", code=1)
     assert f"link arm frame arm_linkFrame is gone ({hint}) link hand frame now handFrame" in printed.words
     assert printed.err == "", "what the effects say is not said twice"
@@ -49,7 +49,7 @@ def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_b
         "equation\n  connect(robot.arm_linkFrame, x);\nend Cell;\n"
     )
     (project / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    expected = 'Cell.mo:4: warning: Arm has no `arm_linkFrame`; `frames = ["arm"]` brings it back [unresolved]'
+    expected = 'Cell.mo:4: warning: Arm has no `arm_linkFrame`; set `frames = ["arm"]` to bring it back [unresolved]'
     for command, code in (("diff", 1), ("status", 1), ("build", 0)):
         assert expected in execute(command, code=code).errors
     with (project / "urdfsync.toml").open("a") as file:
@@ -78,7 +78,7 @@ def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(project: Pa
     configure(project, "driven = []\n")
     found = execute("build").words
     for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
-        assert f'joint swing: its {variable} is gone; `driven = ["swing"]` brings it back' in found
+        assert f'joint swing: its {variable} is gone; set `driven = ["swing"]` to bring it back' in found
     assert "swingAxis" not in found, "the robot keeps its connectors"
 
 
@@ -86,7 +86,7 @@ def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(p
     configure(project, 'approach = ["record"]\n')
     found = execute("build", "--explain").words
     assert "the option `approach` changed" in found
-    assert 'robot: its model `Arm` is gone; `approach = ["package", "record"]` brings it back' in found
+    assert 'robot: its model `Arm` is gone; set `approach = ["package", "record"]` to bring it back' in found
 
 
 def test_options_are_named_only_if_nothing_else_changed(project: Path, execute: Execute) -> None:

@@ -533,8 +533,8 @@ class Domain(Protocol):
 
 
 def brings_back(option: str, new_name: str = "") -> str:
-    """Return the hint that names the option by which something comes back, and its new name; empty without option."""
-    return f"`{option}` brings it back{f' as `{new_name}`' if new_name else ''}" if option else ""
+    """Return the hint to set the option that brings a name back, perhaps as a new name; empty without option."""
+    return f"set `{option}` to bring it back{f' as `{new_name}`' if new_name else ''}" if option else ""
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:

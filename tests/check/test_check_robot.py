@@ -467,7 +467,9 @@ def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: 
     assert lines(check()) == []
     replace(Path("urdfsync.toml"), 'frames = ["arm"]\n', 'frames = ["base"]\n')
     rebuild()
-    assert lines(check()) == [f'Bench.mo:4: error: Arm has no `{name}`; `frames = ["base", "arm"]` brings it back']
+    assert lines(check()) == [
+        f'Bench.mo:4: error: Arm has no `{name}`; set `frames = ["base", "arm"]` to bring it back'
+    ]
 
 
 @pytest.mark.parametrize(

@@ -73,8 +73,8 @@ _ERRORS = {
     "several-roots": "connect them by joints, or remove what does not belong to the robot",
     "unknown-parent": "add the link, or correct its name",
     "unknown-child": "add the link, or correct its name",
-    "two-parents": "a link has one parent: remove one joint",
-    "cycle": "a URDF is a tree: remove a joint of the cycle",
+    "two-parents": "remove one of the joints: a link has one parent",
+    "cycle": "remove a joint of the cycle: a URDF is a tree",
     "loop-joint": 'open the loop, or leave its joint out by `allow = ["loop-joint"]` in the configuration',
     "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
     # numbers and relations
@@ -83,8 +83,8 @@ _ERRORS = {
     "zero-axis": 'write for example xyz="0 0 1"',
     "limit-order": "exchange or correct the limits",
     "unknown-mimic": "add the joint, or correct its name",
-    "mimic-cycle": "one joint of the cycle must move by itself",
-    "mimic-type": "only revolute, continuous and prismatic joints mimic and are mimicked",
+    "mimic-cycle": "let one joint of the cycle move by itself",
+    "mimic-type": "remove the mimic, or make both joints revolute, continuous or prismatic",
     "second-reader-differs": "please report this file: urdfsync or yourdfpy reads it wrongly",
 }
 _WARNINGS = {
@@ -94,7 +94,7 @@ _WARNINGS = {
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",
-    "newer-version": "what is new in that version has no effect",
+    "newer-version": "remove what is newer than URDF 1.2: it has no effect",
     "newer-attribute": "name the version of URDF that has it",
     "unknown-attribute": "correct its name, or remove it",
     "unknown-element": "correct its name, or remove it",
@@ -122,21 +122,21 @@ _WARNINGS = {
     "bad-sensor": "correct the number; it is taken as 0",
     "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
-    "inertia-not-positive": "export the inertia again; simulation may not be physical",
-    "inertia-triangle": "export the inertia again; simulation may not be physical",
+    "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
+    "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
     # legal, but hardly meant
     "no-inertia": "give the links an <inertial>",
-    "mass-unit": "masses are in kg",
-    "inertia-size": "inertias are in kg·m², about the centre of mass: export them again",
-    "length-unit": "lengths are in m",
-    "angle-unit": "angles are in rad",
+    "mass-unit": "write masses in kg",
+    "inertia-size": "export inertias in kg·m², about the centre of mass",
+    "length-unit": "write lengths in m",
+    "angle-unit": "write angles in rad",
     "zero-limits": "correct the limits, or make the joint fixed",
-    "shape-far": "correct its origin, which is in m",
+    "shape-far": "correct its origin; write it in m",
 }
 _NOTES = {
-    "second-reader-failed": "only the reading of urdfsync counts",
-    "not-modelled": "--verbose lists them with their lines",
+    "second-reader-failed": "go by the reading of urdfsync alone",
+    "not-modelled": "list them with their lines by --verbose",
 }
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {

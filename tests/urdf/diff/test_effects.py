@@ -52,7 +52,7 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
     joints = [joint(name, "continuous", "base", child) for name, child in (("wheel", "a"), ("caster", "b"))]
     drive = '<transmission name="t"><joint name="wheel"/></transmission>'
     old, new = version(*STAR[:3], *joints), version(*STAR[:3], *joints, drive)
-    hint = '`driven = ["caster", "wheel"]` brings it back'
+    hint = 'set `driven = ["caster", "wheel"]` to bring it back'
     assert {one.hint for one in interface(old, new, {}, TARGET, Options())} == {hint}
     vector = changed(old, new, inputs="vector")
     assert vector["robot / order of positions"] == ("caster, wheel", "wheel")
@@ -65,12 +65,12 @@ def test_a_joint_that_becomes_passive_loses_its_variables_of_run() -> None:
 def test_a_link_that_is_no_leaf_any_more_loses_its_frame_unless_it_is_listed() -> None:
     first = joint("ja", "fixed", "base", "a")
     old, new = version(*STAR[:2], first), version(*STAR[:3], first, joint("jb", "fixed", "a", "b"))
-    hint, more = '`frames = ["a"]` brings it back', Effect(("link b", "frame"), None, "bFrame")
+    hint, more = 'set `frames = ["a"]` to bring it back', Effect(("link b", "frame"), None, "bFrame")
     assert interface(old, new, {}, TARGET, Options()) == [Effect(("link a", "frame"), "aFrame", None, hint=hint), more]
     back = [Effect(("link b", "frame"), "bFrame", None), Effect(("link a", "frame"), None, "aFrame")]
     assert interface(new, old, {}, TARGET, Options()) == back
     assert changed(old, new, frames=("a",)) == {"link b / frame": (None, "bFrame")}
-    hint = '`frames = ["base", "a"]` brings it back'
+    hint = 'set `frames = ["base", "a"]` to bring it back'
     assert interface(old, new, {}, TARGET, Options(frames=("base",)))[0].hint == hint
 
 
@@ -78,7 +78,9 @@ def test_a_frame_that_goes_when_its_link_gets_another_name_comes_back_by_the_new
     old = version(*STAR[:2], joint("ja", "fixed", "base", "a"))
     new = version(STAR[0], *STAR[2:], joint("ja", "fixed", "base", "b"), joint("jc", "fixed", "b", "c"))
     found = interface(old, new, {("link", "a"): "b"}, TARGET, Options())[0]
-    assert found == Effect(("link b", "frame"), "aFrame", None, hint='`frames = ["b"]` brings it back as `bFrame`')
+    assert found == Effect(
+        ("link b", "frame"), "aFrame", None, hint='set `frames = ["b"]` to bring it back as `bFrame`'
+    )
 
 
 def test_a_joint_that_gets_an_axis_gets_all_and_one_that_loses_it_loses_all() -> None:
@@ -119,11 +121,11 @@ def test_positions_by_name_take_the_place_of_a_vector() -> None:
     robot = version(*STAR[:2], joint("j", "continuous", "base", "a"))
     vector = Options(inputs="vector")
     assert interface(msgspec.structs.replace(robot, options=vector), robot, {}, TARGET, Options()) == [
-        Effect(("robot", "input of Run"), "positions", None, hint='`inputs = "vector"` brings it back'),
+        Effect(("robot", "input of Run"), "positions", None, hint='set `inputs = "vector"` to bring it back'),
         Effect(("joint j", "position in Run"), None, "j_phi"),
     ]
     assert interface(msgspec.structs.replace(robot, options=Options()), robot, {}, TARGET, vector) == [
-        Effect(("joint j", "position in Run"), "j_phi", None, hint='`inputs = "names"` brings it back'),
+        Effect(("joint j", "position in Run"), "j_phi", None, hint='set `inputs = "names"` to bring it back'),
         Effect(("robot", "input of Run"), None, "positions"),
     ]
 

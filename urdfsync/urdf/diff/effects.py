@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Effect, ElementKey, Target, Version, brings_back, displaced
@@ -24,7 +24,8 @@ _DRIVE = {
     "velocity": "velocity in Run",
     "effort": "effort in Run",
 }
-"""Fields of `Drive`, and what they are in a report."""
+"""Fields of `Drive`, and their words in a report."""
+_INPUT = "input of Run"
 
 
 def effects(old: Version, new: Version) -> Sequence[Effect]:
@@ -87,54 +88,51 @@ def interface(
         hint = brings_back('approach = ["package", "record"]')
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
     before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
-    old_names, new_names = connector_names(before, earlier), connector_names(after, options)
-    all_names = every_connector(after, options)
-    lines, changes = connector_options(after, options), list[Effect]()
-
-    def add(element: str, part: str, old_name: str | None, new_name: str | None, full: str | None) -> None:
-        """Add an effect if a name differs; `full` is the new name that it has if no option leaves it out."""
+    old_connectors, connectors = connector_names(before, earlier), connector_names(after, options)
+    new_names, all_names = _names(connectors, options), _names(every_connector(after, options), options)
+    all_names["robot", "", _INPUT] = input_vector(connectors)
+    lines, displaced_elements, changes = connector_options(after, options), displaced(renames), list[Effect]()
+    for (kind, old_element, part), old_name in _names(old_connectors, earlier).items():
+        is_displaced = (kind, old_element) in displaced_elements
+        element = renames.get((kind, old_element), old_element)
+        new_name = None if is_displaced else new_names.pop((kind, element, part), None)
         if old_name != new_name:
-            hint = "" if new_name or not full else brings_back(lines.get(full, ""), full if full != old_name else "")
-            changes.append(Effect((element, part), old_name, new_name, hint=hint))
+            full_name = None if new_name or is_displaced else all_names.get((kind, element, part))
+            hint = (
+                brings_back(lines.get(full_name, ""), full_name if full_name != old_name else "") if full_name else ""
+            )
+            changes.append(Effect((_label(kind, element), part), old_name, new_name, hint=hint))
+        elif part == "axis":  # a flange of the same name may be of another kind, and fit no drive
+            old_motion, motion = old_connectors.drives[old_element].motion, connectors.drives[element].motion
+            if old_motion != motion:
+                changes.append(Effect((_label(kind, element), "motion"), old_motion, motion))
+    inputs = [renames.get(("joint", name), name) for name in _driven(old_connectors)]
+    new_inputs = _driven(connectors)
+    if earlier.inputs == options.inputs == "vector" and inputs and new_inputs and inputs != new_inputs:
+        path = "robot", f"order of {input_vector(connectors)}"
+        changes.append(Effect(path, ", ".join(inputs), ", ".join(new_inputs)))
+    added = [Effect((_label(kind, name), part), None, new_name) for (kind, name, part), new_name in new_names.items()]
+    return [*changes, *added]  # names that users may have connected come first
 
-    links, new_links = ([link.name for link in tree.links] for tree in (before, after))
-    for link, new_link in _matches("link", links, new_links, renames):
-        frames = old_names.frames.get(link), new_names.frames.get(new_link), all_names.frames.get(new_link)
-        add(f"link {new_link or link}", "frame", *frames)
-    joints, new_joints = ([joint.name for joint in tree.joints] for tree in (before, after))
-    for joint, new_joint in _matches("joint", joints, new_joints, renames):
-        drives = old_names.drives.get(joint), new_names.drives.get(new_joint), all_names.drives.get(new_joint)
-        element, (drive, new_drive, _) = f"joint {new_joint or joint}", drives
-        if drive and new_drive and drive.axis == new_drive.axis and drive.motion != new_drive.motion:
-            changes.append(Effect((element, "motion"), drive.motion, new_drive.motion))
-        for field, part in _DRIVE.items():
-            add(element, part, *(getattr(names, field, None) for names in drives))
-    for name in dict.fromkeys([*old_names.sensors, *new_names.sensors]):
-        add(f"sensor {name}", "component", old_names.sensors.get(name), new_names.sensors.get(name), None)
-        add(f"sensor {name}", "frame", old_names.sensor_frames.get(name), new_names.sensor_frames.get(name), None)
-    inputs = [renames.get(("joint", name), name) for name in _driven(old_names)] if earlier.inputs == "vector" else []
-    new_inputs = _driven(new_names) if options.inputs == "vector" else []
-    vector, new_vector = input_vector(old_names), input_vector(new_names)
-    add("robot", "input of Run", vector if inputs else None, new_vector if new_inputs else None, new_vector)
-    if inputs and new_inputs and inputs != new_inputs:
-        changes.append(Effect(("robot", f"order of {new_vector}"), ", ".join(inputs), ", ".join(new_inputs)))
-    return sorted(changes, key=lambda change: change.old is None)  # names that users may have connected come first
+
+def _names(connectors: Connectors, options: Options) -> dict[tuple[str, str, str], str]:
+    """Return the names that users may connect to, by kind and name of the element, and by the part of it."""
+    names = {("link", link, "frame"): frame for link, frame in connectors.frames.items()}
+    for joint, drive in connectors.drives.items():
+        names |= {("joint", joint, part): name for field, part in _DRIVE.items() if (name := getattr(drive, field))}
+    for sensor, component in connectors.sensors.items():
+        names["sensor", sensor, "component"] = component
+        if sensor in connectors.sensor_frames:
+            names["sensor", sensor, "frame"] = connectors.sensor_frames[sensor]
+    if options.inputs == "vector" and _driven(connectors):
+        names["robot", "", _INPUT] = input_vector(connectors)
+    return names
+
+
+def _label(kind: str, name: str) -> str:
+    return f"{kind} {name}" if name else kind
 
 
 def _driven(connectors: Connectors) -> list[str]:
     """Return the joints that Run drives."""
     return [name for name, drive in connectors.drives.items() if drive.command]
-
-
-def _matches(
-    kind: str, before: Iterable[str], after: Iterable[str], renames: Mapping[ElementKey, str]
-) -> Iterator[tuple[str, str]]:
-    """Yield old and new name of each element; a new element has an empty old name, a removed one an empty new name."""
-    displaced_elements, new_names = displaced(renames), dict.fromkeys(after)
-    for old_name in before:
-        name = renames.get((kind, old_name), old_name)
-        has_match = name in new_names and (kind, old_name) not in displaced_elements
-        yield old_name, name if has_match else ""
-        if has_match:
-            del new_names[name]
-    yield from (("", name) for name in new_names)

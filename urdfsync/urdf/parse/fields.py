@@ -68,7 +68,9 @@ class Reader:
         """Add a finding about an element."""
         entry = diagnostic(code, message, self.element_lines[element], hint)
         if code in self.allowed:
-            entry = msgspec.structs.replace(entry, severity=Severity.WARNING, hint="a build needs `allow` for it")
+            entry = msgspec.structs.replace(
+                entry, severity=Severity.WARNING, hint="name it in `allow` to build the robot without it"
+            )
         self.diagnostics.append(entry)
 
     def extend(self, findings: Iterable[Finding]) -> None:
