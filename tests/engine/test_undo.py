@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, edit
+from support.networks import LADDER, edit, resistor
 
 MODEL = f"{LADDER}/Ladder.mo"
 
@@ -144,3 +145,36 @@ def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: E
         file.parent.mkdir(exist_ok=True)
         file.write_text(text, errors="surrogatepass")
         execute("build")
+
+
+def test_a_file_that_was_given_back_and_saved_is_not_merged_again(merged: Path, execute: Execute) -> None:
+    execute("resolve", MODEL, "--undo")
+    edit(MODEL, "Real mine = 1", "Real mine = 2")
+    execute("resolve", MODEL, "--merge", code=2)
+    assert '"Element R3"' not in Path(MODEL).read_text()
+
+
+def put_aside() -> list[str]:
+    file = Path(".urdfsync/replaced/ladder.json")
+    return sorted(json.loads(file.read_text())) if file.exists() else []
+
+
+def test_what_was_put_aside_goes_once_its_file_is_saved(merged: Path, execute: Execute) -> None:
+    assert put_aside() == ["Ladder.mo"]
+    edit(MODEL, "Real mine = 1", "Real mine = 2")
+    resistor(120)
+    execute("build")
+    assert put_aside() == ["Elements/R1Parameters.mo"]
+
+
+def test_of_files_that_nobody_edited_many_are_not_put_aside(
+    merged: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("urdfsync.engine.undo._MANY", 1)
+    resistor(120)
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    assert put_aside() == ["Ladder.mo"]
+    resistor(130, before=120)
+    execute("build")
+    assert put_aside() == ["Elements/R1Parameters.mo", "Ladder.mo"]
