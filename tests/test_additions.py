@@ -142,7 +142,8 @@ def differences(content: bytes, work: Path, random: Random, tally: collections.C
                 yield f"{kind}: {path} differs ({edits[path].__name__ if path in edits else 'moved or not edited'})"
 
 
-@pytest.mark.parametrize("robot", ["twig.urdf", pytest.param("menagerie.urdf", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ["twig.urdf", "menagerie.urdf"])
 def test_an_addition_meets_any_export(robot: str, tmp_path: Path) -> None:
     with replay.in_haste():
         found = list(differences((GOLDEN / robot).read_bytes(), tmp_path, Random(5), collections.Counter()))

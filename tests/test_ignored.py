@@ -49,6 +49,7 @@ def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command
     assert "nowhere" not in told
 
 
+@pytest.mark.slow
 def test_check_does_not_either(project: Path, execute: Execute) -> None:
     execute("build", "-q")
     edit("modelica/Ladder/package.order", "Ladder\n", "")

@@ -151,6 +151,7 @@ def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: P
     assert not asked.exists()
 
 
+@pytest.mark.slow
 @NEEDS_SCRIPTS
 @pytest.mark.parametrize("command", ["build --trust", "check --trust", "check --tool omc"])
 def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command: str) -> None:
@@ -159,6 +160,7 @@ def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command
     assert "checkModel(" in asked.read_text()
 
 
+@pytest.mark.slow
 @NEEDS_SCRIPTS
 def test_a_trusted_folder_may_choose_openmodelica(asked: Path, trusted: Path, execute: Execute) -> None:
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")

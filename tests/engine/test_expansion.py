@@ -218,7 +218,7 @@ def test_an_expression_gets_at_nothing_but_values(folder: Path, call: str) -> No
         ("xacro.load_yaml(0)", "expected str, bytes or os.PathLike object, not int"),
         ("'\\ud800'", "it works with text that is not Unicode"),
         ("xacro.message('\\ud800')", "it works with text that is not Unicode"),
-        ("'a' * 1000 * 1000 * 200", "it expands to more than 100,000,000 bytes"),
+        pytest.param("'a' * 1000 * 1000 * 200", "it expands to more than 100,000,000 bytes", marks=pytest.mark.slow),
     ],
 )
 def test_a_way_out_of_an_expression_is_closed(folder: Path, expression: str, message: str) -> None:

@@ -76,7 +76,7 @@ def test_what_touches_different_things_fits_together(
     assert merge(theirs, found.text, theirs, is_modelica=True).text == found.text
 
 
-@often(60)
+@often(25)
 @given(random=seeds, mine=edits, generated=edits)
 def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> None:
     base = random.choice(simple_files())
@@ -105,7 +105,7 @@ def commented(text: str, random: Random) -> str:
     return text
 
 
-@often(60)
+@often(25)
 @given(random=seeds, kinds=edits)
 def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> None:
     base = random.choice(simple_files())
@@ -126,6 +126,7 @@ def read_by_pymoca(text: str) -> tuple[set[str], int]:
     return set(found.symbols), len(found.equations)
 
 
+@pytest.mark.slow
 @often(8)
 @given(random=seeds)
 def test_another_parser_finds_all_elements(random: Random) -> None:

@@ -149,12 +149,12 @@ def test_a_file_of_the_users_is_replaced_only_if_it_is_named(
 
 
 def test_a_stranger_s_file_at_the_default_name_is_read_within_limits(tmp_path: Path) -> None:
-    """A bomb of 5 MB has a description of 5 GB; the first 64 KB of it tell."""
+    """A bomb of 5 MB may have a description of 5 GB; the first 64 KB of it tell."""
     file, words = tmp_path / "ArmRun.fmu", b'<a description="Arm.ArmRun, exported by urdfsync 0.1.0">'
     for compression, is_ours in ((zipfile.ZIP_DEFLATED, True), (zipfile.ZIP_BZIP2, False), (zipfile.ZIP_LZMA, False)):
         with zipfile.ZipFile(file, "w", compression) as bomb, bomb.open("modelDescription.xml", "w") as entry:
             entry.write(words)
-            for _ in range(200):
+            for _ in range(8):
                 entry.write(bytes(2**20))
         tracemalloc.start()
         try:

@@ -136,7 +136,7 @@ def test_an_edit_new_templates_and_an_export_in_one_interval_are_merged(
 def test_an_edit_that_lies_over_many_builds_has_its_base(project: Path) -> None:
     run()
     edit(RECORD, "end R1", NOTE)
-    for count in range(20):
+    for count in range(5):
         source(f'"ohm": {220.5 + count:g}}}', f'"ohm": {221.5 + count:g}}}')
         run()
     resistor(150)
