@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -151,10 +150,7 @@ def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
         return
     heading = f"Next build: {build_summary(result)}"
     if found.against is not None:
-        reasons = Counter(action.reason for action in actions)
-        parts = [f"{reasons[one]} to {one.word}" for one in reasons] if len(reasons) > 1 else []
         heading = f"{counted(len(actions), 'file')} of the package differ{'s' if len(actions) == 1 else ''}"
-        heading += f": {', '.join(parts)}" if parts else ""
     yield from (line(("", "")), line((heading, "bold")))
     actions.sort(key=lambda action: (action.reason not in _EDITED, action.path.rpartition("/")))
     lines = [

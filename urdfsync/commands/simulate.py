@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
-import threading
 from pathlib import Path
 
 from urdfsync.check.compilers import COMPILERS
@@ -62,10 +60,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
     chosen_files = {"csv": args.csv, "parquet": args.parquet, "plot": args.plot}
     files = {kind: file for kind, file in chosen_files.items() if file is not None}
     check_outputs(files, input_files(configuration, robot, args.motion))
-    if args.plot:  # matplotlib takes 0.5 s, which go by while the compiler is at work
-        later = threading.Timer(1.5, importlib.import_module, ("urdfsync.simulate.plot",))
-        later.daemon = True
-        later.start()
     tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trusted)
     options = arguments.options_of(args, SimulateOptions, tool=tool)
     result = simulate(configuration, robot, options, console.progress)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
 from collections.abc import Iterator
 
 from urdfsync.commands import arguments
@@ -12,16 +11,8 @@ from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, line
-from urdfsync.output.phrases import (
-    BROKEN,
-    NOT_EXPANDED,
-    action_counts,
-    change_counts,
-    counted,
-    error_count,
-    generator_change,
-    reason,
-)
+from urdfsync.output.phrases import change_counts, generator_change, reason
+from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import file_line, headline, result_values
 
@@ -82,8 +73,6 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
         yield line((f"  {generator_change(changes)}", ""))
     elif changes:
         yield line((f"  {change_counts(changes)} in the source", ""))
-    if (actions := action_counts(result, {Reason.KEEP})) and not (result.in_step or result.failed):
-        yield line((f"  next build: {', '.join(actions)}", ""))
     silent = set() if verbose else {FileStatus.IN_STEP} | (set() if result.is_built else {FileStatus.STALE})
     listed = [action for action in result.actions if action.reason.status and action.reason.status not in silent]
     conflicts = {one.action.path: describe(one) for one in find_conflicts([result])}
@@ -110,18 +99,8 @@ def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLi
 
 
 def summary(result: Result) -> str:
-    """Return how a package stands, as the rest of a line that names the robot."""
-    if result.failed:
-        return f"{error_count(result.diagnostics)}, so its files were not compared"
-    if result.stale and not result.actions:
-        return "not expanded, so its files were not compared"
-    counts = Counter(filter(None, (action.reason.status for action in result.actions)))
-    stand = "in step" if result.in_step else NOT_EXPANDED if result.stale else "out of step"
-    head = f"{BROKEN if result.is_broken else stand}, {counted(counts.total(), 'file')}"
-    silent = {FileStatus.IN_STEP}
-    if not (result.is_built or result.in_step):
-        head, silent = "not built yet", {FileStatus.IN_STEP, FileStatus.STALE}
-    nouns = (FileStatus.CONFLICT, FileStatus.ORPHAN)
-    told = [(counts[status], status) for status in FileStatus if counts[status] and status not in silent]
-    words = [counted(number, one) if one in nouns else f"{number} {one}" for number, one in told]
-    return f"{head}{': ' if words else ''}{', '.join(words)}"
+    """Return what a build would do, as the rest of a line that names the robot."""
+    words = build_summary(result)
+    if result.failed or result.in_step or result.is_broken or result.stale:
+        return words
+    return f"{'out of step' if result.is_built else 'not built yet'}: {words}"
