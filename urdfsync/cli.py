@@ -60,8 +60,8 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
 
 def tell_unwritten(trouble: str) -> int:
     """Say that not all of the output could be written; returns the exit code."""
-    found = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {trouble}")
-    return Console().end(Exit.ERROR, [found])
+    problem = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {trouble}")
+    return Console().end(Exit.ERROR, [problem])
 
 
 def _main(given: list[str]) -> int:
@@ -78,17 +78,17 @@ def _main(given: list[str]) -> int:
     except arguments.UsageError as error:
         if not console.json:
             sys.stderr.write(error.usage)
-        found, code = error.diagnostics, Exit.ERROR
+        problems, code = error.diagnostics, Exit.ERROR
     except UrdfsyncError as error:
-        found, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
+        problems, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
     except OSError as error:
-        found, code = findings_of(error), Exit.ERROR
+        problems, code = findings_of(error), Exit.ERROR
     except KeyboardInterrupt:
         message = "interrupted; run the command again to finish the work"
-        found, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
+        problems, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
-        found, code = (_unforeseen(error),), Exit.ERROR
-    return console.end(_for_git(given, code), found)
+        problems, code = (_unforeseen(error),), Exit.ERROR
+    return console.end(_for_git(given, code), problems)
 
 
 def _arguments(given: list[str]) -> argparse.Namespace:
@@ -135,14 +135,14 @@ def _unforeseen(error: Exception) -> Diagnostic:
     import tempfile
     import traceback
 
-    found = internal_error(error)
+    bug = internal_error(error)
     try:
         number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
         with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
             file.writelines(traceback.format_exception(error))
     except OSError:
-        return found
-    return msgspec.structs.replace(found, hint=f"{found.hint} with the traceback in {path}")
+        return bug
+    return msgspec.structs.replace(bug, hint=f"{bug.hint} with the traceback in {path}")
 
 
 @contextlib.contextmanager

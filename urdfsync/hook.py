@@ -35,6 +35,6 @@ def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
 def find_configurations(index: git.Index) -> set[str]:
     """Return the configurations that git tracks, and those on disk whose states git tracks."""
     name, states = uptodate.CONFIGURATION, ".urdfsync/robots/"
-    found = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
+    configurations = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
     of_states = {path.rpartition(states)[0] + name for path in index.tracked if states in path}
-    return found | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}  # noqa: PTH113
+    return configurations | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}  # noqa: PTH113

@@ -42,17 +42,17 @@ def run(args: argparse.Namespace, console: Console) -> int:
     robots = arguments.select_robots(args, configuration, console)
     tools = chosen_tools(configuration, args.tool, trusted=args.trusted)
     options = arguments.options_of(args, CheckOptions, tools=tools)
-    found = run_checks.check_robots(configuration, robots, options, console.progress)
-    results = show_results(console, found, args.strict)
+    checks = run_checks.check_robots(configuration, robots, options, console.progress)
+    results = show_results(console, checks, args.strict)
     return console.end(exit_code(results, args.strict))
 
 
-def show_results(console: Console, found: Iterable[CheckResult], strict: bool) -> list[CheckResult]:
+def show_results(console: Console, checks: Iterable[CheckResult], strict: bool) -> list[CheckResult]:
     """Show each result as it comes, then what holds for all, as far as the command comes; returns them."""
     results: list[CheckResult] = []
     marks = has_marks(sys.stdout)
     try:
-        for result in found:
+        for result in checks:
             results.append(result)
             if console.json:
                 console.add_robot(to_json(result, strict))

@@ -65,9 +65,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     request = arguments.request(args, console)
     comparisons = []
     for loaded, robots in _select_sources(args, configuration, folder):
-        for found in comparison.compare_sources(robots, args.against, loaded, request, folder):
-            comparisons.append(found)
-            _show(console, found)
+        for compared in comparison.compare_sources(robots, args.against, loaded, request, folder):
+            comparisons.append(compared)
+            _show(console, compared)
     return console.end(comparison.exit_code(comparisons))
 
 
@@ -105,51 +105,55 @@ def _select_sources(
     yield None, [comparison.robot_of_file(place) for place in alone.values()]
 
 
-def _show(console: Console, found: Comparison) -> None:
+def _show(console: Console, compared: Comparison) -> None:
     if console.json:
-        values = result_values(found.result)
-        values |= {"source": found.source, "against": found.against, "summary": _summary(found)}
-        values |= {"in_step": found.in_step, "effects": msgspec.to_builtins(found.effects)}
+        values = result_values(compared.result)
+        values |= {"source": compared.source, "against": compared.against, "summary": _summary(compared)}
+        values |= {"in_step": compared.in_step, "effects": msgspec.to_builtins(compared.effects)}
         console.add_robot(values)
         return
-    show_findings(console, found.result, [one for one in found.result.diagnostics if one.code != CONNECTORS])
-    if not console.quiet or found.result.conflicts:
-        head = headline(found.result, _summary(found), is_fine=found.in_step)
-        console.print([head, *_lines(found, console.verbose)], error=found.result.failed)
+    show_findings(
+        console,
+        compared.result,
+        [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS],
+    )
+    if not console.quiet or compared.result.conflicts:
+        head = headline(compared.result, _summary(compared), is_fine=compared.in_step)
+        console.print([head, *_lines(compared, console.verbose)], error=compared.result.failed)
 
 
-def _summary(found: Comparison) -> str:
+def _summary(compared: Comparison) -> str:
     """Return what changed since the older version, as the rest of a line that names the robot."""
-    if found.result.failed:
-        return f"{error_count(found.result.diagnostics)}, so nothing can be compared"
-    if found.missing:
-        return found.missing
-    since = f"since {'the last build' if found.against is None else found.against}"
-    changes = found.result.changes
+    if compared.result.failed:
+        return f"{error_count(compared.result.diagnostics)}, so nothing can be compared"
+    if compared.missing:
+        return compared.missing
+    since = f"since {'the last build' if compared.against is None else compared.against}"
+    changes = compared.result.changes
     if changes is None:
-        return f"nothing changed {since}{'' if found.in_step else ', but files are out of step'}"
+        return f"nothing changed {since}{'' if compared.in_step else ', but files are out of step'}"
     return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
 
 
-def _lines(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
+def _lines(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:
     """Yield the lines below the first one: changes by element, effects on the model, files; of many the first."""
-    head, changes = _summary(found), found.result.changes
+    head, changes = _summary(compared), compared.result.changes
     told = [text for text in change_lines(changes, everything=verbose) if text not in head] if changes else []
     yield from first_lines(list(map(change_line, told)), _CHANGES, "line", verbose=verbose)
-    if effects := [line((f"  {text}", "")) for text in effect_rows(found.effects)]:
+    if effects := [line((f"  {text}", "")) for text in effect_rows(compared.effects)]:
         yield from (line(("", "")), line(("Effects", "bold")))
         yield from first_lines(effects, _EFFECTS, "effect", verbose=verbose)
-    yield from _files(found, verbose)
+    yield from _files(compared, verbose)
 
 
-def _files(found: Comparison, verbose: bool) -> Iterator[StyledLine]:
+def _files(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:
     """Yield the files that are concerned, and why if it is one that the user edited; these come first."""
-    result = found.result
+    result = compared.result
     actions = [action for action in result.actions if action.reason not in _SILENT]
-    if found.in_step or not actions:
+    if compared.in_step or not actions:
         return
     heading = f"Next build: {build_summary(result)}"
-    if found.against is not None:
+    if compared.against is not None:
         heading = f"{counted(len(actions), 'file')} of the package differ{'s' if len(actions) == 1 else ''}"
     yield from (line(("", "")), line((heading, "bold")))
     actions.sort(key=lambda action: (action.reason not in _EDITED, action.path.rpartition("/")))

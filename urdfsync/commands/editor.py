@@ -75,5 +75,5 @@ def _flaw(content: bytes, conflict: Conflict) -> str:
         return "is not UTF-8"
     if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
         return flaw
-    wanted, given = ([str(one.name) for one in parse(side).classes] for side in (conflict.generated, text))
+    wanted, given = ([str(declared.name) for declared in parse(side).classes] for side in (conflict.generated, text))
     return "" if given == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"

@@ -51,7 +51,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
             continue
         if named:
             root = configuration.root
-            files = [one for one in files if any((root / one.path).is_relative_to(place) for place in named.values())]
+            files = [
+                file for file in files if any((root / file.path).is_relative_to(place) for place in named.values())
+            ]
         if console.json:
             console.add_robot({"name": robot.name, "failed": False, "files": list(map(edit_values, files))})
         words = f"{counted(len(files), 'file')} edited" if files else "nothing is edited"
@@ -67,7 +69,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def edit_values(file: EditedFile) -> dict[str, Any]:
     """Return an edited file as plain data; `edits` is None if they can't be told by element."""
     edits = None if file.base is None else find_edits(file.base, file.mine)
-    told = None if edits is None else [msgspec.structs.asdict(one) for one in edits if one.element != "comments"]
+    told = None if edits is None else [msgspec.structs.asdict(edit) for edit in edits if edit.element != "comments"]
     return {"path": file.path, "owner": file.owner, "edits": told}
 
 

@@ -79,29 +79,31 @@ def run(args: argparse.Namespace, console: Console) -> int:
     file = args.output or _default_file(exported)
     trial = None
     if args.check:
-        kinds = [one for one in KINDS if one in kind.kind]
+        kinds = [name for name in KINDS if name in kind.kind]
         trial = try_out(configuration, robot, options, exported, kinds, console.progress)
     write_file(file, exported.content)
-    found = robot.without_ignored(_findings(trial, file)) if trial else ()
-    diagnostics = (*exported.diagnostics, *found)
+    warnings = robot.without_ignored(_findings(trial, file)) if trial else ()
+    diagnostics = (*exported.diagnostics, *warnings)
     console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file, diagnostics))
     console.tell(fmu_lines(robot.name, exported, kind, trial, file))
     console.findings(diagnostics)
-    code = Exit.OUT_OF_STEP if found else Exit.IN_STEP
+    code = Exit.OUT_OF_STEP if warnings else Exit.IN_STEP
     return console.end(code)
 
 
 def _findings(trial: Trial, file: Path) -> list[Diagnostic]:
-    found = [Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {one}", shown(file)) for one in trial.findings]
+    warnings = [
+        Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {words}", shown(file)) for words in trial.findings
+    ]
     for kind, problem in trial.problems.items():
         message = f"{KINDS[kind]}: FMPy can't simulate it: {problem}"
-        found.append(Diagnostic(Severity.WARNING, "fmu-not-simulated", message, shown(file)))
+        warnings.append(Diagnostic(Severity.WARNING, "fmu-not-simulated", message, shown(file)))
     for kind, difference in trial.agreement.items():
         if not difference <= AGREEMENT:
             message = f"{KINDS[kind]}: `{trial.worst[kind]}` differs from `simulate` by {difference:.1e} of its size"
             hint = "try a smaller `--tolerance`"
-            found.append(Diagnostic(Severity.WARNING, "fmu-differs", message, shown(file), hint=hint))
-    return found
+            warnings.append(Diagnostic(Severity.WARNING, "fmu-differs", message, shown(file), hint=hint))
+    return warnings
 
 
 def _default_file(exported: Exported) -> Path:

@@ -205,7 +205,7 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
         config = configuration.load(Path(file))
         robots = [_plan(commit, config, robot, options) for robot in config.robots]
     index = commit.index
-    if not any(not one.planned.in_step or one.find_unstaged() or one.select(index.hidden) for one in robots):
+    if not any(not robot.planned.in_step or robot.find_unstaged() or robot.select(index.hidden) for robot in robots):
         needed = {path for robot in robots for path in (*(robot.known & index.tracked), *robot.folders)}
         uptodate.save_answer(file, "hook", key, sorted(needed), everything)
         return

@@ -113,7 +113,7 @@ def guess_robots(
     for source in unique.values():
         try:
             used = {*taken, *(name for one in guesses for name in (one.name, one.package))}
-            guess, found = _guess(domain, source, given, root, used)
+            guess, noted = _guess(domain, source, given, root, used)
         except SourceError as error:
             if named:
                 raise
@@ -124,7 +124,7 @@ def guess_robots(
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)
-            warnings += found
+            warnings += noted
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
@@ -134,8 +134,8 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
     """Files with this suffix below `folder`, hidden files and folders left out, sorted."""
     for parent, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        found = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
-        yield from (Path(parent, name) for name in found)
+        sources = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
+        yield from (Path(parent, name) for name in sources)
 
 
 def _guess(

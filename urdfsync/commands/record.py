@@ -65,11 +65,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
     with text.locating():
         snapshot, reading = sources.read(domain, domain.permissive_options(), text.content, text.name)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)
-    found = domain.record(reading, shown(source), target, domain.options())
-    if found is None:
+    recorded = domain.record(reading, shown(source), target, domain.options())
+    if recorded is None:
         message = f"the domain `{domain.name}` has no record of a whole model"
         raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
-    artifact, findings = found
+    artifact, findings = recorded
     generated = Package([artifact], sources.domain_templates(domain), target.package)
     told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *findings))]
     console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))

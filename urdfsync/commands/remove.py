@@ -94,7 +94,7 @@ def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     plain, name = text.removeprefix(mark), shown(configuration.file)
     new = tomlfile.without_table(plain, "robots", robot)
-    before, after = (tomlfile.parse(one.replace("\r\n", "\n"), name, ConfigError) for one in (plain, new))
+    before, after = (tomlfile.parse(version.replace("\r\n", "\n"), name, ConfigError) for version in (plain, new))
     del before["robots"][robot]
     if {"robots": {}, **after} != before:
         message, hint = f"`{robot}` is no table `[robots.{robot}]`", "write it as one, then remove it"

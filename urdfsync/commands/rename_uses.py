@@ -25,33 +25,33 @@ def run(args: argparse.Namespace, console: Console) -> int:
     given = dict(_pair(args.parser, text) for text in args.rename_uses)
     loaded = arguments.configuration(args)
     robots = loaded.select(args.robot or [])
-    found = rename_uses(loaded, robots, arguments.request(args, console, dry=True), given)
-    if found.unknown:
-        names = " or ".join(f"`{name}`" for name in sorted(found.unknown))
+    renamed = rename_uses(loaded, robots, arguments.request(args, console, dry=True), given)
+    if renamed.unknown:
+        names = " or ".join(f"`{name}`" for name in sorted(renamed.unknown))
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
-    told, code = [*_conflicting(found), *_uncertain(found)], Exit.CONFLICT if found.conflicting else Exit.IN_STEP
-    if not (found.texts or found.conflicting or found.uncertain):
+    told, code = [*_conflicting(renamed), *_uncertain(renamed)], Exit.CONFLICT if renamed.conflicting else Exit.IN_STEP
+    if not (renamed.texts or renamed.conflicting or renamed.uncertain):
         hint = "" if given else "for a rename before the last build, give both names: --rename-uses OLD=NEW"
         told.append(
             Diagnostic(
                 Severity.NOTE, "no-old-names", "none of your models uses a name that the last build renamed", hint=hint
             )
         )
-    console.warnings([*told, *(_notes(found) if console.json else ())])
-    console.tell(_lines(found))
-    if not found.texts or args.dry_run:
+    console.warnings([*told, *(_notes(renamed) if console.json else ())])
+    console.tell(_lines(renamed))
+    if not renamed.texts or args.dry_run:
         return console.end(code)
     if not args.trusted:
-        outputs = (find_untrusted_output(loaded, one) for one in found.robots)
-        if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in found.texts)))]:
+        outputs = (find_untrusted_output(loaded, robot) for robot in renamed.robots)
+        if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in renamed.texts)))]:
             raise ConfigError(*untrusted)
-    count = f"{counted(len(list(_changed_lines(found))), 'line')} in {counted(len(found.texts), 'file')}"
-    builds = f", and build {', '.join(robot.name for robot in found.robots)}" if found.robots else ""
+    count = f"{counted(len(list(_changed_lines(renamed))), 'line')} in {counted(len(renamed.texts), 'file')}"
+    builds = f", and build {', '.join(robot.name for robot in renamed.robots)}" if renamed.robots else ""
     if not (args.yes or arguments.is_confirmed(f"Write {count}{builds}?", "written", console)):
         return console.end(Exit.OUT_OF_STEP)
-    _write(found.texts)
+    _write(renamed.texts)
     console.tell([line((f"{count} written", ""))])
-    results = build_and_check(loaded, found.robots, arguments.request(args, console))
+    results = build_and_check(loaded, renamed.robots, arguments.request(args, console))
     return console.end(exit_code(show_results(console, results)) or code)
 
 
@@ -63,37 +63,37 @@ def _pair(parser: argparse.ArgumentParser, text: str) -> tuple[str, str]:
     return old, new
 
 
-def _conflicting(found: RenamedUses) -> Iterator[Diagnostic]:
-    for robot in found.conflicting:
+def _conflicting(renamed: RenamedUses) -> Iterator[Diagnostic]:
+    for robot in renamed.conflicting:
         message = f"files of `{robot}` are in conflict, so its names stay as they are"
         hint = "resolve them first; the build that follows says which uses are left"
         yield Diagnostic(Severity.WARNING, "conflicts-first", message, hint=hint)
 
 
-def _uncertain(found: RenamedUses) -> Iterator[Diagnostic]:
-    for path, use, new in found.uncertain:
+def _uncertain(renamed: RenamedUses) -> Iterator[Diagnostic]:
+    for path, use, new in renamed.uncertain:
         why = "may not be what it was" if new in use.candidates else "means nothing there"
         message = f"`{use.part}` in `{use.name}` stays: `{new}` {why}"
         hint = "change it by hand if it means the robot"
         yield Diagnostic(Severity.WARNING, "old-name-left", message, shown(path), use.line, hint=hint)
 
 
-def _changed_lines(found: RenamedUses) -> Iterator[tuple[Path, int, str, str]]:
+def _changed_lines(renamed: RenamedUses) -> Iterator[tuple[Path, int, str, str]]:
     """Each line that changes: its file, its number, its old and its new text."""
-    for path, contents in found.texts.items():
+    for path, contents in renamed.texts.items():
         old, new = (content.decode(errors="replace").split("\n") for content in contents)
-        for number, (one, other) in enumerate(zip(old, new, strict=True), start=1):
-            if one != other:
-                yield path, number, one.strip(), other.strip()
+        for number, (before, after) in enumerate(zip(old, new, strict=True), start=1):
+            if before != after:
+                yield path, number, before.strip(), after.strip()
 
 
-def _notes(found: RenamedUses) -> Iterator[Diagnostic]:
-    for path, number, old, new in _changed_lines(found):
+def _notes(renamed: RenamedUses) -> Iterator[Diagnostic]:
+    for path, number, old, new in _changed_lines(renamed):
         yield Diagnostic(Severity.NOTE, "renamed-use", f"`{old}` becomes `{new}`", shown(path), number)
 
 
-def _lines(found: RenamedUses) -> Iterator[StyledLine]:
-    for path, contents in found.texts.items():
+def _lines(renamed: RenamedUses) -> Iterator[StyledLine]:
+    for path, contents in renamed.texts.items():
         old, new = (content.decode(errors="replace") for content in contents)
         yield from difference_lines(old, new, shown(path), shown(path))
 

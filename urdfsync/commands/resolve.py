@@ -112,7 +112,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.tell(first_lines(lines, _LINES, "file", verbose=console.verbose))
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:
-        is_error = any(one.severity is Severity.ERROR for one in problems)
+        is_error = any(problem.severity is Severity.ERROR for problem in problems)
         code = Exit.ERROR if is_error else Exit.CONFLICT
     if folder and not args.dry_run and edited.keys() <= accepted.keys():
         shutil.rmtree(folder)
@@ -164,8 +164,8 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
         show_result(console, result)
     hint = "correct the errors first" if failed else "see `urdfsync status` for the conflicts"
     message = f"nothing conflicts in {', '.join(f'`{path}`' for path in unknown)}"
-    found = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
-    return console.end(exit_code(failed) or Exit.ERROR, [found])
+    problem = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
+    return console.end(exit_code(failed) or Exit.ERROR, [problem])
 
 
 def _compare(
@@ -175,7 +175,7 @@ def _compare(
 
     A conflict that the choice does not settle is shown as such, with the reason.
     """
-    actions = {one.path: one for result in results for one in result.actions}
+    actions = {action.path: action for result in results for action in result.actions}
     failed = {result.robot for result in results if result.failed}
     accepted, problems = dict[str, Action](), list[Diagnostic]()
     for path, (result, before) in targets.items():

@@ -42,7 +42,7 @@ def add(commands: arguments.Commands) -> None:
     option("--step", type=arguments.amount, metavar="S", help=steps)
     tolerance = f"of the integration (default: as the model says, else {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
-    methods = "; ".join(f"{', '.join(one.METHODS)} ({one.TITLE})" for one in COMPILERS.values())
+    methods = "; ".join(f"{', '.join(compiler.METHODS)} ({compiler.TITLE})" for compiler in COMPILERS.values())
     option("--method", metavar="M", default="", help=f"of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
@@ -67,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.add_robot(to_json(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
-    stopped = any(one.severity is Severity.ERROR for one in result.diagnostics)
+    stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
     code = Exit.ERROR if stopped else Exit.IN_STEP
     return console.end(code)
 

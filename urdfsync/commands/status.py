@@ -75,7 +75,7 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
         yield line((f"  {change_counts(changes)} in the source", ""))
     silent = set() if verbose else {FileStatus.IN_STEP} | (set() if result.is_built else {FileStatus.STALE})
     listed = [action for action in result.actions if action.reason.status and action.reason.status not in silent]
-    conflicts = {one.action.path: describe(one) for one in find_conflicts([result])}
+    conflicts = {file.action.path: describe(file) for file in find_conflicts([result])}
     stale, others = list[StyledLine](), list[StyledLine]()
     for action in sorted(listed, key=lambda action: _path(action).rpartition("/")):
         group = stale if action.reason.status is FileStatus.STALE else others

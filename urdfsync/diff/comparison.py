@@ -69,10 +69,10 @@ class Comparison(msgspec.Struct, frozen=True):
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
-    code = exit_code_of(one.result for one in comparisons)
+    code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
-    return Exit.IN_STEP if all(one.in_step for one in comparisons) else Exit.OUT_OF_STEP
+    return Exit.IN_STEP if all(comparison.in_step for comparison in comparisons) else Exit.OUT_OF_STEP
 
 
 def robot_of_file(path: Path) -> RobotConfig:
@@ -121,13 +121,13 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     if result.failed:
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
-    last, found = inputs.last.version, result.changes
+    last, differences = inputs.last.version, result.changes
     missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"
     effects: tuple[Effect, ...] = ()
-    if last is not None and found is not None and (found.changes or found.generator):
+    if last is not None and differences is not None and (differences.changes or differences.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
-            effects = _effects(inputs.domain, last, Version(snapshot), found, robot)
+            effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
     return Comparison(result, shown(robot.source), None, missing, effects)
 
 
@@ -163,12 +163,12 @@ def _with_version(
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, _, told_before = _read(domain, robot, other, imported, options)
-    before = {(one.code, one.message) for one in told_before}
-    new_findings = tuple(one for one in told if (one.code, one.message) not in before)
+    before = {(finding.code, finding.message) for finding in told_before}
+    new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in before)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     renames = find_renames(domain, old.snapshot, new.snapshot, robot.renamed)
-    found = changes.compare(old, new, domain, robot.options, renames)
-    if not found.changes:
+    differences = changes.compare(old, new, domain, robot.options, renames)
+    if not differences.changes:
         return Comparison(result, shown(robot.source), against)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [
@@ -184,8 +184,8 @@ def _with_version(
         kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
-    result = msgspec.structs.replace(result, actions=Actions(actions), changes=found)
-    return Comparison(result, shown(robot.source), against, effects=_effects(domain, old, new, found, robot))
+    result = msgspec.structs.replace(result, actions=Actions(actions), changes=differences)
+    return Comparison(result, shown(robot.source), against, effects=_effects(domain, old, new, differences, robot))
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
@@ -197,10 +197,10 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
         if config is None or not source_files.is_xacro(robot.source, content):
             return Source(content, label)
     path = Store(config.root).expansion(robot.name)
-    if (found := expansion.loads(revision.read(path))) is None:
+    if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"
         raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
-    return Source(found.text.encode(), label)
+    return Source(recorded.text.encode(), label)
 
 
 def _files_of(
@@ -212,12 +212,14 @@ def _files_of(
         for path, artifact in package.artifacts.items()
     }
     orders = {path: (Role.ORDER, "package", names) for path, names in package.orders.items()}
-    imported = {one.target: (Role.IMPORT, key, one.target_hash) for key, one in (version.imports or {}).items()}
+    imported = {file.target: (Role.IMPORT, key, file.target_hash) for key, file in (version.imports or {}).items()}
     return {**texts, **orders, **imported}
 
 
-def _effects(domain: Domain, old: Version, new: Version, found: Changes, robot: RobotConfig) -> tuple[Effect, ...]:
-    return (*domain.effects(old, new), *domain.interface(old, new, found.renames, robot.target, robot.options))
+def _effects(
+    domain: Domain, old: Version, new: Version, differences: Changes, robot: RobotConfig
+) -> tuple[Effect, ...]:
+    return (*domain.effects(old, new), *domain.interface(old, new, differences.renames, robot.target, robot.options))
 
 
 def _read(
@@ -239,7 +241,7 @@ def _read(
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
-    recorded = imports.RecordedImports({key: (one,) for key, one in known.imports.items()}, known.contents.get, {})
+    recorded = imports.RecordedImports({key: (file,) for key, file in known.imports.items()}, known.contents.get, {})
     imported = imports.import_files(
         domain,
         dependencies,
@@ -249,5 +251,5 @@ def _read(
         is_anew=False,
         has_moved=False,
     )
-    found = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
-    return Version(snapshot, imported.imports), imported, found
+    diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
+    return Version(snapshot, imported.imports), imported, diagnostics

@@ -35,8 +35,8 @@ class Revision:
             raise _error("bad-revision", f"{name!r} is neither a file nor a git revision", hint=_HINT)
         try:
             ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "")
-            found = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
-            repository = pygit2.Repository(found) if found else None
+            place = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
+            repository = pygit2.Repository(place) if place else None
         except (pygit2.GitError, KeyError) as problem:  # such as that of another user
             hint = "repair it, or use --against FILE"
             raise _error("git", f"the repository can't be read: {problem}", hint=hint) from None
@@ -75,7 +75,7 @@ class Revision:
         """Return the content of each of the files that this revision has. Raises SourceError if a clone lacks it."""
         import pygit2
 
-        found = {}
+        contents = {}
         for file in filter(self.holds, files):
             path = Path(os.path.realpath(file)).relative_to(self._top).as_posix()
             try:
@@ -84,29 +84,31 @@ class Revision:
                 continue
             try:
                 if isinstance(entry, pygit2.Blob):
-                    found[file] = entry.data
+                    contents[file] = entry.data
             except (pygit2.GitError, KeyError) as problem:
                 message, hint = f"git does not have its content: {problem}", "fetch it, or use --against FILE"
                 raise _error("git", message, self.label(file), hint) from None
-        return found
+        return contents
 
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
         """Replace the candidates that this revision has by its own; files that no revision can have stay.
 
         Those that are on disk no more, or otherwise, are written to `scratch`.
         """
-        held = {path for one in dependencies for path in one.candidates if self.holds(path)}
+        held = {path for dependency in dependencies for path in dependency.candidates if self.holds(path)}
         places = {}
         for number, (path, content) in enumerate(self.contents(sorted(held)).items()):
             places[path] = path if _is_on_disk(path, content) else scratch / str(number) / path.name
             if places[path] != path:
                 places[path].parent.mkdir()
                 places[path].write_bytes(content)
-        found = []
-        for one in dependencies:
-            paths = tuple(places.get(path, path) for path in one.candidates if path in places or path not in held)
-            found.append(msgspec.structs.replace(one, candidates=paths))
-        return found
+        located = []
+        for dependency in dependencies:
+            paths = tuple(
+                places.get(path, path) for path in dependency.candidates if path in places or path not in held
+            )
+            located.append(msgspec.structs.replace(dependency, candidates=paths))
+        return located
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:

@@ -59,11 +59,11 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
 def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
     """Return the files that conflict, in the order of robots and paths."""
-    found = []
+    files = []
     for result in results:
         by_path = {texts.path: texts for texts in result.conflict_texts}
-        found += [DisputedFile(result, action, by_path.get(action.path)) for action in result.conflicts]
-    return found
+        files += [DisputedFile(result, action, by_path.get(action.path)) for action in result.conflicts]
+    return files
 
 
 def describe(target: DisputedFile) -> str:

@@ -76,18 +76,18 @@ def visible(text: str) -> str:
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
     """Return diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
     if quiet:
-        diagnostics = [found for found in diagnostics if found.severity is Severity.ERROR]
-    total, seen, hidden = Counter(found.code for found in diagnostics), Counter[str](), Counter[str]()
+        diagnostics = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
+    total, seen, hidden = Counter(diagnostic.code for diagnostic in diagnostics), Counter[str](), Counter[str]()
     lines = []
-    for found in diagnostics:
-        seen[found.code] += 1
-        is_early = total[found.code] <= FEW or seen[found.code] < FEW
-        if verbose or is_early or found.severity is Severity.ERROR:
-            place, severity, rest = str(found).partition(f"{found.severity}: ")
-            lines.append(line((place, "bold"), (severity, _SEVERITIES[found.severity]), (rest, "")))
-            lines += [line((f"  {detail}", "dim")) for detail in found.details if verbose]
+    for diagnostic in diagnostics:
+        seen[diagnostic.code] += 1
+        is_early = total[diagnostic.code] <= FEW or seen[diagnostic.code] < FEW
+        if verbose or is_early or diagnostic.severity is Severity.ERROR:
+            place, severity, rest = str(diagnostic).partition(f"{diagnostic.severity}: ")
+            lines.append(line((place, "bold"), (severity, _SEVERITIES[diagnostic.severity]), (rest, "")))
+            lines += [line((f"  {detail}", "dim")) for detail in diagnostic.details if verbose]
         else:
-            hidden[found.code] += 1
+            hidden[diagnostic.code] += 1
     more = (f"and {number} more like these [{code}]; --verbose shows them" for code, number in hidden.items())
     return [*lines, *(line((words, "dim")) for words in more)]
 
@@ -115,11 +115,11 @@ def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
     """Write lines, none of which is broken."""
     if is_terminal(stream):
         screen = rich_console(stream)
-        for one in lines:
-            screen.print(one, soft_wrap=True)
+        for text in lines:
+            screen.print(text, soft_wrap=True)
         return
-    for one in lines:
-        stream.write(f"{one}\n")
+    for text in lines:
+        stream.write(f"{text}\n")
         stream.flush()
 
 

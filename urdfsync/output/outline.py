@@ -32,8 +32,8 @@ _HASH = "[0-9a-f]{64}"
 def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the rows of changed elements; with `everything`, each change has a row of its own and all its digits."""
     elements: dict[tuple[str, ...], list[str]] = defaultdict(list)
-    for element, found in changes.by_element().items():
-        rows = [change_row([one], exact=True) for one in found] if everything else _element_rows(found)
+    for element, of_element in changes.by_element().items():
+        rows = [change_row([change], exact=True) for change in of_element] if everything else _element_rows(of_element)
         elements[tuple(rows)].append(element)
     return {_title(names): rows for rows, names in elements.items()}
 
@@ -87,7 +87,9 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> str:
     if first.noise:
         relation = "rounding"
     elif first.unit == "rad" and is_number(first.old) and is_number(first.new):
-        degrees = [list(map(math.degrees, one)) if isinstance(one, list) else math.degrees(one) for one in (old, new)]
+        degrees = [
+            list(map(math.degrees, value)) if isinstance(value, list) else math.degrees(value) for value in (old, new)
+        ]
         relation = _pair(*degrees, mark="°")
     else:
         relation = _percent(old, new) or relation

@@ -34,7 +34,7 @@ def counted(count: int, noun: str) -> str:
 
 def error_count(diagnostics: Sequence[Diagnostic]) -> str:
     """`2 errors`."""
-    return counted(sum(found.severity is Severity.ERROR for found in diagnostics), "error")
+    return counted(sum(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics), "error")
 
 
 def summary(result: Result) -> str:
@@ -98,20 +98,20 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
     if action.reason not in _NAMED or changes is None:
         return action.reason.text
     # records follow from the changes of their element, models and packages from structural ones
-    found = [change for change in changes.changes if change.element == action.owner]
+    causes = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
-        structural = [one for one in changes.changes if one.change_class is ChangeClass.STRUCTURAL]
+        structural = [change for change in changes.changes if change.change_class is ChangeClass.STRUCTURAL]
         own = [change for change in structural if change.element == action.owner]
-        found = own or structural or ([] if changes.generator else found)
-    if not (found or changes.generator):
+        causes = own or structural or ([] if changes.generator else causes)
+    if not (causes or changes.generator):
         return action.reason.text
     cause = generator_change(changes)
-    if found and brief:
-        elements = list(dict.fromkeys(change.element for change in found))
+    if causes and brief:
+        elements = list(dict.fromkeys(change.element for change in causes))
         cause = f"{elements[0]} and {len(elements) - 1} more" if len(elements) > 1 else elements[0]
-    elif found:
-        more = f", and {counted(len(found) - 1, 'more change')}" if len(found) > 1 else ""
-        cause = f"{found[0].element}: {change_row(found[:1])}{more}"
+    elif causes:
+        more = f", and {counted(len(causes) - 1, 'more change')}" if len(causes) > 1 else ""
+        cause = f"{causes[0].element}: {change_row(causes[:1])}{more}"
     return _NAMED[action.reason].format(cause)
 
 

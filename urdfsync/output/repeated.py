@@ -26,9 +26,12 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     file = result.root / STATE_FOLDER / "said" / result.robot
     before, keys = _load(file, result.root), list(map(_key, diagnostics))
     new = [
-        one
-        for one, key in zip(diagnostics, keys, strict=True)
-        if console.verbose or one.severity is Severity.ERROR or one.file.endswith(".mo") or key not in before
+        diagnostic
+        for diagnostic, key in zip(diagnostics, keys, strict=True)
+        if console.verbose
+        or diagnostic.severity is Severity.ERROR
+        or diagnostic.file.endswith(".mo")
+        or key not in before
     ]
     console.findings(new)
     if (rest := len(diagnostics) - len(new)) and not console.quiet:
@@ -42,8 +45,8 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
         put(file, "".join(f"{key}\n" for key in sorted(set(keys))).encode())
 
 
-def _key(found: Diagnostic) -> str:
-    return digest(f"{found.code}\0{found.message}\0{found.file}".encode(errors="surrogatepass"))
+def _key(diagnostic: Diagnostic) -> str:
+    return digest(f"{diagnostic.code}\0{diagnostic.message}\0{diagnostic.file}".encode(errors="surrogatepass"))
 
 
 def _load(file: Path, root: Path) -> set[str]:
