@@ -17,6 +17,7 @@ from support.networks import (
     BASES,
     C1,
     LADDER,
+    MANIFEST,
     R1,
     R2,
     RECORD,
@@ -36,6 +37,7 @@ from support.replay import contents
 
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
 
 ASIDE = Path(".urdfsync/conflicts/ladder/Elements")
@@ -328,6 +330,29 @@ def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, s
 
 
 # What stays, and in which order
+
+
+def test_the_packages_around_wait_with_the_package(project: Path) -> None:
+    edit("urdfsync.toml", '"Ladder"', '"Plant.Ladder"\ncreate_parents = true')
+    run()
+    edit(RECORD.replace("modelica/", "modelica/Plant/"), "100", "101")
+    resistor(150)
+    edit("urdfsync.toml", "Plant.Ladder", "Plant.Leiter")
+    assert conflicts()
+    assert Path("modelica/Plant/package.order").read_text() == "Ladder\n"
+
+
+def test_of_an_ambiguous_base_every_text_counts(project: Path) -> None:
+    """Two branches have recorded one each, of which git has united the lines."""
+    run()
+    first = text_digest(Path(RECORD).read_bytes())
+    resistor(150)
+    run()
+    edit(MANIFEST, "format 1\n", f"format 1\n\nfile {first}  Elements/R1Parameters.mo\n")
+    edit(RECORD, "end R1", MAY)
+    resistor(170, before=150)
+    (found,) = run().conflict_texts
+    assert "two branches recorded different bases" in found.rejected
 
 
 def test_a_text_that_could_not_be_given_back_is_not_deleted(project: Path) -> None:

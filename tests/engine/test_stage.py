@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -233,3 +234,16 @@ def test_what_no_file_says_is_not_recorded(project: Path) -> None:
     before = Path(MANIFEST).read_bytes()
     assert run().in_step
     assert Path(MANIFEST).read_bytes() == before
+
+
+def test_the_base_of_what_was_put_aside_stays(project: Path) -> None:
+    run()
+    base = text_digest(Path(RECORD).read_bytes())
+    edit(RECORD, "end R1", "  // mine\nend R1")
+    configure('on_conflict = "merge"\n')
+    resistor(150)
+    assert kinds(run())[RECORD] is Reason.MERGE
+    for old, new in itertools.pairwise((220.5, 330, 331, 332)):
+        source(f'"ohm": {old:g}', f'"ohm": {new:g}')
+        run()
+    assert base in stored(), "the merge may be undone and made again"
