@@ -1,9 +1,8 @@
 """What a domain (URDF, or another data format) implements, and the neutral values it trades in.
 
-The core reads bytes and asks the domain for a *snapshot* of the model, which is plain data. It
-imports the files that the model depends on, asks for the *artifacts* that follow from snapshot,
-imports and options, and renders, plans and writes them. Nothing in here knows a domain, and
-nothing in here does IO.
+The core reads bytes and asks the domain for a *snapshot* of the model, which is plain data. It imports the files that
+the model depends on. It asks for the *artifacts* that follow from snapshot, imports and options, and renders, plans and
+writes them. Nothing in here knows a domain, and nothing in here does IO.
 """
 
 from __future__ import annotations

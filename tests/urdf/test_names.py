@@ -9,10 +9,11 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from urdfsync.domain import ElementKey
 from urdfsync.modelica import parser
 from urdfsync.modelica.names import KEYWORDS
 from urdfsync.urdf import names
-from urdfsync.urdf.names import Identifier, Key, identify, is_reserved, natural_key, spell
+from urdfsync.urdf.names import Identifier, identify, is_reserved, natural_key, spell
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "naming.md"
 
@@ -41,7 +42,7 @@ DEVICES = {"con", "prn", "aux", "nul", "com1", "com9", "lpt1", "lpt9"}
 @given(SETS, TAKEN)
 @example(frozenset({("link", "b-c"), ("link", "b.c"), ("joint", "b_c"), ("link", "b_c_link")}), "Robot")
 @example(frozenset({("link", "fooAxis"), ("joint", "foo"), ("link", "FOO")}), "Robot")
-def test_no_two_names_meet_anywhere(names: frozenset[Key], taken: str) -> None:
+def test_no_two_names_meet_anywhere(names: frozenset[ElementKey], taken: str) -> None:
     identifiers = identify(names, [taken])
     assert identifiers.keys() == names
     in_model = [identifier.component.lower() for identifier in identifiers.values()]
@@ -60,7 +61,7 @@ def test_every_field_of_the_robots_record_is_known() -> None:
 
 
 @given(SETS, TAKEN)
-def test_every_identifier_is_legal_and_begins_as_its_use_demands(names: frozenset[Key], taken: str) -> None:
+def test_every_identifier_is_legal_and_begins_as_its_use_demands(names: frozenset[ElementKey], taken: str) -> None:
     for identifier in identify(names, [taken]).values():
         assert re.fullmatch("[a-z][A-Za-z0-9_]*", identifier.component, re.ASCII)
         assert re.fullmatch("[A-Z][A-Za-z0-9_]*", identifier.type, re.ASCII)
@@ -70,12 +71,14 @@ def test_every_identifier_is_legal_and_begins_as_its_use_demands(names: frozense
 
 
 @given(st.permutations(range(12)), st.lists(KEYS, min_size=12, max_size=12), TAKEN)
-def test_the_order_of_names_makes_no_difference(order: list[int], names: list[Key], taken: str) -> None:
+def test_the_order_of_names_makes_no_difference(order: list[int], names: list[ElementKey], taken: str) -> None:
     assert identify([names[k] for k in order], [taken]) == identify(names, [taken])
 
 
 @given(SETS, KEYS, TAKEN)
-def test_a_name_that_clashes_with_nothing_changes_nothing_else(names: frozenset[Key], new: Key, taken: str) -> None:
+def test_a_name_that_clashes_with_nothing_changes_nothing_else(
+    names: frozenset[ElementKey], new: ElementKey, taken: str
+) -> None:
     assume(new not in names)
     before, wanted = identify(names, [taken]), spell(new[1], new[0])
     others = {taken.lower(), *(each.component.lower() for each in before.values())}
@@ -118,7 +121,7 @@ def table_rows() -> list[list[str]]:
     return [[names, identifiers] for names, identifiers, _ in rows if "`" in names]
 
 
-def key_of(text: str) -> Key:
+def key_of(text: str) -> ElementKey:
     kind, _, name = text.partition(" ")
     return kind, name.strip("`")
 

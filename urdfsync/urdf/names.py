@@ -12,10 +12,8 @@ from collections.abc import Iterable, Mapping
 
 import msgspec
 
+from urdfsync.domain import ElementKey
 from urdfsync.modelica.names import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
-
-Key = tuple[str, str]
-"""Kind (`link` or `joint`) and URDF name."""
 
 GENERATED = frozenset(
     "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix drawnshapes driveinertias firstjoints "
@@ -87,7 +85,7 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
     )
 
 
-def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Identifier]:
+def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
     """Return identifiers of all links and joints; no two are equal when case is folded, none is in `taken`.
 
     A name keeps its spelling if that is free and not reserved; links go before joints, names that
@@ -99,7 +97,7 @@ def identify(names: Iterable[Key], taken: Iterable[str] = ()) -> Mapping[Key, Id
         return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no name gives way
     keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
     used = set(taken)
-    result: dict[Key, Identifier] = {}
+    result: dict[ElementKey, Identifier] = {}
     for key in keys:
         if _is_free(spelled[key], used):
             used.add(spelled[key].lower())

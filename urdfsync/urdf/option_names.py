@@ -1,8 +1,8 @@
 """Checks of the names in a robot's options: each is the name of a suitable link or joint.
 
-A joint in `driven` or a link in `frames` that does not exist leaves the robot without a drive or a connector that the
-user counts on. No package is right then, so these are errors. A name that an option has twice is a warning: the second
-may have been meant to be another.
+Without a joint in `driven` or a link in `frames`, the robot has no drive or connector that the user counts on. No
+package is right then, so a name that does not exist is an error. A name that an option has twice is a warning: the
+second may have been meant to be another.
 """
 
 from __future__ import annotations

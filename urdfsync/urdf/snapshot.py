@@ -7,8 +7,8 @@
      "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}}}   if there are any
 
 Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
-A part that the model does not have (no inertial, no limit, no colour, no drive) is left out, so that a diff shows its
-coming and going as one block. Every number is written, defaults too, so that its change is one changed line.
+A part that the model does not have is left out: inertial, limit, colour, drive. So a diff shows its coming and going as
+one block. Every number is written, defaults too, so that its change is one changed line.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Classify the differences of two robots, and name them in the words of URDF.
 
-The class of a difference follows from the data of templates: it is structural if data of models would differ with this
-value alone exchanged, a parameter if only data of records would, and else unmodelled.
+The class of a difference follows from the data of templates, with this value alone exchanged. It is structural if data
+of models differ then, a parameter if only data of records do, and else unmodelled.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ with those that only the new one has, from the root down:
 - A joint that leads to a link of another name is matched by its numbers and by all that this link has. It has to be the
   only such joint of its parent: of two legs of one kind that both have other names, none is matched.
 - The link at the end of the same joint is the same link; a root is, if it has all that it had or one of its joints.
-  Where more than the name changed, no other new link may have all that it had, and no other old link all that it has.
+  Where more than the name changed, no other new link may be as the old one was, and no other old link as the new one.
 """
 
 from __future__ import annotations

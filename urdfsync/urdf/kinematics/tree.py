@@ -12,7 +12,8 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 from msgspec.structs import replace
 
-from urdfsync.urdf.names import Identifier, Key, identify, natural_key
+from urdfsync.domain import ElementKey
+from urdfsync.urdf.names import Identifier, identify, natural_key
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Origin, Robot, Sensor, effective, structure
 
 
@@ -24,7 +25,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
 
     links: tuple[Link, ...]
     joints: tuple[Joint, ...]
-    names: Mapping[Key, Identifier]
+    names: Mapping[ElementKey, Identifier]
     sensors: tuple[Sensor, ...] = ()
     """In natural order of their names."""
 

@@ -1,9 +1,9 @@
 """The triangles of a COLLADA file (.dae), placed by its scene, in metres.
 
-Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so, and
-neither MoveIt nor Gazebo classic turns them, which is what exporters count on (ros-visualization/rviz
-issue 1045 and `getMeshUnitRescale`, moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic
-issue 1305). The transformations of the scene's nodes are applied.
+Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so
+(ros-visualization/rviz issue 1045 and `getMeshUnitRescale`). Neither MoveIt nor Gazebo classic turns them
+(moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic issue 1305), and exporters count on that. The
+transformations of the scene's nodes are applied.
 """
 
 from __future__ import annotations

@@ -20,9 +20,9 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 
     `others` has the libraries of materials and the textures that it names.
 
-    STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale
-    applied. The facts are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and, if the dependency needs it,
-    `hull` (see `geometry.support_points`), in metres and in the mesh's frame. If its colours are needed (see
+    STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale applied. The facts
+    are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and, if the dependency needs it, `hull` (see
+    `geometry.support_points`). Both are in metres and in the mesh's frame. If its colours are needed (see
     `lookup.PARTS`), a mesh of several colours becomes a file for each, in its format if that stays.
 
     Raises SourceError with one diagnostic, `unreadable-mesh`, if the file can't be read as a mesh.

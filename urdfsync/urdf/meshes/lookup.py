@@ -29,9 +29,9 @@ BOUNDS, HULL = "bounds", "hull"
 PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes whose own colours are drawn.
 
-`parts` has the colours of the files that a mesh becomes, `colors` those of the files that it becomes beside the whole,
-which something else needs. One colour is that of the whole. `textured` tells whether textures were found,
-`colorless` in words which colours were not.
+`parts` has the colours of the files that a mesh becomes. `colors` has those of the files that it becomes beside the
+whole mesh, which another shape needs. A single colour is that of the whole. `textured` tells whether textures were
+found, `colorless` which colours were not, in words.
 """
 COLORED = (".dae", ".obj")
 """Formats whose colours are drawn."""

@@ -160,8 +160,8 @@ def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
 
     If materials are wanted, faces have theirs, from a library `m`.
 
-    trimesh takes index 0 for 1, and counts back from the end of the file. It passes over lines with blanks before them
-    and over faces with less than three corners, and goes wrong where only some corners have references.
+    trimesh takes index 0 for 1, and counts back from the end of the file. It skips lines with blanks before them, and
+    faces with less than three corners. It fails where only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
     statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"

@@ -109,8 +109,8 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
 def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
-    The robot's icon has one and a half times its size in the diagram, so that its rows are 30 apart, and a drive of
-    20 has its place beside each.
+    In the diagram, the robot's icon has one and a half times its size. So its rows are 30 apart, and a drive of 20 fits
+    beside each.
     """
     top, rows = _icon_top(names), _drives(tree, names)
     sensors = sensor_outputs(tree, names)

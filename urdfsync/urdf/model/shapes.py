@@ -118,6 +118,7 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
                 case points:
                     heights += [height + dot(up, point) for point in points]
     lowest = min(filter(math.isfinite, heights), default=None)
+    # rounded, since the last digits of sines differ between machines
     return None if lowest is None else round(-lowest, 12)
 
 

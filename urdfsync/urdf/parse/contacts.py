@@ -9,16 +9,14 @@ from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import Contact
 from urdfsync.urdf.validate import perhaps
 
-_ODE = {
-    "mu": "surface/friction/ode/mu",
-    "kp": "surface/contact/ode/kp",
-    "kd": "surface/contact/ode/kd",
-    "min_depth": "surface/contact/ode/min_depth",
+_IN_GAZEBO = {
+    "mu": ("mu1", "surface/friction/ode/mu", "collision/surface/friction/ode/mu"),
+    "kp": ("kp", "surface/contact/ode/kp", "collision/surface/contact/ode/kp"),
+    "kd": ("kd", "surface/contact/ode/kd", "collision/surface/contact/ode/kd"),
+    "min_depth": ("minDepth", "surface/contact/ode/min_depth", "collision/surface/contact/ode/min_depth"),
 }
-_GAZEBO = {"mu": "mu1", "kp": "kp", "kd": "kd", "min_depth": "minDepth"}
-_IN_GAZEBO = {field: (name, _ODE[field], f"collision/{_ODE[field]}") for field, name in _GAZEBO.items()}
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
-"""Fields of `Contact`, and where gazebo blocks and links have them."""
+"""Fields of `Contact`, and paths of their elements in gazebo blocks (gazebo's, then SDFormat's) and in links."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:

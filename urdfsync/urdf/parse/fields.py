@@ -44,8 +44,10 @@ _TEXT_SHOWN = 60
 class Reader:
     """A reader of the elements of one file; each has its path in the robot, such as `joint elbow / limit`."""
 
-    def __init__(self, element_lines: Mapping[Element, int]) -> None:
+    def __init__(self, element_lines: Mapping[Element, int], allowed: Collection[str] = ()) -> None:
         self.element_lines = element_lines
+        self.allowed = allowed
+        """Codes of errors that become warnings."""
         self.version = 1, 0
         """Version of URDF that the file is written in."""
         self.lines: dict[str, int] = {}
@@ -56,8 +58,6 @@ class Reader:
         """Elements that no struct asks for, each with its owner."""
         self.used = set[Element]()
         """The elements in `extensions`, or inside of them, that something else reads."""
-        self.allowed: Collection[str] = ()
-        """Codes of errors that are warnings here."""
 
     @property
     def failed(self) -> bool:

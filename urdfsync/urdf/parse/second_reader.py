@@ -90,6 +90,7 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
         if joint.type in MOTION_KINDS:
             axes[joint.name] = 1.0 if MOTION_KINDS[joint.type] == "rotational" else float(np.linalg.norm(joint.axis))
     parents = {joint.child: joint.parent for joint in robot.joints}
+    # different ones for neighbours, so that exchanged joints show
     positions = {name: 0.3 + 0.1 * (number % 10) for number, name in enumerate(axes)}
     with _silence(), np.errstate(all="ignore"):  # of positions without end
         scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)

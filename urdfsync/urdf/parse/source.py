@@ -39,8 +39,8 @@ _NEWEST = 1, 2
 class RobotReading(NamedTuple):
     """A URDF as it was read: the robot, unless a diagnostic is an error, and the diagnostics.
 
-    `lines` maps paths to lines: `robot`, `link NAME`, `joint NAME`, and below them for example
-    `link NAME / visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`; shapes count from 1.
+    `lines` maps paths to lines. Paths are `robot`, `link NAME` and `joint NAME`, and below them for example
+    `link NAME / visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`. Shapes count from 1.
     """
 
     robot: Robot | None
@@ -59,8 +59,7 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
         document = xml.parse(content)
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
-    reader = Reader(document.lines)
-    reader.allowed = allow
+    reader = Reader(document.lines, allow)
     robot = _read(reader, document) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:

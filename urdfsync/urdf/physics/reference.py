@@ -4,8 +4,8 @@ Pinocchio reads the file by itself. Only the parts that its reader leaves out ar
 inertia that drives add to joints.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
-(RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes, so that
-the efforts of these are Bᵀ·tau.
+(RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes. The
+efforts of these are Bᵀ·tau.
 """
 
 from __future__ import annotations
