@@ -21,7 +21,7 @@ def domain(name: str) -> Domain:
     place = _place(name)
     if not place:
         near = nearest(name, names())
-        hint = f'did you mean "{near}"?' if near else f"installed are {', '.join(names())}"
+        hint = f'did you mean "{near}"?' if near else f"use one of {', '.join(names())}"
         raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
     module, _, attribute = place.partition(":")
     try:

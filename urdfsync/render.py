@@ -177,8 +177,8 @@ def _limited_process() -> Iterator[None]:
     """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
 
     At `MAX_MEMORY` more than it has, Python raises MemoryError. `GRACE` after the time that a text may take, the system
-    ends the process with SIGVTALRM: loops and calls look at the clock themselves, but a filter that works through a
-    long text does not, and Python raises nothing within a single step of its own.
+    ends the process with SIGVTALRM. Loops and calls look at the clock themselves. A filter that works through a long
+    text does not, and Python raises nothing within a single step of its own.
     """
     if sys.platform == "linux":
         with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - once for each text

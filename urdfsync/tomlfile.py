@@ -49,7 +49,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
             elif message == "cannot overwrite a value":
                 message, hint = "a key is set twice", "remove one of them"
             elif message == "invalid value":
-                hint = "strings stand in quotes"
+                hint = "put strings into quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits
         message = "a number has too many digits"
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))

@@ -1,8 +1,8 @@
 """The up-to-date check: repeat the answer of a command, while nothing has changed that it depends on.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, a list of all paths that it depended on, and a hash of what
-the system said of these paths; so do `stamp-status` and `stamp-hook`. A file in any other state is no answer, and the
-command runs. The program's own modules are among the paths, for those who work on it.
+`.urdfsync/stamp-build` holds the last answer of `build`, the paths that it depended on, and a hash of the facts about
+these paths; so do `stamp-status` and `stamp-hook`. If the file is in any other state, the command runs. The program's
+own modules are among the paths, for those who work on it.
 The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms:
 contextlib would take 1 of 12.
 """

@@ -96,7 +96,7 @@ def test_what_can_not_be_read_is_named_as_people_see_it(
         with pytest.raises(OutputError) as caught:
             package_texts(plant.root / "modelica" / "Plant")
     (found,) = caught.value.diagnostics
-    assert (found.file, found.message) == (f"modelica/{name}", "it can't be read: Permission denied")
+    assert (found.file, found.message) == (f"modelica/{name}", "the package can't be read: Permission denied")
     assert found.hint
 
 
@@ -104,7 +104,9 @@ def test_a_file_that_would_fill_the_memory_is_refused(plant: Config, monkeypatch
     monkeypatch.chdir(plant.root)
     with Path("modelica/Plant/Large.mo").open("wb") as file:
         file.truncate(2**40)  # takes nothing on the disk, as in a repository
-    with pytest.raises(OutputError, match=r"modelica/Plant/Large\.mo: error: it can't be read: it has more than"):
+    with pytest.raises(
+        OutputError, match=r"modelica/Plant/Large\.mo: error: the package can't be read: it has more than"
+    ):
         package_texts(plant.root / "modelica/Plant")
 
 

@@ -107,8 +107,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ),
         (
             {ELBOW: arm.text() + "model Second\nend Second;\n"},
-            f"{ELBOW}:{arm.text().count(chr(10)) + 1}: {JOINT} the file holds `Second` besides `Elbow`; a file in a "
-            "package holds one class: give it one of its own [second-class]",
+            f"{ELBOW}:{arm.text().count(chr(10)) + 1}: {JOINT} the file holds `Second` besides `Elbow`; move it to a "
+            "file of its own: a file in a package holds one class [second-class]",
         ),
         (
             {ELBOW: f"{WITHIN}\n// nothing\n"},

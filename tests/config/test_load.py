@@ -114,7 +114,7 @@ MISTAKES = {
     "renamed = { a = 1 }": '`renamed` must be a table of strings, not {"a": 1} [wrong-value]',
     'output = ""': '`output` is empty; give a path; "." is the folder of the configuration [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
-    "x = ": "invalid value; strings stand in quotes [toml-syntax]",
+    "x = ": "invalid value; put strings into quotes [toml-syntax]",
     'class = "2nd"': "`class`: '2nd' is no Modelica identifier; use letters, digits and `_`, a letter first "
     "[modelica-name]",
 }
@@ -140,8 +140,8 @@ OTHER_MISTAKES = {
     ): "5 no warning or note has the code `unresolve`; did you mean `unresolved`? [unknown-code]",
     robot(
         'ignore = ["mesh-guessed"]'
-    ): "5 no warning or note has the code `mesh-guessed`; errors can't be ignored, and "
-    "warnings end with their code [unknown-code]",
+    ): "5 no warning or note has the code `mesh-guessed`; write the code at the end of a warning; errors can't be "
+    "ignored [unknown-code]",
     '[defaults]\nignore = ["nothing-here"]\n'
     + robot()
     + robot("", "other", "Other"): "2 no warning or note has the code `nothing-here`",

@@ -58,8 +58,8 @@ def test_models_of_the_users_that_do_not_exist(project: Path) -> None:
 def test_templates_that_replace_none(project: Path, name: str, near: str) -> None:
     template(project, name)
     (message,) = warnings(project, robots(2, 'templates = "own"\n'))
-    hint = f"did you mean `{near}`? [stray-template]" if near else "those of urdfsync are element/model.mo.jinja, "
-    assert f"own/{name}: warning: no template of urdfsync has this name, so this one replaces none; {hint}" in message
+    hint = f"did you mean `{near}`? [stray-template]" if near else "rename it to one of element/model.mo.jinja, "
+    assert f"own/{name}: warning: the file replaces no template: none of urdfsync has this name; {hint}" in message
 
 
 def test_templates_that_have_a_use(project: Path) -> None:

@@ -1,6 +1,6 @@
-"""The user's cache folder: copies of libraries, what the compiler remembers, templates, results.
+"""The user's cache folder: copies of libraries, the compiler's own cache, results.
 
-Everything in it can be made again. What was used longest ago goes first.
+Everything in it can be made again. Entries that were used longest ago are deleted first.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from urdfsync.files import put
 T = TypeVar("T")
 
 LIMIT = 2**30
-"""Bytes on disk that the cache never grows past: 1 GiB."""
+"""The most bytes on disk that the cache takes: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
 _IN_USE = 3600.0
 """Seconds since its last use in which a check may work with a copy of a library."""
@@ -33,11 +33,11 @@ _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the com
 
 
 class CacheError(UrdfsyncError):
-    """There is no cache that can be used; the code of the one diagnostic is `cache-not-writable`."""
+    """The cache can't be used; the code of the diagnostic is `cache-not-writable`."""
 
 
 def digest(*facts: object) -> str:
-    """Return the SHA-256 (hex) over facts whose `repr` says all of them."""
+    """Return the SHA-256 (hex) of facts, by their `repr`, which has to tell all of them."""
     return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 
 
@@ -50,16 +50,16 @@ class UserCache:
 
     @classmethod
     def default(cls) -> UserCache:
-        """Return the cache where this system keeps such: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
+        """Return the cache in the system's place for caches: on Linux `~/.cache/urdfsync`, or below XDG_CACHE_HOME."""
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
-        """Make the folder. Raises CacheError if that can't be."""
+        """Make the folder. Raises CacheError if it can't be made."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def load(self, key: str, kind: type[T]) -> T | None:
-        """Return what was saved with this key; None if nothing was, or if it can't be read."""
+        """Return the value that was saved with this key; None without one that can be read."""
         file = self.results / key
         try:
             os.utime(file)  # its last use is noted
@@ -68,7 +68,7 @@ class UserCache:
             return None
 
     def save(self, key: str, value: Any) -> None:
-        """Keep a result, or forget the last one for None. If the cache can't be written, it is not used."""
+        """Save a value, or delete the last one for None. If the cache can't be written, it is not used."""
         with contextlib.suppress(OSError):
             if value is None:
                 (self.results / key).unlink(missing_ok=True)
@@ -77,9 +77,9 @@ class UserCache:
             put(self.results / key, msgspec.msgpack.encode(value))  # JSON has no infinite numbers
 
     def trim(self, limit: int = LIMIT) -> int:
-        """Delete what was used longest ago, if the cache comes near the limit; returns the bytes that came free.
+        """Delete entries that were used longest ago, if the cache comes near the limit. Returns the freed bytes.
 
-        Copies of libraries that a check may work with stay, and what can't be deleted now.
+        Copies of libraries that a check may work with stay, and entries that can't be deleted now.
         """
         entries = sorted(self._entries())
         total, freed, now = sum(size for _, _, size in entries), 0, time.time()
@@ -98,9 +98,9 @@ class UserCache:
         return freed
 
     def _entries(self) -> Iterator[tuple[float, Path, int]]:
-        """Yield what is deleted as a whole, with the time of its last use, and bytes on disk.
+        """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
 
-        That is what is in folders of ours, and each file of the compiler but for its locks.
+        Entries are the files and folders in our folders, and each file of the compiler but for its locks.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
@@ -116,17 +116,17 @@ class UserCache:
 
 @contextlib.contextmanager
 def cache_errors(folder: Path) -> Iterator[None]:
-    """Raise a CacheError about `folder` for whatever the system refuses inside."""
+    """Turn errors of the system inside into a CacheError about `folder`."""
     try:
         yield
     except OSError as error:
-        message = f"the cache can't be written to: {error.strerror or error}"
+        message = f"the cache can't be written: {error.strerror or error}"
         hint = "make room, or name another folder with XDG_CACHE_HOME"
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
 
 
 def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
-    """Yield when a file or folder was used last, itself, and its bytes on disk; nothing if it is gone."""
+    """Yield the last use of a file or folder, its path, and its bytes on disk; nothing if it was deleted."""
     with contextlib.suppress(OSError):
         used, note = path.lstat().st_mtime, path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
         with contextlib.suppress(OSError):  # nobody noted when it was used

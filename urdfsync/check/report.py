@@ -236,9 +236,8 @@ def verdict(result: CheckResult, strict: bool) -> str:
 def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
     """Yield one deviation of each kind, and which other elements differ; `owners` are the elements that were edited.
 
-    The element comes first that is nearest to the cause: one that was edited. Else, since a link that is displaced
-    takes along all that hangs on it, the first from the root; and since each joint carries all that is behind it and
-    the root carries everything, the last joint.
+    The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
+    link takes along all that hangs on it; of efforts it is the last joint, since each joint carries all behind it.
     """
     for _, quantities in _KINDS:
         kind = [deviation for deviation in deviations if deviation.quantity in quantities]

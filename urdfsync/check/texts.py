@@ -1,8 +1,7 @@
 """Faults in the texts of a package: syntax, layout, files that it refers to. No compiler is asked.
 
 The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
-first one: one file that does not parse makes a compiler give up the whole package, often without telling which one it
-is.
+first. A compiler gives up the whole package for one file that does not parse, often without naming it.
 """
 
 from __future__ import annotations
@@ -171,7 +170,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
 def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
     """Yield a finding for each file below the package's own folders that a text refers to and that does not exist."""
     own, output = package.robot.target.package, package.robot.output
-    hint = "`urdfsync build` brings back what it imported; else put the file there"
+    hint = "build to bring back an imported file, or put the file there"
     for path in sorted(package.on_disk):
         text, addresses = package.files.text(path), set[str]()
         for match in _URI.finditer(text):
@@ -180,5 +179,5 @@ def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
             if is_ours and folder.is_dir() and match[0] not in addresses and not (folder / match[2]).exists():
                 addresses.add(match[0])
                 line = text.count("\n", 0, match.start()) + 1
-                message = f"it refers to `{match[0][1:-1]}`, and there is no such file"
+                message = f"the file refers to `{match[0][1:-1]}`, which does not exist"
                 yield package.files.diagnostic(Severity.ERROR, "missing-resource", message, path, line, hint=hint)

@@ -193,7 +193,9 @@ class _Reader:
         wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - codes}
         for line, code in sorted(wrong):
             near = nearest(code, sorted(codes))
-            hint = f"did you mean `{near}`?" if near else "errors can't be ignored, and warnings end with their code"
+            hint = (
+                f"did you mean `{near}`?" if near else "write the code at the end of a warning; errors can't be ignored"
+            )
             self._report("unknown-code", line, f"no warning or note has the code `{code}`", hint)
 
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
@@ -281,7 +283,7 @@ class _Reader:
         for key in table.values:
             if key not in allowed:
                 near = nearest(key, sorted(allowed))
-                hint = f"did you mean `{near}`?" if near else f"known keys are {', '.join(sorted(allowed))}"
+                hint = f"did you mean `{near}`?" if near else f"use one of {', '.join(sorted(allowed))}"
                 self._report("unknown-key", table.lines[key], f"unknown key `{key}` in {table.name}", hint)
 
     def _table(self, name: str, values: Mapping[str, Any], *path: str) -> _Table:

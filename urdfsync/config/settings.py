@@ -128,7 +128,7 @@ class Config(msgspec.Struct, frozen=True):
         Raises ConfigError for a name that means no robot, and for a configuration without robots.
         """
         if not self.robots:
-            message, hint = "the configuration has no robot", "`urdfsync add SOURCE` adds one"
+            message, hint = "the configuration has no robot", "add one with `urdfsync add SOURCE`"
             raise ConfigError(Diagnostic(Severity.ERROR, "no-robots", message, shown(self.file), hint=hint))
         robot_names, chosen = [robot.name for robot in self.robots], set[str]()
         for name in names:
@@ -136,7 +136,7 @@ class Config(msgspec.Struct, frozen=True):
             meant = [name] if name in robot_names else [robot.name for robot in self.robots if robot.is_at(place)]
             if not meant:
                 near = nearest(name, robot_names)
-                hint = f"did you mean `{near}`?" if near else f"its robots are {', '.join(robot_names)}"
+                hint = f"did you mean `{near}`?" if near else f"name one of {', '.join(robot_names)}"
                 message = f"no robot `{name}` in the configuration"
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
             chosen.update(meant)

@@ -24,7 +24,7 @@ class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | None:
-    """An error if a robot's output lies outside of the configuration's folder, and the user has not named that folder.
+    """Return an error if a robot's output is outside of the configuration's folder, and the user has not named that.
 
     Raises ConfigError if the user's file of trusted folders can't be read. That file is no part of a repository.
     """
@@ -34,13 +34,15 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
 
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
-    """An error if the user has not named the configuration's folder, whose robot has a command. Raises ConfigError."""
+    """Return an error if a robot has a command, and the user has not named the folder. Raises ConfigError."""
     message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
 
 
 def find_untrusted_compiler(config: Config) -> Diagnostic | None:
-    """An error if the user has not named the folder of a configuration that chooses OpenModelica. Raises ConfigError.
+    """Return an error if the user has not named the folder, whose configuration chooses OpenModelica.
+
+    Raises ConfigError.
 
     OpenModelica runs what external functions of models and libraries name, whoever has written these.
     """
@@ -52,7 +54,7 @@ def find_untrusted_compiler(config: Config) -> Diagnostic | None:
 
 
 def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
-    """An error if a file of the user's lies outside of the configuration's folder, as for an output."""
+    """Return an error if a file of the user's lies outside of the configuration's folder, as for an output."""
     place = Path(os.path.realpath(path))
     if place.is_relative_to(os.path.realpath(config.root)):
         return None
@@ -60,7 +62,7 @@ def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
 
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
-    """An error with this message if the user has not named the configuration's folder. Raises ConfigError."""
+    """Return an error with this message if the user has not named the configuration's folder. Raises ConfigError."""
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:
         text = dependencies.read_file(file).decode()

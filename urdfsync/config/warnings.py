@@ -40,8 +40,8 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
         if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
             continue
         near = nearest(replaces, sorted(templates), 0.5)
-        hint = f"did you mean `{near}`?" if near else f"those of urdfsync are {', '.join(sorted(templates))}"
-        message = "no template of urdfsync has this name, so this one replaces none"
+        hint = f"did you mean `{near}`?" if near else f"rename it to one of {', '.join(sorted(templates))}"
+        message = "the file replaces no template: none of urdfsync has this name"
         yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 
 

@@ -17,8 +17,8 @@ _OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool = True) -> tuple[str, str]:
     """Return both texts with new names; `names` has them by the old ones.
 
-    A name without a dot before it is renamed if it stands so in base, too; one behind a dot if what is before that dot
-    is before a renamed name there. So `robot.elbow` follows, and a variable `elbow` of the user's own does not.
+    A name without a dot before it is renamed if base has it so, too. A name behind a dot is renamed if base has a
+    renamed name behind the same word and a dot. So `robot.elbow` follows, and the user's own variable `elbow` does not.
     Names of modifiers are those of another class: they follow if base has them, too; without `modifiers` they stay.
     """
     used = {(before, token.text) for before, token in _uses(base) if token.text in names}
@@ -39,7 +39,7 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
 def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     """Return the new names that are free in the user's text, by the old ones.
 
-    One is taken if the text has the new name and the old one, and the new one is not renamed itself.
+    A new name is taken if the text has it beside the old one, and it is not renamed itself.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
     free = dict(names)
@@ -50,7 +50,7 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
-    """Return the components that the user gave other names, new by old: alike in all else, and no other one is."""
+    """Return the components that the user renamed, new names by old: alike in all else, and no others are."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
     removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
     added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}

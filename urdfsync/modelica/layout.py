@@ -71,6 +71,6 @@ def check_class_file(
     for other in declared.classes:
         if other is not main:
             message = f"the file holds `{other.name}` besides `{main.name}`"
-            hint = "a file in a package holds one class: give it one of its own"
+            hint = "move it to a file of its own: a file in a package holds one class"
             say(Severity.ERROR, "second-class", message, other.name.line, hint)
     return declared, findings

@@ -376,8 +376,7 @@ class _OpenBody:
 
     def add(self, part: Part, text: str, stop: int) -> None:
         """Add a part that ends at this place in the text, and the comment behind it."""
-        match = _REMARK.match(text, stop)
-        remark = match[0].rstrip("\r") if match else ""
+        remark = _remark_at(text, stop)
         self.parts.append(msgspec.structs.replace(part, remark=remark) if remark else part)
         self.end = stop + len(remark)
 
@@ -400,7 +399,7 @@ class _TreeReader(Parser):
             stored = self.read()
             if stored.faults or len(stored.classes) != 1:
                 return None
-            parts = self._slots(self._spans)
+            parts = self._slots(self._spans).parts
             return SyntaxTree(TreeKind.SLOTS, parts, closing=self.text[self._end :])
         except UnreadableError:
             return None
@@ -410,7 +409,7 @@ class _TreeReader(Parser):
         self._each(self._equation if is_equation else self._element, set())
         if self.faults or self.endless or self.word:
             raise UnreadableError
-        return self._slots(self._spans)
+        return self._slots(self._spans).parts
 
     # --- what the parser notes --------------------------------------------------------------------------------------
 
@@ -501,7 +500,7 @@ class _TreeReader(Parser):
         body.add(part, text, stop)
 
     def _key(self, spans: Sequence[Span]) -> str:
-        """Return what an element or equation is known by in other versions of the class."""
+        """Return the key of an element or equation, by which other versions of the class have it."""
         first = next(span for span in spans if span.key not in ("prefixes", "type"))
         inner = self.words[first.start : first.stop]
         if first.key == "import":
@@ -517,7 +516,7 @@ class _TreeReader(Parser):
             return f"connect {' '.join(self._ends(first))}"
         if first.key != "equation":
             return first.key
-        kind = "initial equation " if self._body.section == "initial equation" else ""
+        kind = _INITIAL if self._body.section == _INITIAL.strip() else ""
         ends = [span for span in first.inner if span.key in ("header", "left")]
         if ends and ends[0].key == "header":
             return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"
@@ -548,9 +547,9 @@ class _TreeReader(Parser):
         self._end += len(text)
         return text
 
-    def _slots(self, spans: Sequence[Span]) -> Sequence[Part]:
-        tree = SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans])
-        return _with_unique_keys(tree).parts
+    def _slots(self, spans: Sequence[Span]) -> SyntaxTree:
+        """Return a tree of parts that have roles. Raises UnreadableError if two have the same role."""
+        return _with_unique_keys(SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans]))
 
     def _slot(self, span: Span) -> Part:
         """Return a part of an element that has a role in it."""
@@ -559,7 +558,7 @@ class _TreeReader(Parser):
             return Part("body", "", span.body)
         before = self._blanks(span.start)
         if span.key in ("value", "constraint"):
-            return Part(span.key, before, SyntaxTree(TreeKind.SLOTS, self._slots(span.inner)))
+            return Part(span.key, before, self._slots(span.inner))
         if span.key in ("arguments", "annotation"):
             return Part(span.key, before, self._listed(span))
         if span.key == "expression":
@@ -574,7 +573,7 @@ class _TreeReader(Parser):
         for item in span.inner:
             before = self._blanks(item.start)
             is_whole = not item.inner or any(inner.key == "head" for inner in item.inner)
-            node = Leaf(self._said(item.stop)) if is_whole else SyntaxTree(TreeKind.SLOTS, self._slots(item.inner))
+            node = Leaf(self._said(item.stop)) if is_whole else self._slots(item.inner)
             parts.append(self._separated(Part(item.key, before, node), item.stop, ","))
         closing = self.text[self._end : self._stop(span.stop)]
         self._end += len(closing)
@@ -588,8 +587,7 @@ class _TreeReader(Parser):
         if self.words[at] == separator:
             after = self._blanks(at)
             self._said(at + 1)
-        match = _REMARK.match(self.text, self._end)
-        remark = match[0].rstrip("\r") if match else ""
+        remark = _remark_at(self.text, self._end)
         self._end += len(remark)
         return msgspec.structs.replace(part, after=after, remark=remark)
 
@@ -628,6 +626,12 @@ class _TreeReader(Parser):
         closing = self.text[self._end : self._stop(span.stop)] if has_bracket else ""
         self._end += len(closing)
         return SyntaxTree(kind, _numbered(parts), opening, closing)
+
+
+def _remark_at(text: str, place: int) -> str:
+    """Return the comment at a place in a text, if it ends the line."""
+    match = _REMARK.match(text, place)
+    return match[0].rstrip("\r") if match else ""
 
 
 def _with_unique_keys(tree: SyntaxTree) -> SyntaxTree:

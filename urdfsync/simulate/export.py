@@ -41,11 +41,11 @@ class Exported(msgspec.Struct, frozen=True):
 
     content: bytes
     model: str
-    """Full name of the model."""
+    """The full name of the model."""
     name: str
     """The model's name in the FMU."""
     inputs: tuple[Input, ...]
-    """Those that a trial drives; none if there will be none."""
+    """The inputs that a trial drives; none without a trial."""
     stop: float
     step: float
     tolerance: float

@@ -42,7 +42,7 @@ class Driven(msgspec.Struct, frozen=True):
     changed: Mapping[Path, bytes]
     """Contents in which the inputs are outputs, by file: the model's own equations may then set them."""
     modifiers: tuple[str, ...]
-    """They switch the filters of drives off."""
+    """Modifiers that switch the filters of drives off."""
 
 
 class Model:

@@ -72,7 +72,7 @@ def _check_compiler(options: SimulateOptions) -> None:
         raise UrdfsyncError(missing)
     if options.method and options.method not in compiler.METHODS:
         near = nearest(options.method, compiler.METHODS)
-        hint = f"did you mean `{near}`?" if near else f"it has {', '.join(compiler.METHODS)}"
+        hint = f"did you mean `{near}`?" if near else f"use one of {', '.join(compiler.METHODS)}"
         message = f"{compiler.TITLE} has no method `{options.method}`"
         raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
 
@@ -145,7 +145,7 @@ def run_task(
         outside = None if package.files.folder in file.parents else file
         complaints = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
         if names_set := ", ".join(task.parameters):
-            hint = f"perhaps one of these is final, or gets the wrong kind of value: {names_set}"
+            hint = f"look whether one of these is final, or gets the wrong kind of value: {names_set}"
             complaints = [msgspec.structs.replace(finding, hint=hint) for finding in complaints]
         faults += complaints
     if faults:

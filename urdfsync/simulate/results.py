@@ -47,7 +47,7 @@ class SimulateOptions(msgspec.Struct, frozen=True):
 
 
 class Range(msgspec.Struct, frozen=True):
-    """From where to where a quantity of a joint goes over a simulation."""
+    """The range of a joint's quantity over a simulation."""
 
     variable: str
     """Its full name."""
@@ -66,7 +66,7 @@ class PassedLimit(msgspec.Struct, frozen=True):
     """`position`, `speed` or `effort`."""
     limit: float
     time: float
-    """When it is passed first, in s."""
+    """The time when it is passed first, in s."""
     excess: float
     """By how much at most, in the unit of the quantity."""
     seconds: float

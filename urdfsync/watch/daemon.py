@@ -3,8 +3,8 @@
 1. Wait for an event, or for the next look that is due. An event only says where to look. What is built is decided by
    the files on disk, so an event too many or too few costs time and nothing else.
 2. The robots of which a file has changed have to settle: no event for some time, and two looks that show the same.
-3. All that have settled are built together. A source that is invalid may be an exporter's who is still writing it, so
-   it is an error only if it stays as it is.
+3. All that have settled are built together. An exporter may still be writing an invalid source: it is an error only if
+   it stays as it is.
 4. A build that wrote something, or during which a file was saved, is followed by another one once the files have
    settled. So the daemon need not know what it wrote itself: a robot rests after a build that left all files alone.
 """
@@ -48,13 +48,13 @@ class WatchOptions(msgspec.Struct, frozen=True):
     robots: tuple[str, ...] = ()
     """Names of the robots; empty for all."""
     settle: float = 0.3
-    """Without an event before a build."""
+    """The time without an event before a build."""
     sample: float = 0.2
-    """Between the two looks that have to show the same; with 0 there is one look."""
+    """The time between the two looks that have to show the same; with 0 there is one look."""
     give_up_after: float = 30.0
-    """Until an invalid source is an error."""
+    """The time until an invalid source is an error."""
     rescan: float = 30.0
-    """Between two reads of everything."""
+    """The time between two reads of everything."""
     command: str = ""
     """The command after a build that changed something; empty for none."""
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)

@@ -40,7 +40,7 @@ class Settling(RobotEvent, frozen=True):
     """A file of the robot changed; the robot is built when nothing changes any more."""
 
     file: str = ""
-    """One that changed, as people see it; empty if none is known."""
+    """A file that changed, as people see it; empty if none is known."""
 
 
 class Unchanged(RobotEvent, frozen=True, tag="calm"):

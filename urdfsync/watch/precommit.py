@@ -1,7 +1,7 @@
 """Whether pre-commit has stashed unstaged changes away: then files are not what their users think they are.
 
-While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`, and leaves the
-file there for good; so only a patch of a running process counts.
+While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. It never
+deletes the file, so only a patch of a running process counts.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ class SeenFile(NamedTuple):
     """A path when it was read."""
 
     sha256: str
-    """Hex; a word for what is no file."""
+    """The hash of its content (hex); a word for what is no file."""
     stat: tuple[int, ...] | None = None
     """None if it has to be read again whatever the system says of it, since it has just changed."""
 
@@ -71,7 +71,7 @@ class WatchedRobot(msgspec.Struct):
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     changed_file: str = ""
-    """One file that was other at the last look, an input before outputs; empty if none was."""
+    """A file that had changed at the last look, an input before outputs; empty if none had."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
     """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
     pending: tuple[Path, ...] = ()
@@ -79,7 +79,7 @@ class WatchedRobot(msgspec.Struct):
 
     @property
     def name(self) -> str:
-        """As in the configuration."""
+        """Its name in the configuration."""
         return self.robot.name
 
     @property

@@ -164,7 +164,7 @@ class Compiler(Protocol):
 
 
 def one_line(text: str) -> str:
-    """The text with each run of blanks and line ends as one blank."""
+    """Return a text with each run of blanks and line ends as one blank."""
     return " ".join(text.split())
 
 
