@@ -133,7 +133,7 @@ class UrdfDomain(Domain):
         return Options(allow=get_args(LeftOut))
 
     def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-        """Guess whether the robot is mobile; allow what has to be left out."""
+        """Guess whether the robot is mobile; allow the errors about parts that no model has."""
         from urdfsync.urdf.kinematics.base_guess import guess_base
 
         base, codes = guess_base(from_snapshot(snapshot)), {entry.code for entry in diagnostics}
@@ -185,7 +185,7 @@ class UrdfDomain(Domain):
         return package.record(robot, target, options), tuple(findings)
 
     def experiment(self, content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
-        """Return the comparison with Pinocchio; there is none of robots with planar or floating joints."""
+        """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
         return experiment(content, file, target, options)

@@ -28,7 +28,7 @@ from urdfsync.urdf.validate import Finding
 _DENSEST = 10_000
 """In kg/m³, of a cube as large as the robot; steel has 7,900."""
 _HEAVY = 500
-"""In kg: lighter robots may be smaller than what is known of their size."""
+"""In kg: lighter robots may be smaller than their known parts."""
 _GYRATION = 3
 """Radius of gyration in relation to the farthest point of a body, which can't be above 1. Shapes may be simplified."""
 _MARKER = 0.002
@@ -151,7 +151,7 @@ def _radius(link: Link) -> float:
 
 
 def _extent(geometry: Geometry) -> float:
-    """Return how far a shape reaches from its own origin: infinite for a mesh, which nobody has read yet."""
+    """Return how far a shape reaches from its own origin: infinite for a mesh, which is read later."""
     match geometry:
         case Box(size=size):
             return math.hypot(*size) / 2

@@ -291,7 +291,7 @@ def limits_acceleration(joint: Joint) -> bool:
 
 
 class Camera(msgspec.Struct, frozen=True, gc=False):
-    """Numbers of a camera; 0 for what the source does not say."""
+    """Numbers of a camera; 0 for those that the source lacks."""
 
     width: float = 0.0
     height: float = 0.0
@@ -301,7 +301,7 @@ class Camera(msgspec.Struct, frozen=True, gc=False):
 
 
 class Lidar(msgspec.Struct, frozen=True, gc=False):
-    """Numbers of a laser scanner; 0 for what the source does not say."""
+    """Numbers of a laser scanner; 0 for those that the source lacks."""
 
     samples: float = 0.0
     min_angle: Annotated[float, _ANGLE] = 0.0
@@ -330,7 +330,7 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     in_parent: bool = False
     """Whether the wrench is in the axes of the parent link, not of the child."""
     on_child: bool = False
-    """Whether the wrench is what the parent does to the child, not the other way round."""
+    """Whether the wrench is that of the parent on the child, not the other way round."""
 
 
 class Extension(msgspec.Struct, frozen=True, gc=False):

@@ -188,7 +188,7 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
     seen = set[str]()
     for path, element in elements:
         if element.name in seen:
-            yield Finding(f"duplicate-{kind}", path, f"there is another {kind} {element.name!r} above")
+            yield Finding(f"duplicate-{kind}", path, f"{kind} {element.name!r} is defined above, too")
         seen.add(element.name)
 
 
@@ -349,7 +349,7 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
             if value is not None and value < 0:
                 yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
     if joint.dynamics and not kind.motion and joint.dynamics != (effect.dynamics or Dynamics()):
-        message = f"{path}: what <dynamics> says has no effect on a {joint.type} joint"
+        message = f"{path}: <dynamics> has no effect on a {joint.type} joint"
         yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
 
 

@@ -57,8 +57,8 @@ def test_the_first_number_counts_and_all_else_is_kept() -> None:
     )
     found, diagnostics, *_ = read_robot(robot('<link name="foot"/>', *elements).encode(), "a.urdf")
     assert [(one.code, one.message) for one in diagnostics] == [
-        ("duplicate-element", "link foot: kp 2 contradicts 1, and that counts"),
-        ("unknown-reference", "<gazebo> is about 'x', and there is no such link or joint"),
+        ("duplicate-element", "link foot: kp 2 contradicts the first one, 1, which counts"),
+        ("unknown-reference", "<gazebo> refers to 'x', which is no link or joint"),
     ]
     assert found is not None
     assert found.links[0].contact == Contact(mu=3.0, kp=1.0)

@@ -45,7 +45,7 @@ LACKING = {
 @pytest.mark.parametrize(("added", "urdf"), LACKING.items())
 def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
     content, notes = completed_for_pinocchio(urdf.encode())
-    assert notes == (f"what Pinocchio's reader asks for was added: {added.partition(' of')[0]}",)
+    assert notes == (f"additions for Pinocchio's reader: {added.partition(' of')[0]}",)
     model = read(content, "robot.urdf").model
     assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
     assert completed_for_pinocchio(content) == (content, ())

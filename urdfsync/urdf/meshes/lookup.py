@@ -100,7 +100,7 @@ def mentioned_files(file: str, content: bytes) -> list[str]:
 
 
 def path_of_mention(mention: bytes) -> str:
-    """Return the relative path by which a file names another one; empty for what leads elsewhere."""
+    """Return the relative path by which a file names another one; empty for an absolute path or a URI."""
     words = unquote(mention.decode("utf-8", "replace")).strip()
     if words.startswith("-"):
         words = " ".join(itertools.dropwhile(_TEXTURE_OPTION.fullmatch, words.split()))

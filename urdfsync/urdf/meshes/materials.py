@@ -85,7 +85,7 @@ def _mean(image: bytes) -> Color | None:
 
 
 def _color(numbers: Sequence[str] | Sequence[bytes]) -> Color | None:
-    """Return a colour whose parts are from 0 to 1; None for what is none."""
+    """Return a colour whose parts are from 0 to 1; None for other words."""
     with contextlib.suppress(ValueError, OverflowError):
         red, green, blue = (round(255 * min(max(float(number), 0.0), 1.0)) for number in numbers[:3])
         return red, green, blue

@@ -39,6 +39,7 @@ def record_data(
         data = {"number": number, "component": identifier.component, "name": link.name}
         links.append({**data, "inertial": link.inertial, "visuals": shapes})
         for shape in shapes:
+            # Modelica has no shape of a capsule: it is drawn as a cylinder and two spheres
             kinds = ("Capsule", "LowerEnd", "UpperEnd") if shape["type"] == "Capsule" else (shape["type"],)
             length_axis = 1 if shape["type"] in ("Box", "Mesh") else 3  # of the shape frame: 1 is x, 3 is z
             drawn += [

@@ -1,4 +1,4 @@
-"""Read what a URDF says of the contact of links, in the words of gazebo, SDFormat and Bullet."""
+"""Read the contact properties of links, in the words of gazebo, SDFormat and Bullet."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
         name = gazebo.get("reference", "")
         if name in links:
             places.append((gazebo, name, _IN_GAZEBO))
-        elif name and name not in joints and gazebo.find("sensor") is None:
-            message = f"<gazebo> is about {name!r}, and there is no such link or joint"
+        elif name and name not in joints and gazebo.find("sensor") is None:  # a sensor gets a warning of its own
+            message = f"<gazebo> refers to {name!r}, which is no link or joint"
             reader.add(gazebo, "unknown-reference", message, perhaps(name, links.keys() | joints))
     contacts: dict[str, dict[str, float]] = {}
     for element, name, ways in places:
@@ -46,8 +46,9 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
             if number is None:
                 continue
             if number < 0 or (number == 0 and field == "kp"):
-                reader.add(element, "bad-contact", f"link {name}: no contact has a {field} of {number:g}: left out")
+                message = f"link {name}: {field} {number:g} is {'negative' if number else 'zero'}, and is left out"
+                reader.add(element, "bad-contact", message)
             elif numbers.setdefault(field, number) != number:
-                message = f"link {name}: {field} {number:g} contradicts {numbers[field]:g}, and that counts"
+                message = f"link {name}: {field} {number:g} contradicts the first one, {numbers[field]:g}, which counts"
                 reader.add(element, "duplicate-element", message)
     return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}

@@ -1,4 +1,4 @@
-"""Read what `<transmission>` and `<ros2_control>` say of the drives of joints."""
+"""Read the drives of joints: `<transmission>` and `<ros2_control>`."""
 
 from __future__ import annotations
 
@@ -82,6 +82,7 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
         reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
     gear = Transmission(reduction or 1.0, number("joint/offset") or 0.0, number("actuator/drake:rotor_inertia"))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
+    # the <type> of the transmission: that of one joint, which is modelled
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
 

@@ -42,7 +42,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
-    """Compare the names, types, tree and poses of `robot` with what yourdfpy reads in the same bytes."""
+    """Compare names, types, tree and poses of `robot` with those that yourdfpy reads in the same bytes."""
     failure, theirs = "finds no link in this file", None
     with _silence():
         try:

@@ -48,7 +48,7 @@ _LIDAR = {
 _FRAMES = ("child", "parent", "sensor")
 _DIRECTIONS = ("child_to_parent", "parent_to_child")
 _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
-_LARGEST_INTEGER = 2**31 - 1
+_LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
 """Elements of a sensor that hold these fields, where they are not in its own."""
 
@@ -114,7 +114,7 @@ def _find_sensors(root: Element) -> Iterator[_SensorElement]:
 
 
 def _elements(root: Element) -> Iterator[tuple[str, Element]]:
-    """Yield the sensors of robot, links, joints and gazebo blocks, with the name of what they stand in."""
+    """Yield the sensors of robot, links, joints and gazebo blocks, each with the name of the element around it."""
     for child in root:
         if child.tag == "sensor":
             yield "", child
@@ -169,7 +169,7 @@ def _read_fields(
     for field, ways in places.items():
         (value,) = reader.numbers(part, ways, path, "bad-sensor") or (0.0,)
         if field in _COUNTS and not (value.is_integer() and 0 <= value <= _LARGEST_INTEGER):
-            message = f"{path}: {field.replace('_', ' ')} {value:g} is no number of things"
+            message = f"{path}: {field.replace('_', ' ')} {value:g} is no whole number, or too large"
             reader.add(part, "bad-sensor", message)
             continue
         values[field] = value
@@ -177,7 +177,7 @@ def _read_fields(
 
 
 def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:
-    """Return a sensor of force and torque with the axes and the direction of what it shows."""
+    """Return a sensor of force and torque with the axes and the direction of its values."""
     words = []
     for tags, choices in (("force_torque/frame", _FRAMES), ("force_torque/measure_direction", _DIRECTIONS)):
         part = reader.find(element, tags)

@@ -28,7 +28,7 @@ _MODELLED = ("link", "joint", "material")
 _LOOPS = ("loop_joint", "drake:ball_constraint")
 """Elements that join two links of the tree; gazebo has a <joint> for it."""
 _LONGEST, _KINDS = 60, 12
-"""Characters of a tag, and so many tags, in the note on what is not modelled; its details have the whole."""
+"""Most characters of a tag, and most tags, in the note on elements that are not modelled; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
@@ -47,7 +47,7 @@ class RobotReading(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
-    """One note, if there is anything that no model shows."""
+    """One note if any element is not modelled."""
 
 
 def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotReading:
@@ -82,7 +82,7 @@ def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
-    """Return whether this is a URDF that xacro has expanded; if not, add one error that says what it is."""
+    """Return whether this is a URDF that xacro has expanded; if not, add one error."""
     root = document.root
     if root.tag != "robot":
         reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is no URDF")
@@ -125,7 +125,7 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
 
 
 def _read(reader: Reader, document: xml.Document) -> Robot:
-    """Return the robot; it is of use only if no diagnostic is an error."""
+    """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
     reader.expect(root, "robot", ("name", "version"))

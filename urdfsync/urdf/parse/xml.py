@@ -20,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
-_DEEPEST = 256
+_DEEPEST = 256  # as in libxml2; writing an element takes a level of recursion for each of its own
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
     (codecs.BOM_UTF32_LE, "utf-32"),

@@ -57,7 +57,7 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
     with contextlib.suppress(UnicodeDecodeError):
         if not added and "\0" not in content.decode():
             return CompletedSource(content)
-    notes = (f"what Pinocchio's reader asks for was added: {', '.join(sorted(added))}",) if added else ()
+    notes = (f"additions for Pinocchio's reader: {', '.join(sorted(added))}",) if added else ()
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), notes)
 
 
