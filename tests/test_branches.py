@@ -1,4 +1,4 @@
-"""Two branches that both export, edit and build: git unites the recorded states, and one build brings all in step."""
+"""Two branches that both export, edit and build: one build brings all in step. Random ones are in `test_walks`."""
 
 from __future__ import annotations
 
@@ -8,20 +8,18 @@ import shutil
 import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from random import Random
 from typing import Any
 
 import pytest
 from support import replay
 from support.git import NEEDS_GIT, Repository
-from support.networks import C1, LADDER, R2, RECORD, configure, edit, kinds, run
+from support.networks import C1, LADDER, R2, RECORD, edit, kinds, run
 
 from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
 
 pytestmark = NEEDS_GIT
 STATE = ".urdfsync/robots/ladder.state"
-EPISODES = replay.STEPS // 8 or 6
 
 
 def elements() -> list[dict[str, Any]]:
@@ -241,63 +239,3 @@ def test_branches_that_merge_each_other(repository: Repository, tmp_path: Path) 
     assert not run().conflicts
     assert texts() == fresh(tmp_path / "fresh")
     assert run().in_step
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(EPISODES))
-def test_a_random_walk_of_branches_and_merges(repository: Repository, tmp_path: Path, seed: int) -> None:
-    """Every edit that git leaves is there after the build, and every other line is that of a fresh build."""
-    random, count = Random(seed), 0
-    configure('on_conflict = "merge"\n')
-    repository.commit()
-
-    def step() -> None:
-        nonlocal count
-        count += 1
-        found = [one["name"] for one in elements()]
-        match random.choice(["value", "value", "add", "drop", "note", "note"]):
-            case "value":
-                set_value(random.choice(found), count)
-            case "add" if f"R{count}" not in found:
-                add(f"R{count}")
-            case "drop" if len(found) > 2:
-                drop(random.choice(found))
-            case _:
-                path = random.choice(sorted(Path(LADDER, "Elements").glob("[RC]*.mo")))
-                note(path.as_posix(), f"note {count}")
-
-    def settled() -> None:
-        result = run()
-        if result.conflicts:
-            run(choices={action.path: Choice.TAKE for action in result.conflicts})
-
-    for _ in range(8):
-        for name in ("ours", "theirs"):
-            repository.git("checkout", "-q", "-B", name, "main")
-            for _ in range(random.choice([1, 2, 3])):
-                step()
-                settled()
-                repository.commit()
-        merge_and_settle(repository, random.choice(["ours", "theirs"]))
-        try:
-            elements()
-        except ValueError:  # git has merged the source to something else
-            repository.git("checkout", "-q", "theirs", "--", "ladder.json")
-        notes = {path: re.findall(r"// note \d+", text) for path, text in texts().items()}
-        result = run()
-        taken = {action.path for action in result.conflicts}
-        left = texts()
-        for path, lines in notes.items():
-            assert not lines or (path in left and set(lines) <= set(re.findall(r"// note \d+", left[path])))
-        if taken:
-            run(choices=dict.fromkeys(taken, Choice.TAKE))
-        assert run().in_step
-        wanted = fresh(tmp_path / "fresh")
-        kept = {a.path for a in run().actions if a.reason is Reason.KEEP}
-        for path, text in wanted.items():
-            found = Path(path).read_text()
-            assert found == text or path in kept
-            if path in kept and re.findall(r"// note", found):
-                assert without_notes({path: found})[path] == text, "an export is lost"
-        repository.commit()
-        repository.git("checkout", "-q", "-B", "main")

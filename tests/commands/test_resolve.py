@@ -14,7 +14,7 @@ from support.commands import Execute
 from support.crashes import Operation, before_each
 from support.files import unchanged
 from support.git import NEEDS_GIT
-from support.networks import LADDER, RECORD, ROBOT, configure, edit, resistor
+from support.networks import LADDER, RECORD, ROBOT, add_resistor, configure, edit, resistor
 
 from urdfsync import cli
 from urdfsync.commands.build import build_and_check
@@ -27,18 +27,12 @@ MINE = '"Element R2, 1 %"'
 FRESH = '"Element R3"'
 
 
-def more(name: str) -> None:
-    """One more resistor between two nodes that are there: a structural change that renames nothing."""
-    last = '"farad": 4.7e-6}'
-    edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
-
-
 @pytest.fixture
 def clean(execute: Execute, project: Path) -> Path:
     """The network's model is edited, one more resistor is in the source: both fit together."""
     execute("build")
     edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
-    more("R3")
+    add_resistor("R3")
     return project
 
 
@@ -138,7 +132,7 @@ def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory
     edit("ladder.json", "220.5", "330")
     execute("build")
     assert Path(MODEL).read_text() == mine
-    more("R4")
+    add_resistor("R4")
     execute("build", code=3)
     assert Path(MODEL).read_text() == mine
 
@@ -313,7 +307,7 @@ def orphan(execute: Execute, project: Path) -> Path:
 
 def test_a_build_says_what_can_be_done_about_orphans(orphan: Path, execute: Execute) -> None:
     execute("build", "--full")
-    more("R4")
+    add_resistor("R4")
     *_, place, _, advice = execute("build").lines
     assert place == f"  orphan     {orphan.relative_to(Path.cwd())}  no longer generated, but you edited it; kept"
     assert advice == "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"

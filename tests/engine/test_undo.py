@@ -8,15 +8,9 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, edit, resistor
+from support.networks import LADDER, add_resistor, edit, resistor
 
 MODEL = f"{LADDER}/Ladder.mo"
-
-
-def more(name: str) -> None:
-    """One more resistor between two nodes that are there: a structural change that renames nothing."""
-    last = '"farad": 4.7e-6}'
-    edit("ladder.json", last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
 
 
 @pytest.fixture
@@ -68,7 +62,7 @@ def merged(project: Path, execute: Execute) -> Path:
     """The network's model was edited and merged with one more resistor; what the user had is in `mine.txt`."""
     execute("build")
     edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
-    more("R3")
+    add_resistor("R3")
     (project / "mine.txt").write_text(Path(MODEL).read_text())
     lines = execute("build", "--merge").lines
     assert lines[-1] == f"  merge      {Path(MODEL)}  R3; merged with your edits"
@@ -134,7 +128,7 @@ def test_what_was_taken_can_be_given_back(project: Path, execute: Execute) -> No
 
 def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -> None:
     execute("build")
-    more("R3")
+    add_resistor("R3")
     execute("build")
     assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
 

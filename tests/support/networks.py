@@ -43,6 +43,12 @@ def resistor(ohm: float, before: float = 100) -> None:
     source(f'"ohm": {before:g}}}', f'"ohm": {ohm:g}}}')
 
 
+def add_resistor(name: str) -> None:
+    """Add one more resistor to the source, between two nodes that are there: a structural change, no rename."""
+    last = '"farad": 4.7e-6}'
+    source(last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
+
+
 def rename(old: str, new: str) -> None:
     """Give an element of the source another name."""
     source(f'"{old}"', f'"{new}"')
