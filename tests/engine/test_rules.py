@@ -236,6 +236,22 @@ def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None
     assert all(action.origin is None for action in decide(files, {"B": "A", "C": "B", "D": "C"}))
 
 
+def test_a_place_that_an_edited_file_leaves_is_free_for_another_one() -> None:
+    files = {
+        "A.mo": File(Role.MODEL, "part B", FileRecord(("A",)), "edited", "other"),
+        "B.mo": File(Role.MODEL, "part A", generated="new"),
+    }
+    reasons = {action.path: action.reason for action in decide(files, {"B.mo": "A.mo"})}
+    assert reasons == {"A.mo": Reason.CREATE, "B.mo": Reason.MOVE}
+
+
+@pytest.mark.parametrize(("mine", "reason"), [("A", Reason.UPDATE), ("edited", Reason.CONFLICT)])
+def test_a_file_that_the_user_moved_himself_has_its_old_base(mine: str, reason: Reason) -> None:
+    old, new = File(Role.MODEL, record=FileRecord(("A",))), File(Role.MODEL, on_disk=mine, generated="new")
+    actions = decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})
+    assert {one.path: (one.reason, one.base) for one in actions}["New.mo"] == (reason, "A")
+
+
 def test_while_something_is_open_files_count_that_are_as_generated() -> None:
     files = {reason.name: reason for reason in (Reason.ADOPT, Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
     actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]

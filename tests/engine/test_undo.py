@@ -10,6 +10,11 @@ from support.commands import Execute
 from support.files import unchanged
 from support.networks import LADDER, add_resistor, edit, resistor
 
+from urdfsync import config
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.state.record import Choice, UsersChoice, sides_hash
+
 MODEL = f"{LADDER}/Ladder.mo"
 
 
@@ -172,3 +177,12 @@ def test_of_files_that_nobody_edited_many_are_not_put_aside(
     resistor(130, before=120)
     execute("build")
     assert put_aside() == ["Elements/R1Parameters.mo", "Ladder.mo"]
+
+
+def test_a_file_that_comes_after_the_look_is_not_written_over(deleted: Path) -> None:
+    path = deleted.relative_to(Path.cwd()).as_posix()
+    deleted.write_text("model R2\nend R2;\n")
+    loaded = config.load(Path("urdfsync.toml"))
+    choices = {path: UsersChoice(Choice.UNDO, sides_hash(None, None))}
+    list(build(loaded, loaded.robots, BuildOptions(choices=choices)))
+    assert deleted.read_text() == "model R2\nend R2;\n"
