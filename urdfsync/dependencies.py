@@ -197,9 +197,8 @@ def modelica_names(entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
         for entry in entries
         if not entry.name.startswith(".") and (entry.name.endswith(".mo") or entry.is_dir(follow_symlinks=False))
     )
-    return len(names), hash(
-        int.from_bytes("/".join(names).encode(errors="surrogateescape"))
-    )  # the same in each process
+    # the hash of an integer is the same in each process
+    return len(names), hash(int.from_bytes("/".join(names).encode(errors="surrogateescape")))
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:

@@ -1,6 +1,6 @@
 """Texts with blanks for plain statements that need not be read: nearly all of a robot model is as it was generated.
 
-What is left stays at its place, so that lines and characters count as before.
+The other statements stay at their places, so that lines and characters count as before.
 """
 
 from __future__ import annotations
@@ -50,13 +50,12 @@ class Reading(NamedTuple):
     """Lines of the components of which only type and name were read."""
 
 
-@functools.lru_cache(
-    maxsize=64
-)  # row "robot model edited, in the daemon": 110 of the 160 ms that 1,000 links may cost more
+# row "robot model edited, in the daemon": 110 of the 160 ms that 1,000 links may cost more
+@functools.lru_cache(maxsize=64)
 def parse_without(text: str, passed: frozenset[str]) -> Reading:
     """Parse a text without some of its plain statements; their components have types and names only.
 
-    It is `TOO_LONG` if too much of it is left.
+    The parsed text is `TOO_LONG` if too many characters have to be read.
     """
     shortened, lines = _shorten(text, passed)
     size = len(text) - sum(map(len, passed))
@@ -76,15 +75,14 @@ def compare(mine: str, generated: str) -> Difference:
     names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
     read = parse_without(mine, same)
-    is_hidden = not read.passed <= {
-        declaration.line for declaration in declared(read.stored.classes)
-    }  # by a comment or string around it
+    # a comment or a string around it may hide a component
+    is_hidden = not read.passed <= {declaration.line for declaration in declared(read.stored.classes)}
     is_whole = visible[0] != visible[1] or is_hidden
     return Difference(frozenset() if is_whole else same, names, is_whole)
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
-    """Yield what else gives names a meaning in each class: what it extends, and declares anew there, and imports."""
+    """Yield the rest that gives names a meaning in each class: its base classes, redeclarations there, and imports."""
     for definition in classes:
         redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
         imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]

@@ -38,16 +38,12 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
     results = []
     for place, layout in robots(layouts, series):
         for axis in layout:
-            signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
-            values = {name: _values(signal, place, series, parameters) for name, signal in signals.items() if signal}
-            quantities = {
-                name: _quantity(signal, place, values[name], parameters)
-                for name, signal in signals.items()
-                if signal and values[name] is not None
-            }
-            passed = [
-                limit for name in quantities for limit in _passed(name, quantities[name], series["time"], values[name])
-            ]
+            quantities, passed = dict[str, Range](), list[PassedLimit]()
+            for name, signal in (("position", axis.position), ("speed", axis.velocity), ("effort", axis.effort)):
+                values = _values(signal, place, series, parameters) if signal else None
+                if signal and values is not None:
+                    quantities[name] = _quantity(signal, place, values, parameters)
+                    passed += _passed(name, quantities[name], series["time"], values)
             if quantities:
                 results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
     return results

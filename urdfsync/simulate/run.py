@@ -183,8 +183,7 @@ def _shortened(text: str) -> str:
 
 def _warning(joint: JointResult, passed: PassedLimit) -> Diagnostic:
     where = "" if joint.robot in ("", "robot") else f"{joint.robot}: "
-    unit = {"position": joint.position, "speed": joint.speed, "effort": joint.effort}[passed.quantity]
-    text = unit.unit if unit else ""
-    message = f"{where}{joint.element}: {passed.quantity} passes its limit, {passed.limit:.4g} {text}, "
-    message += f"at {passed.time:.4g} s; by up to {passed.excess:.3g} {text}, for {passed.seconds:.3g} s"
+    unit = getattr(joint, passed.quantity).unit
+    message = f"{where}{joint.element}: {passed.quantity} passes its limit, {passed.limit:.4g} {unit}, "
+    message += f"at {passed.time:.4g} s; by up to {passed.excess:.3g} {unit}, for {passed.seconds:.3g} s"
     return Diagnostic(Severity.WARNING, "limit-passed", message)

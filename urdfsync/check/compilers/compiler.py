@@ -26,7 +26,10 @@ class Tool(msgspec.Struct, frozen=True):
 
 
 class Simulation(msgspec.Struct, frozen=True):
-    """One run from 0 to `stop` s with results every `step` s; `parameters` get other values than in the text."""
+    """One run from 0 to `stop` s with results every `step` s.
+
+    `parameters` get other values than in the text. Tests alone set some: they run a model that is compiled once.
+    """
 
     stop: float
     step: float
