@@ -19,9 +19,9 @@ from urdfsync.diagnostics import Diagnostic
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
 
-It equals its copy that comes back from JSON with sorted keys, so that the recorded model gives the same artifacts. It
-is keyed by element name, does not depend on the order of elements in the source, and holds all data of artifacts.
-Nobody changes it: versions of a model may share parts.
+It equals its copy that comes back from JSON with sorted keys: the recorded model gives the same artifacts. It is keyed
+by element name, and does not depend on the order of elements in the source. It holds all data of artifacts. Nobody
+changes it: versions of a model may share parts.
 """
 
 ElementKey: TypeAlias = tuple[str, str]
@@ -343,8 +343,8 @@ class Bench(msgspec.Struct, frozen=True):
 class Domain(Protocol):
     """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`.
 
-    A domain that inherits from this class defines `name`, `options`, `read`, `names` and `artifacts`, and whatever else
-    it does otherwise than the defaults here. docs/domains.md has an example.
+    A domain that inherits from this class defines `name`, `options`, `read`, `names` and `artifacts`. It overrides the
+    defaults that do not suit it. docs/domains.md has an example.
     """
 
     name: str

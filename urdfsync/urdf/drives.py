@@ -1,9 +1,9 @@
 """The joints that Run and Test drive.
 
 A joint can be driven if it has one axis and follows no other joint. Some of these are passive, such as casters. Where a
-transmission or ros2_control drives any joint of a source, a continuous joint without them is passive, unless it has a
-limit. Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a
-limit was meant to be moved by something. A source without any drives has no passive joints.
+transmission or ros2_control drives any joint of a source, a continuous joint without them and without limit is passive.
+Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a limit was
+meant to be moved by something. A source without any drives has no passive joints.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ def spell(name: str, kind: str) -> str:
     """Return the spelling of a name without regard to others: always an identifier, not always a free one."""
     spelled = _UNFIT.sub("_", name)
     if not spelled[:1].isalpha():
-        spelled = f"{kind}_{spelled}" if not spelled.startswith("_") else f"{kind}{spelled}"
+        spelled = f"{kind}_{spelled.removeprefix('_')}"
     if len(spelled) > LONGEST:
         digits = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
         spelled = f"{spelled[: LONGEST - _DIGITS - 1]}_{digits}"

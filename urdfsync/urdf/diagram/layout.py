@@ -13,9 +13,9 @@ the joints before it, in the first row where its columns are free:
 
 So a new leaf moves only the components below a place that it takes. Components keep to columns. A link hangs on a
 vertical trunk at the left of its column. The joints that start at it stand on the spines of their rows, right of the
-trunk, so that a trunk passes nothing of its own column. Above a joint that can be driven stand the connectors of its
-axis and its support. A mimic coupling stands above its follower; the line from its leader runs through the gap between
-two columns, on a track that no other line has there.
+trunk: a trunk passes nothing of its own column. Above a joint that can be driven stand the connectors of its axis and
+its support. A mimic coupling stands above its follower; the line from its leader runs through the gap between two
+columns, on a track that no other line has there.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """

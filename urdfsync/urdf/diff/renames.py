@@ -1,13 +1,13 @@
 """Links and joints that have another name.
 
-Elements of one name are the same element, whatever else changed. Elements that only the old version has are matched
-with those that only the new one has, from the root down:
+Elements of one name are the same element, whatever else changed. Those of the old version alone are matched with those
+of the new one alone, from the root down:
 
 - The joints between the same two links are the same joint.
-- A joint that leads to a link of another name is matched by its numbers and by all that this link has. It has to be the
+- A joint that leads to a link of another name is matched by its numbers and by the data of this link. It has to be the
   only such joint of its parent: of two legs of one kind that both have other names, none is matched.
 - The link at the end of the same joint is the same link; a root is, if it has all that it had or one of its joints.
-  Where more than the name changed, no other new link may be as the old one was, and no other old link as the new one.
+  Where more than the name changed, no other new link may equal the old one, and no other old link the new one.
 """
 
 from __future__ import annotations

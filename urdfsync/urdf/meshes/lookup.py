@@ -1,10 +1,9 @@
 """Which mesh files a robot refers to, where they may be, and their names in the package. Pure: nothing is looked for.
 
-A mesh is identified by its URI as written together with its scale, since the scale is baked into the
-imported file. Where a URI points to is decided as ROS does it, widened to what URDF files out in the
-world contain: `package://` and `model://` with search paths, `$(find …)` that no xacro has expanded, `modelica://`,
-`file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes are not
-looked up: a build doesn't use the network.
+The URI as written and the scale identify a mesh, since the imported file has the scale applied. URIs are resolved as by
+ROS, and beyond that as real URDF files need it. These have `package://` and `model://` with search paths, `$(find …)`
+that no xacro has expanded, `modelica://`, and `file:` in all its spellings. They also have relative paths, backslashes
+and percent-encoding. Other schemes are not looked up: a build doesn't use the network.
 """
 
 from __future__ import annotations
@@ -111,7 +110,7 @@ def path_of_mention(mention: bytes) -> str:
 def target(mesh: Mesh) -> str:
     """Return the path of the imported file below the package folder; it depends on URI and scale alone.
 
-    Its digits are a hash of both, so that two meshes of one file name have two paths, also without regard to case.
+    Its digits are a hash of both: two meshes of one file name have two paths, also without regard to case.
     """
     stem = re.sub("[^A-Za-z0-9_-]+", "_", PurePosixPath(_file_name(mesh.filename)).stem)
     stem = stem[:_STEM_LENGTH].strip("_-") or "mesh"

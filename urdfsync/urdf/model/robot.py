@@ -46,8 +46,8 @@ def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
 def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
     """Return the data of the robot model; `tree` has no numbers.
 
-    The last data are kept, since a build compares the data with those of the last build, which mostly had the same
-    tree. Serves the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
+    The last data are kept: a build compares its data with those of the last build, which mostly had the same tree.
+    Serves the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     couplings: dict[str, dict[str, Any]] = {

@@ -1,10 +1,10 @@
 """The integer tables of the whole-robot record: the structure that the generic robot reads.
 
-Links that fixed joints connect move as one *body*: body 1 is that of the root link, and moving joint `i` moves body
-`i + 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so that
-what carries a joint has a smaller number than what it moves. The tables say which link belongs to which body; adding
-up the numbers is left to Modelica, so that none of them is written twice. Everything is counted from 1. The tables
-that refer to the numbers of links and joints are written out in the template.
+Links that fixed joints connect move as one *body*: body 1 is that of the root link, and moving joint `i` moves body `i
++ 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so that the
+body that carries a joint has a smaller number than the one that it moves. The tables say which link belongs to which
+body; adding up the numbers is left to Modelica, so that none of them is written twice. Everything is counted from 1.
+The tables that refer to the numbers of links and joints are written out in the template.
 """
 
 from __future__ import annotations

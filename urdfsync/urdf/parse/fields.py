@@ -1,10 +1,10 @@
 """Elements to values: the structs of `urdf.robot` say what is read. Every fault becomes a diagnostic with its line.
 
-A field of numbers or text is the attribute of its name, a field that is a struct the child element of its name; one
+A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
 without a default is required. What no field asks for is kept as text (see `Extension`).
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. A
-value that can't be read is an error, and another takes its place, so that reading goes on and finds the next fault.
+value that can't be read is an error. Another takes its place, so that reading goes on and finds the next fault.
 """
 
 from __future__ import annotations
