@@ -185,6 +185,7 @@ HELD = {
     "New.mo": (Action("New.mo", Reason.CREATE, Role.MODEL), True),
     "Number.mo": (Action("Number.mo", Reason.UPDATE, Role.RECORD), False),
     "Renamed.mo": (Action("Renamed.mo", Reason.UPDATE, Role.RECORD), True),
+    "Follows.mo": (Action("Follows.mo", Reason.UPDATE, Role.RECORD, origin="Old.mo"), True),
     "Structure.mo": (Action("Structure.mo", Reason.UPDATE, Role.RECORD), True),
     "Restored.mo": (Action("Restored.mo", Reason.RESTORE, Role.MODEL, base="old", generated="old"), False),
     "Renewed.mo": (Action("Renewed.mo", Reason.RESTORE, Role.MODEL, base="old", generated="new"), True),
@@ -204,7 +205,9 @@ HELD = {
 @pytest.mark.parametrize("moves", [False, True])
 def test_what_waits_for_a_conflict(moves: bool) -> None:
     actions = [action for action, _ in HELD.values()]
-    held = {one.path for one in hold(actions, {"Number.mo", "Renamed.mo"}, {"Renamed.mo"}, moves) if one.held}
+    held = {
+        one.path for one in hold(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, moves) if one.held
+    }
     assert held == {path for path, (_, waits) in HELD.items() if waits or (moves and path != "Conflict.mo")}
 
 

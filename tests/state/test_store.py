@@ -92,3 +92,12 @@ def test_versions_of_what_conflicts_no_more_go(tmp_path: Path) -> None:
         store.conflicts("arm").joinpath(name).write_bytes(b"text")
     changes = store.save_conflicts("arm", {"A.base.mo": b"text", "C.base.mo": b"new"})
     assert {change.path.name: change.content for change in changes} == {"B.base.mo": None, "C.base.mo": b"new"}
+
+
+def test_robots_are_known_by_states_with_names_that_they_can_have(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    assert store.names() == []
+    store.path("arm").parent.mkdir(parents=True)
+    for name in ("leg.state", "arm.state", "my arm.state", "...state", "arm.expanded"):
+        (store.path("arm").parent / name).touch()
+    assert store.names() == ["arm", "leg"]
