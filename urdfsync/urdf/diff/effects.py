@@ -97,7 +97,7 @@ def interface(
         element = renames.get((kind, old_element), old_element)
         new_name = None if is_displaced else new_names.pop((kind, element, part), None)
         if old_name != new_name:
-            full_name = None if new_name or is_displaced else all_names.get((kind, element, part))
+            full_name = None if is_displaced else all_names.get((kind, element, part))
             hint = (
                 brings_back(lines.get(full_name, ""), full_name if full_name != old_name else "") if full_name else ""
             )
