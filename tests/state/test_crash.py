@@ -395,7 +395,7 @@ def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> Non
     assert target.read_bytes() != old
 
 
-def test_another_robot_leaves_the_planned_hashes_of_an_overtaken_one(changed: Path) -> None:
+def test_what_an_overtaken_build_wrote_is_its_own_after_a_build_of_another_robot(changed: Path) -> None:
     """A save overtakes the build, and the source can't be read then; meanwhile the other robot is built."""
     shutil.copy(changed / "ladder.json", changed / "other.json")
     configure('[robots.other]\nsource = "other.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
@@ -410,10 +410,8 @@ def test_another_robot_leaves_the_planned_hashes_of_an_overtaken_one(changed: Pa
     with before_each(meddle):
         (result,) = build(loaded, loaded.robots[:1], BuildOptions())
     assert result.failed
-    for _ in range(2):
-        (result,) = build(loaded, loaded.robots[1:], BuildOptions())
-        assert not result.failed
-        assert is_interrupted(changed / ".urdfsync")
+    (result,) = build(loaded, loaded.robots[1:], BuildOptions())
+    assert not result.failed
     (changed / "ladder.json").write_text(text)
     (result,) = build(loaded, loaded.robots[:1], BuildOptions())
     assert (result.failed, result.conflicts) == (False, []), "what was written then is urdfsync's own"

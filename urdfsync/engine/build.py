@@ -64,8 +64,7 @@ class _Builder:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
         self._state_folder = config.root / STATE_FOLDER
         outputs = list(dict.fromkeys(robot.output for robot in config.robots))
-        robots = {robot.name for robot in config.robots}
-        self._transactions = Transactions(config.root, self._state_folder, outputs, robots)
+        self._transactions = Transactions(config.root, self._state_folder, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
@@ -143,7 +142,8 @@ class _Builder:
         written.
         """
         targets = {change.path for change in plan.writes[:-1]}
-        return Store(self._config.root).is_unchanged(plan.state, targets)
+        is_writing = self._transactions.is_pending()
+        return not is_writing and Store(self._config.root).is_unchanged(plan.state, targets)
 
     def _recover(self) -> None:
         """Wait for a build that is writing; finish what a killed build left."""

@@ -16,7 +16,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, hold, keep_needed, valid_choices
+from urdfsync.engine.rules import File, decide, hold, keep_needed, valid_choices
 from urdfsync.engine.undo import apply_undo
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -94,7 +94,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        found[key] = File(role, owner, last.files.get(key, NEVER_WRITTEN), on_disk, generated)
+        found[key] = File(role, owner, last.file(key, role, on_disk), on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))

@@ -124,7 +124,7 @@ def _generate(inputs: Inputs) -> Generation:
     for key, finding in domain.import_findings(imported.imports):
         findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
-    is_complete = not (last.record.open or last.record.is_united or last.written)
+    is_complete = not (last.record.open or last.record.is_united)
     is_same = last.record.generator == inputs.generator and last.options is not None
     if is_complete and last.package and is_same and not options.full:
         # Texts whose template and data are as in the last complete build need not be rendered, whatever options say.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 
 import msgspec
@@ -20,7 +20,7 @@ from urdfsync.engine.parents import Parents
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import shown
-from urdfsync.state.record import FileRecord, Generator, Record
+from urdfsync.state.record import Generator, Record
 from urdfsync.state.store import Store
 
 
@@ -94,21 +94,8 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         generator=generator,
         options=option_values(robot.options),
     )
-    written = _find_written(store, files, {folder, record.folder})
-    last = LastBuild(name, record, written, store, files, domain, robot, templates)
+    last = LastBuild(name, record, store, files, domain, robot, templates)
     return Inputs(config, robot, options, domain, templates, generator, text, store, last, files, folder, above)
-
-
-def _find_written(store: Store, files: PackageFiles, folders: Collection[str]) -> dict[str, FileRecord | None]:
-    """Return the files below `folders` that builds which are not complete have written or deleted, as was planned."""
-    written: dict[str, FileRecord | None] = {}
-    inside = tuple(f"{folder}/" for folder in folders)
-    for file in store.planned_files():
-        if (file.new is None or file.record) and file.path.startswith(inside) and files.is_inside(file.path):
-            state = files.state(file.path)
-            if (state.sha256 if state else None) == file.new:
-                written[file.path] = file.record
-    return written
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:

@@ -10,10 +10,11 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Domain, Import, Target, Templates, Version
+from urdfsync.domain import Domain, Import, Role, Target, Templates, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import RecordedImports
 from urdfsync.engine.package_files import Folder, PackageFiles
+from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.state.record import FileRecord, Record
 from urdfsync.state.replaced import Replaced
 from urdfsync.state.store import Store
@@ -23,14 +24,12 @@ NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 
 
 class LastBuild(msgspec.Struct, frozen=True, dict=True):
-    """The last complete build of a robot, and what has been written since."""
+    """The last complete build of a robot."""
 
     name: str
     """The robot's name then."""
     record: Record
     """Without a model and files if the robot was never built, or if its state is lost."""
-    written: Mapping[str, FileRecord | None]
-    """Records of files that builds which are not complete have written since, by key; None for a deleted file."""
     _store: Store
     _files: PackageFiles
     _domain: Domain
@@ -49,9 +48,19 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def files(self) -> Mapping[str, FileRecord]:
-        """The recorded files by key, with what was written since; those that a build may not touch are left out."""
-        records = {**self.record.files, **self.written}
-        return {key: file for key, file in records.items() if file is not None and self._files.is_inside(key)}
+        """The recorded files by key; those that a build may not touch are left out."""
+        return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
+
+    def file(self, key: str, role: Role, on_disk: OnDisk) -> FileRecord:
+        """Return the record of a file as it is on disk.
+
+        A text in the bases is urdfsync's own, whatever is recorded: a build that a save overtook may have written it,
+        or git has put it back.
+        """
+        record = self.files.get(key, NEVER_WRITTEN)
+        if isinstance(on_disk, str) and role is not Role.IMPORT and on_disk not in record.hashes and self.base(on_disk):
+            return FileRecord((on_disk,))
+        return record
 
     @cached_property
     def options(self) -> Any:

@@ -59,7 +59,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     record = None if inputs.options.removes else _record(generation, decision)
     aside = put_aside(inputs, decision.actions, decision.texts, decision.disputed) if record else {}
-    changes = _file_changes(generation, decision, record.files if record else {})
+    changes = _file_changes(generation, decision)
     is_writing = any(action.writes for action in decision.actions)
 
     drawing = None
@@ -140,11 +140,8 @@ def _record(generation: Generation, decision: Decision) -> Record:
     return old if silent == old else new
 
 
-def _file_changes(generation: Generation, decision: Decision, records: Mapping[str, FileRecord]) -> list[FileChange]:
-    """Return the changes of the package's files, but for those in which other robots may have a part.
-
-    `records` are those of the files afterwards.
-    """
+def _file_changes(generation: Generation, decision: Decision) -> list[FileChange]:
+    """Return the changes of the package's files, but for those in which other robots may have a part."""
     files, changes = generation.inputs.files, []
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
@@ -152,8 +149,8 @@ def _file_changes(generation: Generation, decision: Decision, records: Mapping[s
             content = None if action.kind is Kind.DELETE else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
-            old, record = state.sha256 if state else None, records.get(action.path)
-            changes.append(FileChange(files.path(action.path), content, old, is_moved, record))
+            old = state.sha256 if state else None
+            changes.append(FileChange(files.path(action.path), content, old, is_moved))
     return changes
 
 
@@ -183,8 +180,7 @@ def _base_changes(
     the record before nor the one after, goes with a complete build that writes something: alone it is no reason.
     """
     inputs, last = generation.inputs, generation.inputs.last
-    before = [*last.record.files.values(), *last.written.values()]
-    old = {sha256 for file in before if file for sha256 in file.hashes}
+    old = {sha256 for file in last.record.files.values() for sha256 in file.hashes}
     new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
     # what was replaced can be merged again
     needed = {*old, *new, *(text_hash(text.base) for text in aside.values() if text.is_users and text.base)}

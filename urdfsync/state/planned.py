@@ -1,8 +1,7 @@
 """The planned hashes: what a build is about to write, put aside before its first write.
 
 `planned.json` in the state folder. It goes when the build is complete, so what stands there is of a build that was
-killed or overtaken by a save. The next build of that robot tells from these hashes and from the files what is
-urdfsync's own.
+killed: the next one finishes it.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import msgspec
 from urdfsync.dependencies import file_type
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
-from urdfsync.state.record import FileRecord
 
 FILE = "planned.json"
 DRAFT = f".{FILE}{TEMPORARY}"
@@ -30,15 +28,6 @@ class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
     new: str | None = None
     is_moved: bool = False
     """As in `transaction.FileChange`."""
-    record: FileRecord | None = None
-    """As in `transaction.FileChange`."""
-
-
-class OvertakenBuild(msgspec.Struct, frozen=True):
-    """The planned changes of a build that a save has overtaken; kept until a build of its robot is complete."""
-
-    robot: str
-    files: tuple[PlannedFile, ...]
 
 
 class PlannedBuild(file_operations.Bound, frozen=True):
@@ -50,12 +39,6 @@ class PlannedBuild(file_operations.Bound, frozen=True):
     files: tuple[PlannedFile, ...]
     emptied: tuple[str, ...] = ()
     """Folders that go if the build leaves them empty, innermost first."""
-    earlier: tuple[OvertakenBuild, ...] = ()
-    """Builds before this one that are not complete either, of this robot or another one."""
-
-    def overtaken(self) -> tuple[OvertakenBuild, ...]:
-        """All builds that are not complete, this one as the last."""
-        return (*self.earlier, OvertakenBuild(self.robot, self.files)) if self.files else self.earlier
 
 
 def is_interrupted(state_folder: Path) -> bool:

@@ -10,9 +10,8 @@ from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest, normalised, shown
-from urdfsync.state import bases, expansion, planned, replaced, statefile
+from urdfsync.state import bases, expansion, replaced, statefile
 from urdfsync.state.expansion import Expansion
-from urdfsync.state.planned import PlannedFile
 from urdfsync.state.record import Record
 from urdfsync.state.replaced import Replaced
 from urdfsync.state.transaction import FileChange
@@ -82,12 +81,6 @@ class Store:
         """The robot's source as it was expanded last; None if it never was, or if that is lost."""
         content = self._bytes(self.expansion(robot))
         return None if content is None else expansion.loads(content)
-
-    def planned_files(self) -> tuple[PlannedFile, ...]:
-        """The planned changes of builds that are not complete, in their order. Raises OutputError for a link."""
-        path = self.folder / planned.FILE
-        build = planned.parse(path, self._bytes(path))
-        return tuple(file for one in build.overtaken() for file in one.files) if build else ()
 
     def base(self, robot: str, sha256: str) -> str | None:
         """The text with this hash (see `text_digest`) that was generated once for a robot; None if it is lost."""

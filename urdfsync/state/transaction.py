@@ -7,8 +7,8 @@
    name then, where its hash shows whether it is the one that was planned with. If it is not, somebody has saved the
    target in between: the two are exchanged back, and the target is *overtaken*.
 5. The recorded state takes its place, unless a target was overtaken.
-6. What is left under temporary names is removed, and then the planned hashes, unless a target was overtaken: those
-   stand until a build of this robot is complete.
+6. What is left under temporary names is removed, and then the planned hashes. If a target was overtaken, the next
+   plan knows the texts that were written by their bases.
 
 From the fourth on, every write can be done twice: recovery resumes at step 4. A
 temporary name that holds bytes that nobody planned with holds a save of the user's. It is put back, or kept beside the
@@ -30,7 +30,6 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations, planned
 from urdfsync.state.planned import PlannedBuild, PlannedFile
-from urdfsync.state.record import FileRecord
 
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
@@ -50,8 +49,6 @@ class FileChange(msgspec.Struct, frozen=True):
     """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
     is_moved: bool = False
     """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
-    record: FileRecord | None = None
-    """The file's record then; None if it has none."""
 
 
 class Applied(msgspec.Struct, frozen=True):
@@ -65,11 +62,9 @@ class Applied(msgspec.Struct, frozen=True):
 class Transactions:
     """The writer of one configuration; for the holder of the build lock only."""
 
-    def __init__(
-        self, root: Path, state_folder: Path, outputs: Sequence[Path] = (), robots: Collection[str] = ()
-    ) -> None:
-        """`root` is the configuration's folder, `robots` are its names; `outputs` may be written to as well."""
-        self._root, self._state_folder, self._outputs, self._robots = root, state_folder, outputs, robots
+    def __init__(self, root: Path, state_folder: Path, outputs: Sequence[Path] = ()) -> None:
+        """`root` is the configuration's folder; `outputs` may be written to as well."""
+        self._root, self._state_folder, self._outputs = root, state_folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._planned = state_folder / planned.FILE
         self._draft = state_folder / planned.DRAFT
@@ -82,12 +77,10 @@ class Transactions:
         """
         hashes = (None if change.content is None else digest(change.content) for change in changes)
         files = tuple(
-            PlannedFile(self._key(one.path), one.old, new, one.is_moved, one.record)
+            PlannedFile(self._key(one.path), one.old, new, one.is_moved)
             for one, new in zip(changes, hashes, strict=True)
         )
-        before = self._load(self._planned)
-        earlier = before.overtaken() if before else ()
-        build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)), earlier)
+        build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)))
         targets, made, has_begun = self._targets(build), self._missing_folders(changes), False
         try:
             self._prepare(build, made, targets, [change.content for change in changes])
@@ -117,13 +110,13 @@ class Transactions:
                 self._discard(self._targets(draft))
             file_operations.remove(self._draft)
             build = self._load(self._planned)
-            if build is not None and build.files:
+            if build is not None:
                 applied = self._finish(build, self._targets(build))
                 found = applied.diagnostics
                 if not applied.not_done:
                     message = f"the last build of robot `{build.robot}` was interrupted; it is finished"
                     found = Diagnostic(Severity.NOTE, "recovered", message), *found
-            elif build is None and planned.is_interrupted(self._state_folder):
+            elif planned.is_interrupted(self._state_folder):
                 file_operations.remove(self._planned)
                 message = "an interrupted build belongs to another folder or can't be read; it is ignored"
                 hint = f"look for files .*{TEMPORARY} in packages: they may hold what you saved during that build"
@@ -198,19 +191,8 @@ class Transactions:
                 found.append(Diagnostic(Severity.WARNING, "kept-save", text, shown(target.path)))
         for key in build.emptied:
             file_operations.remove_folder(Path(placed(self._prefix, key)))
-        if not not_done:
-            self._forget(build)
+        file_operations.remove(self._planned)
         return Applied(tuple(not_done), tuple(found))
-
-    def _forget(self, build: PlannedBuild) -> None:
-        """Remove the planned hashes of a complete build, and of those of its robot before. Raises OSError."""
-        left = tuple(one for one in build.earlier if one.robot != build.robot and one.robot in self._robots)
-        if left:
-            file_operations.remove(self._draft)
-            file_operations.write_bound(self._draft, PlannedBuild(build.robot, build.token, (), (), left))
-            file_operations.replace(self._draft, self._planned)
-        else:
-            file_operations.remove(self._planned)
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to make, outermost first."""
