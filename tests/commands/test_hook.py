@@ -20,7 +20,7 @@ from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, r
 
 from urdfsync import cli
 from urdfsync.state.lock import build_lock
-from urdfsync.state.planned import is_interrupted
+from urdfsync.state.transaction import is_interrupted
 
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 

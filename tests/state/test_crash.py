@@ -27,7 +27,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
-from urdfsync.state.planned import is_interrupted
+from urdfsync.state.transaction import is_interrupted
 
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
 REMOVED = f"{LADDER}/Elements/R2.mo"

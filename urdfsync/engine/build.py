@@ -16,7 +16,16 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, SourceError, StateError, UrdfsyncError
+from urdfsync.diagnostics import (
+    ConfigError,
+    Diagnostic,
+    OutputError,
+    Severity,
+    SourceError,
+    StateError,
+    UrdfsyncError,
+    findings_of,
+)
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -25,9 +34,8 @@ from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError, build_lock
-from urdfsync.state.planned import is_interrupted
 from urdfsync.state.store import Store
-from urdfsync.state.transaction import Transactions, UnfinishedError
+from urdfsync.state.transaction import Transactions, UnfinishedError, is_interrupted
 
 if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
@@ -86,9 +94,7 @@ class _Builder:
                 source_error=error if isinstance(error, SourceError) else None,
             )
         except OSError as error:
-            place = Path(error.filename) if isinstance(error.filename, str) else robot.folder
-            found = (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), shown(place)),)
-            return msgspec.structs.replace(result, diagnostics=found, failed=True)
+            return msgspec.structs.replace(result, diagnostics=findings_of(error), failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
         return msgspec.structs.replace(
             result,
@@ -124,7 +130,7 @@ class _Builder:
             saved = overtaken[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
-        raise OutputError(Diagnostic(Severity.ERROR, "restless", message, shown(saved), hint=hint))
+        raise OutputError.of("restless", message, shown(saved), hint=hint)
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
@@ -157,7 +163,7 @@ class _Builder:
             lock.acquire(self._wait)  # where that can't be, nobody is writing
         if is_interrupted(self._state_folder):
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
-            raise StateError(Diagnostic(Severity.ERROR, "interrupted", message, shown(self._state_folder), hint=hint))
+            raise StateError.of("interrupted", message, shown(self._state_folder), hint=hint)
 
     def _wait(self) -> None:
         self._options.progress(f"{WAITING} {self._lock.holder()}, which is building", 0, 1)

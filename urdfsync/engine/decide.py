@@ -90,22 +90,22 @@ def decide_package(generation: Generation) -> Decision:
 def _find_files(generation: Generation) -> dict[str, File]:
     """Return every file that is recorded or generated, as it is on disk, by key."""
     inputs, last = generation.inputs, generation.inputs.last
-    found = dict[str, File]()
+    files = dict[str, File]()
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        found[key] = File(role, owner, last.file(key, role, on_disk), on_disk, generated)
+        files[key] = File(role, owner, last.file(key, role, on_disk), on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
     for name, entry in generation.imported.imports.items():
         add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
     before = last.package.artifacts if last.package else {}
-    for key in last.files.keys() - found.keys():
+    for key in last.files.keys() - files.keys():
         path = last.folder.path(key)
         old = before.get(path)
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
-    return found
+    return files
 
 
 def _limit(inputs: Inputs, action: Action) -> Action:
@@ -282,7 +282,7 @@ def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> l
 
 def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
     """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
-    paths = (one.path for one in actions if one.reason is Reason.UNDO and one.generated is None)
+    paths = (action.path for action in actions if action.reason is Reason.UNDO and action.generated is None)
     folder = order.removesuffix("package.order")
     names = (path.removeprefix(folder).removesuffix(".mo") for path in paths if path.startswith(folder))
     return [name for name in names if is_identifier(name)]

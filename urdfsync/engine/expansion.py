@@ -17,7 +17,7 @@ import msgspec
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import read_file, read_variable
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import SourceError
 from urdfsync.engine import ros_packages
 from urdfsync.engine.xacro_worker import Answer, Problem, Request, find_matches
 from urdfsync.extras import install_command
@@ -91,19 +91,19 @@ class Inputs:
             variables={name: variable_hash(name) for name in names.variables},
         )
 
-    def find_changes(self, robot: RobotConfig, known: Expansion) -> tuple[str, ...]:
+    def find_changes(self, robot: RobotConfig, made: Expansion) -> tuple[str, ...]:
         """Return what is other than when a source was made."""
-        now, changed = self.look(robot, known), []
-        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(known, key)]
-        changed += [name for name in {**known.files, **now.files} if known.files.get(name) != now.files.get(name)]
-        changed += [name for name in known.patterns if known.patterns[name] != now.patterns[name]]
-        return (*changed, *(f"${name}" for name in known.variables if known.variables[name] != now.variables[name]))
+        now, changed = self.look(robot, made), []
+        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
+        changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
+        changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
+        return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
 
-    def places(self, known: Expansion) -> list[tuple[int, str, int]]:
+    def places(self, made: Expansion) -> list[tuple[int, str, int]]:
         """Return the line of each element in an expansion, with the file as people see it and the line it is from."""
         try:
-            files = [shown(self.path(name) or Path(name)) for name in known.files]
-            entries = (map(int, re.split("[=:]", entry)) for entry in known.places.split())
+            files = [shown(self.path(name) or Path(name)) for name in made.files]
+            entries = (map(int, re.split("[=:]", entry)) for entry in made.places.split())
             return [(line, files[number], origin) for line, number, origin in entries]
         except (IndexError, ValueError):  # not from here
             return []
@@ -141,7 +141,7 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
-        error = SourceError(Diagnostic(Severity.ERROR, problem.code, message, *place, hint=hint))
+        error = SourceError.of(problem.code, message, *place, hint=hint)
         error.reads, error.patterns = tuple(answer.files), answer.patterns
         raise error
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
@@ -204,4 +204,4 @@ def run_command(config: Config, robot: RobotConfig) -> None:
     if reason:
         message = f"robot `{robot.name}`: the command `{shlex.join(robot.command)}` failed: {reason}"
         place, hint = (shown(config.file), robot.lines.get("command", 0)), "correct it, then build again"
-        raise SourceError(Diagnostic(Severity.ERROR, "command", message, *place, hint=hint))
+        raise SourceError.of("command", message, *place, hint=hint)

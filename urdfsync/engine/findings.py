@@ -35,26 +35,28 @@ _NEW = 6
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
     """Return all findings of a build in the order of their places."""
     inputs, actions = generation.inputs, decision.actions
-    found = [*generation.diagnostics, *inputs.parents.diagnostics]
-    found += _diagnose(generation, decision.misfits)
+    findings = [*generation.diagnostics, *inputs.parents.diagnostics]
+    findings += _diagnose(generation, decision.misfits)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
-        found.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
+        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     if inputs.users_files.is_too_wide:
         message = "no model of yours is looked at: the folders to look through are too many"
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
-        found.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    found += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
+        findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
+    findings += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
     if generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
-        for path, one in inputs.domain.find_doubtful(inputs.last.version, generation.now, generation.changes.renames):
+        for path, finding in inputs.domain.find_doubtful(
+            inputs.last.version, generation.now, generation.changes.renames
+        ):
             line = generation.lines.get(path, 0)
-            found.append(msgspec.structs.replace(one, file=shown(inputs.robot.source), line=line))
+            findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
-        found += _changed_connectors(generation)
-    found = list(map(inputs.source.locate, found))
-    return tuple(sorted(found, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
+        findings += _changed_connectors(generation)
+    findings = list(map(inputs.source.locate, findings))
+    return tuple(sorted(findings, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
 def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Diagnostic]:
@@ -66,17 +68,17 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
         return
     inputs, renamed = generation.inputs, renamed_identifiers(generation)
     places = dict[tuple[object, ...], list[Misfit]]()
-    outside = {one.file for one in misfits if not one.key}
+    outside = {misfit.file for misfit in misfits if not misfit.key}
     folders = {inputs.folder.rpartition("/")[2], inputs.last.folder.rpartition("/")[2]}
     users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
-    for one in misfits:
-        if one.key or one.file in users:
-            what = one.use.part if one.use else (one.finding.code, one.finding.message, one.finding.line)
-            places.setdefault((one.file, what), []).append(one)
+    for misfit in misfits:
+        if misfit.key or misfit.file in users:
+            what = misfit.use.part if misfit.use else (misfit.finding.code, misfit.finding.message, misfit.finding.line)
+            places.setdefault((misfit.file, what), []).append(misfit)
     pairs = dict[tuple[str, str], Misfit]()
     for first, *more in places.values():
         finding = first.finding
-        lines = [*map(str, sorted({one.finding.line for one in more} - {finding.line}))]
+        lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
         hint = _hint(generation, renamed, first.use) if first.use else finding.hint
         yield msgspec.structs.replace(
@@ -145,24 +147,26 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
     complete, robot = inputs.last.version, inputs.robot
     if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
         return
-    found = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
-    if new := [f"`{one.new}`" for one in found if one.old is None]:
+    connectors = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
+    if new := [f"`{connector_change.new}`" for connector_change in connectors if connector_change.old is None]:
         message = f"there is more to connect to: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
-    for one in found:
-        element, connector = one.path
-        if one.old is not None:
-            now = f"is now `{one.new}`" if one.new else "is gone"
-            message = f"{element}: its {connector} `{one.old}` {now}"
+    for connector_change in connectors:
+        element, connector = connector_change.path
+        if connector_change.old is not None:
+            now = f"is now `{connector_change.new}`" if connector_change.new else "is gone"
+            message = f"{element}: its {connector} `{connector_change.old}` {now}"
             place = shown(robot.source), generation.lines.get(element, 0)
-            yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=one.hint)
+            yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=connector_change.hint)
 
 
 def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning of a package that an older urdfsync wrote, that does not fit the library, and waits for conflicts."""
     if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
         return
-    conflicts = [shown(inputs.files.path(one.origin or one.path)) for one in actions if one.kind is Kind.CONFLICT]
+    conflicts = [
+        shown(inputs.files.path(action.origin or action.path)) for action in actions if action.kind is Kind.CONFLICT
+    ]
     if conflicts and any(action.held for action in actions):
         named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
@@ -177,11 +181,11 @@ def orphaned_state(config: Config) -> list[Diagnostic]:
     store = Store(config.root)
     built = set(store.names())
     heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
-    found = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]
-    if not found:
+    stray = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]
+    if not stray:
         return []
-    listed = ", ".join(f"`{name}`" for name in found)
+    listed = ", ".join(f"`{name}`" for name in stray)
     message = f"the state of {listed} is still there, but the configuration has no such robot"
     folder = shown(store.folder / "robots")
-    hint = f"bring the robot back, or delete {folder}/{found[0]}.* and what is left of its package"
+    hint = f"bring the robot back, or delete {folder}/{stray[0]}.* and what is left of its package"
     return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]

@@ -27,9 +27,9 @@ class Package:
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates, name: str) -> None:
         """`name` is the package's full name."""
-        found = sorted(artifacts, key=lambda artifact: artifact.path)
-        self.artifacts: dict[str, Artifact] = {a.path: a for a in found if isinstance(a, Artifact)}
-        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in found if isinstance(a, Order)}
+        in_order = sorted(artifacts, key=lambda artifact: artifact.path)
+        self.artifacts: dict[str, Artifact] = {a.path: a for a in in_order if isinstance(a, Artifact)}
+        self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in in_order if isinstance(a, Order)}
         self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
@@ -58,14 +58,14 @@ class Package:
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text can differ from that of another package of the same templates."""
-        encode, found = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
+        encode, changed = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
         for path, new in self.artifacts.items():
             old = last.artifacts.get(path)
             if old is None or (
                 new is not old and (new.template != old.template or encode(new.data) != encode(old.data))
             ):
-                found.add(path)
-        return frozenset(found)
+                changed.add(path)
+        return frozenset(changed)
 
 
 def generate(
@@ -79,14 +79,14 @@ def generate(
     """Return the package of a model. Raises OutputError for paths that can't be written."""
     # as bytes, since 0.0 == -0.0, but their texts differ
     key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
-    found = _recent.pop(key, None)
-    if found is None:
-        found = tuple(domain.artifacts(snapshot, imports, target, options))
-        check_paths([*(artifact.path for artifact in found), *(entry.target for entry in imports.values())])
-    _recent[key] = found
+    artifacts = _recent.pop(key, None)
+    if artifacts is None:
+        artifacts = tuple(domain.artifacts(snapshot, imports, target, options))
+        check_paths([*(artifact.path for artifact in artifacts), *(entry.target for entry in imports.values())])
+    _recent[key] = artifacts
     while len(_recent) > _MOST:
         del _recent[next(iter(_recent))]
-    return Package(found, templates, target.package)
+    return Package(artifacts, templates, target.package)
 
 
 _MOST = 4
@@ -115,28 +115,28 @@ def check_paths(paths: Sequence[str]) -> None:
     clashes: list[tuple[str, str]] = []
     files: dict[str, str] = {}
     folders: dict[str, str] = {}
-    known: set[str] = set()
+    checked: set[str] = set()
     for path in paths:
         folder, slash, name = path.rpartition("/")
-        if not _is_inside(name) or (slash and folder not in known and not _is_inside(folder)):
+        if not _is_inside(name) or (slash and folder not in checked and not _is_inside(folder)):
             outside.append(path)
             continue
         folded = path.casefold()
         if folded in files:
             clashes.append((files[folded], path))
         files[folded] = path
-        while folder and folder not in known:
-            known.add(folder)
+        while folder and folder not in checked:
+            checked.add(folder)
             other = folders.setdefault(folder.casefold(), folder)
             clashes += [(other, folder)] if other != folder else []
             folder = folder.rpartition("/")[0]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     clashes += [(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
-    found = [("outside", f"{path!r} is no path inside the package") for path in outside]
-    found += [("path-clash", f"`{one}` and `{two}` can't both be in the package") for one, two in clashes]
-    if found:
+    problems = [("outside", f"{path!r} is no path inside the package") for path in outside]
+    problems += [("path-clash", f"`{first}` and `{second}` can't both be in the package") for first, second in clashes]
+    if problems:
         hint = "rename the element, the package or the class"
-        raise OutputError(*(Diagnostic(Severity.ERROR, code, message, hint=hint) for code, message in found))
+        raise OutputError(*(Diagnostic(Severity.ERROR, code, message, hint=hint) for code, message in problems))
 
 
 def _is_inside(path: str) -> bool:
@@ -188,8 +188,8 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
 def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
     """Raise ConfigError for a text from a template of the user's that is not the class that its file is for."""
     path = PurePosixPath(artifact.path)
-    found = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
-    for wrong in found:
+    findings = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
+    for wrong in findings:
         if wrong.severity is Severity.ERROR:
             file, line = renderer.find_origin(artifact.template, artifact.data, text, wrong.line)
             message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
@@ -198,11 +198,11 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
     """The error at a line of a file in a template folder; without a file, of the template itself."""
-    file = file or next((str(one / template) for one in folders if (one / template).is_file()), template)
+    file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to use that of urdfsync" if is_own else "install urdfsync again"
     file = shown(Path(file)) if Path(file).is_absolute() else file
-    return ConfigError(Diagnostic(Severity.ERROR, "template", message, file, line, hint=hint))
+    return ConfigError.of("template", message, file, line, hint=hint)
 
 
 _RENDERING = (

@@ -73,11 +73,11 @@ class RecordedImports:
         return self._imports[key][0] if len(self._imports[key]) == 1 else self._find(key, "").entry
 
     def _find(self, key: str, target: str) -> RecordedFile:
-        found = list[RecordedFile]()
+        files = list[RecordedFile]()
         for entry in self._imports[key]:
             copy = self._copy(entry.target)
-            found.append(RecordedFile(key, target, entry, copy, "" if copy is None else digest(copy)))
-        return next((file for file in found if file.is_intact), found[0])
+            files.append(RecordedFile(key, target, entry, copy, "" if copy is None else digest(copy)))
+        return next((file for file in files if file.is_intact), files[0])
 
     def find(self, dependency: Dependency) -> list[RecordedFile]:
         """Return the files that a dependency became, its own first; none if it was not imported."""
@@ -205,33 +205,33 @@ def _import(
         conversion = domain.convert(dependency, path, text, others)
     except SourceError as error:
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
-    for number, one in enumerate((conversion, *conversion.more)):
+    for number, part in enumerate((conversion, *conversion.more)):
         key = further_key(dependency.key, number) if number else dependency.key
         place = _further_target(dependency.target, number) if number else dependency.target
-        entry = Import(place, sha256, digest(one.content), domain.converter, one.facts, () if number else (*others,))
-        result.add(key, entry, one.content)
+        entry = Import(place, sha256, digest(part.content), domain.converter, part.facts, () if number else (*others,))
+        result.add(key, entry, part.content)
     return None
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
     """Return the files that a conversion needs besides, by their paths from the file's folder; empty if unreadable."""
-    found, waiting = dict[str, bytes](), [*domain.mentioned(dependency, path.name, content)]
-    while waiting and len(found) < _MOST_OTHERS and sum(map(len, found.values())) < MAX_FILE:
+    contents, waiting = dict[str, bytes](), [*domain.mentioned(dependency, path.name, content)]
+    while waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
         name = waiting.pop(0)
-        if name not in found:
-            found[name] = b""
+        if name not in contents:
+            contents[name] = b""
             with contextlib.suppress(OSError, ValueError):  # the conversion goes without it
-                found[name] = read_file(path.parent / name)
-                waiting += domain.mentioned(dependency, name, found[name])
-    return found
+                contents[name] = read_file(path.parent / name)
+                waiting += domain.mentioned(dependency, name, contents[name])
+    return contents
 
 
 def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | None:
     """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
     if not dependency.facts:
         return recorded.facts
-    found = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
-    return found if len(found) == len(dependency.facts) else None
+    facts = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
+    return facts if len(facts) == len(dependency.facts) else None
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
@@ -266,7 +266,7 @@ def _keep_copy(
     if facts is None:
         message = f"{trouble.message}, and the record of its imported copy is incomplete"
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
-        raise StateError(Diagnostic(Severity.ERROR, "lost-state", message, trouble.file, trouble.line, hint=hint))
+        raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
     for file in files:
         entry = file.entry
         # an older copy, which was put back, was not made from the recorded source
@@ -292,19 +292,20 @@ def find_dependencies(
     Packages are searched for only if one of them is not found without; what is not found then either is guessed.
     Modelica libraries come first for the files that are said to be in them, so MODELICAPATH is read before that.
     """
-    found = domain.dependencies(snapshot, lookup, options, lines)
-    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in found):
+    dependencies = domain.dependencies(snapshot, lookup, options, lines)
+    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):
         lookup = msgspec.structs.replace(lookup, libraries=ros_packages.libraries(os.environ))
-        found = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, found)):
-        return found
+        dependencies = domain.dependencies(snapshot, lookup, options, lines)
+    if all(map(_is_found, dependencies)):
+        return dependencies
     lookup = msgspec.structs.replace(lookup, packages=ros_packages.find(lookup.package_paths, lookup.source))
-    found = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, found)):
-        return found
+    dependencies = domain.dependencies(snapshot, lookup, options, lines)
+    if all(map(_is_found, dependencies)):
+        return dependencies
     guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
     guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in guesses]
-    return [one if _is_found(one) else guess for one, guess in zip(found, guesses, strict=True)]
+    pairs = zip(dependencies, guesses, strict=True)
+    return [dependency if _is_found(dependency) else guess for dependency, guess in pairs]
 
 
 def _is_found(dependency: Dependency) -> bool:

@@ -10,7 +10,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import file_type
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, StateError, UrdfsyncError
+from urdfsync.diagnostics import OutputError, StateError, UrdfsyncError
 from urdfsync.domain import Domain, Templates
 from urdfsync.engine import parents, source
 from urdfsync.engine.last_build import LastBuild, option_values
@@ -79,14 +79,14 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if options.adopts and record and (record.snapshot is not None or record.is_united):
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]
-        raise OutputError(Diagnostic(Severity.ERROR, "already-built", message, *place, hint=hint))
+        raise OutputError.of("already-built", message, *place, hint=hint)
     templates = source.templates(config, robot, domain)
     text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, name)
     generator = Generator(robot.domain, domain.revision, templates.digest)
     if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
         message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"
         file = shown(store.path(robot.name))
-        raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, hint="update urdfsync"))
+        raise StateError.of("newer-state", message, file, hint="update urdfsync")
     record = record or Record(
         package=robot.target.package,
         class_=robot.target.name,

@@ -16,8 +16,7 @@ from urdfsync.engine.imports import RecordedImports
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.state.record import FileRecord, Record
-from urdfsync.state.replaced import Replaced
-from urdfsync.state.store import Store
+from urdfsync.state.store import Replaced, Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """Errors that a domain raises for a recorded snapshot that is none of its own."""

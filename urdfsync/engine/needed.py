@@ -40,27 +40,27 @@ def mentioned_files(generation: Generation, actions: Sequence[Action], merged: M
     package = Package(generation, actions, merged)
     words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
-    decided = {one.path for one in actions if one.choice is Choice.KEEP and one.reason in USERS}
+    decided = {action.path for action in actions if action.choice is Choice.KEEP and action.reason in USERS}
     kept_words = set().union(*(words[key] for key in decided & words.keys()))
-    pending = {one.path: one.role for one in actions if one.reason is Reason.DELETE}
+    pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
     needed = set[str]()
     for path, role in pending.items():
         was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts
         is_record = role is Role.RECORD and path not in generation.moves.values()
         if path.endswith(".mo") and class_of(path) in (all_words if is_record or was_needed else kept_words):
             needed.add(path)
-    found = set(needed)
+    all_needed = set(needed)
     while needed:
         texts = [*map(inputs.files.any_text, needed)]
         mentioned = set().union(*(code_words(encode(text)) for text in texts))
         needed = {
             path
-            for path in pending.keys() - found
+            for path in pending.keys() - all_needed
             if (
                 class_of(path) in mentioned
                 if path.endswith(".mo")
                 else any(inputs.last.folder.path(path) in text for text in texts)  # such as a mesh
             )
         }
-        found |= needed
-    return frozenset(found)
+        all_needed |= needed
+    return frozenset(all_needed)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
 from urdfsync.files import Tree, digest, placed, shown, text_digest
@@ -77,7 +77,7 @@ class PackageFiles:
             line = error.object.count(b"\n", 0, error.start) + 1
             hint, place = "save it as UTF-8, then try again", shown(self.path(key))
             message = "the file is not UTF-8, which Modelica demands"
-            raise OutputError(Diagnostic(Severity.ERROR, "no-text", message, place, line, hint=hint)) from None
+            raise OutputError.of("no-text", message, place, line, hint=hint) from None
 
     def any_text(self, key: str) -> str:
         """Return the text of a file that is only searched: empty if it can't be read, since it may be the user's."""

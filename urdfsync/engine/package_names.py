@@ -18,12 +18,12 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
         return {}
     old = inputs.domain.names(inputs.last.version.snapshot, inputs.last.target)
     new = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
-    found = {inputs.last.target.name: inputs.robot.target.name}
+    renamed = {inputs.last.target.name: inputs.robot.target.name}
     for kind, identifiers in old.items():
         for name, identifier in identifiers.items():
             now = generation.renames.get((kind.removesuffix("s"), name), name)
-            found[identifier] = new.get(kind, {}).get(now, identifier)
-    return {one: found[one] for one in sorted(found, key=len, reverse=True) if one != found[one]}
+            renamed[identifier] = new.get(kind, {}).get(now, identifier)
+    return {name: renamed[name] for name in sorted(renamed, key=len, reverse=True) if name != renamed[name]}
 
 
 def renamed_names(generation: Generation) -> dict[str, str]:
@@ -37,14 +37,14 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
     before = declared_names(inputs.last.base(one.generated) or "" for path, one in files.items() if "/" not in path)
-    now, found = known_names(generation), dict[str, str]()
+    now, names = known_names(generation), dict[str, str]()
     for name in sorted((before | {*map(class_of, files)}) - now):
         if new := new_name(name, renamed, now):
-            found[name] = new
+            names[name] = new
     for name, new in renamed.items():  # of classes it may be that of a link and of a joint: only parts are of one alone
         if name in before & now and name in renamed.values() and new in now and name != inputs.last.target.name:
-            found[name] = new
-    return found
+            names[name] = new
+    return names
 
 
 def known_names(generation: Generation) -> frozenset[str]:
@@ -56,7 +56,7 @@ def known_names(generation: Generation) -> frozenset[str]:
 
 def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
     """Return the known name that `part` would have by the new identifiers; empty if there is none."""
-    return next((one for one in new_names(part, renamed) if one in known), "")
+    return next((name for name in new_names(part, renamed) if name in known), "")
 
 
 def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
@@ -81,4 +81,4 @@ def class_of(path: str) -> str:
 def declared_names(texts: Iterable[str]) -> frozenset[str]:
     """Return the names of all classes and components that texts declare."""
     read = (parse_without(text, plain_statements(text)).stored for text in texts)
-    return frozenset(one.path[-1] for stored in read for one in declared(stored.classes))
+    return frozenset(declaration.path[-1] for stored in read for declaration in declared(stored.classes))

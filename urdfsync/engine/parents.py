@@ -38,14 +38,14 @@ class SharedFile(msgspec.Struct, frozen=True):
 
     def change(self, files: PackageFiles) -> FileChange | None:
         """Return what is left to do, from what is on disk now; None if nothing is."""
-        found = files.read(files.key(self.path))
+        content = files.read(files.key(self.path))
         if self.content is not None:
-            return FileChange(self.path, self.content, None) if found is None else None
-        old = None if found is None else found.decode(errors="surrogateescape")
+            return FileChange(self.path, self.content, None) if content is None else None
+        old = None if content is None else content.decode(errors="surrogateescape")
         new = merge_order(old, self.names, self.owned)
         if new == (old or ""):
             return None
-        return FileChange(self.path, encode(new) if new else None, None if found is None else digest(found))
+        return FileChange(self.path, encode(new) if new else None, None if content is None else digest(content))
 
 
 class Parents(msgspec.Struct, frozen=True):
@@ -68,7 +68,9 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             message = f"the output folder {shown(robot.output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
             raise _refusal(config, robot, "output-is-package", message, hint, "output")
-    elif not (existing := next(one for one in (robot.output, *robot.output.parents) if os.path.lexists(one))).is_dir():
+    elif not (
+        existing := next(folder for folder in (robot.output, *robot.output.parents) if os.path.lexists(folder))
+    ).is_dir():
         message = f"the output folder {shown(robot.output)} can't be made: {shown(existing)} is no folder"
         raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
     elif config.root not in robot.output.parents:
@@ -104,15 +106,15 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
         shared.append(SharedFile(folder / "package.mo", text.encode()))
         if folder.parent != output and is_ordered(folder.parent):
             shared.append(SharedFile(folder.parent / "package.order", None, (folder.name,)))
-    found = _find_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
-    return Parents(tuple(shared), is_ordered(robot.folder.parent), found)
+    findings = _find_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
+    return Parents(tuple(shared), is_ordered(robot.folder.parent), findings)
 
 
 def _refusal(
     config: Config, robot: RobotConfig, code: str, message: str, hint: str, key: str = "package"
 ) -> OutputError:
     line, message = robot.lines.get(key, robot.lines[""]), f"robot `{robot.name}`: {message}"
-    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(config.file), line, hint=hint))
+    return OutputError.of(code, message, shown(config.file), line, hint=hint)
 
 
 def _find_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
@@ -147,11 +149,11 @@ def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] =
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)
-    wanted, found = set(names), text.splitlines()
-    if found == list(names) and len(wanted) == len(found):
+    wanted, old_lines = set(names), text.splitlines()
+    if old_lines == list(names) and len(wanted) == len(old_lines):
         return text
     lines, kept = [], set()
-    for line in found:
+    for line in old_lines:
         name = _order_name(line)
         if name in wanted and name not in kept:
             kept.add(name)
@@ -169,7 +171,7 @@ def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] =
             last = max((place + 1 for other, place in places.items() if other), default=0)
             first = next((places[other] for other in names if other in places), last)
             lines.insert(places[names[index - 1]] + 1 if index else first, name)
-    if lines == found:
+    if lines == old_lines:
         return text
     ending = "\r\n" if "\r\n" in text else "\n"
     return ending.join(lines) + ending if any(map(_order_name, lines)) else ""

@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.diagnostics import OutputError, UrdfsyncError
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
@@ -78,15 +78,15 @@ class Pool:
 
     def _result(self, robot: RobotConfig) -> Plan:
         message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps because memory ran out"
-        lost = OutputError(Diagnostic(Severity.ERROR, "lost-process", message, hint="try again with `--jobs 1`"))
+        lost = OutputError.of("lost-process", message, hint="try again with `--jobs 1`")
         future = self._futures.pop(robot.name, None)
         if future is None:  # its place in the queue was lost with a worker
             raise lost
         while wait([future], _PAUSE).not_done:
             done = sum(other.done() for other in self._futures.values())
-            left = len(self._waiting) + len(self._futures) + 1
+            remaining = len(self._waiting) + len(self._futures) + 1
             total = len(self._robots)
-            self._options.progress("reading", total - left + done, total)
+            self._options.progress("reading", total - remaining + done, total)
         try:
             problem = future.exception()
             if problem is None or isinstance(problem, UrdfsyncError):
@@ -98,14 +98,14 @@ class Pool:
             raise problem
         if problem is not None:
             raise lost from problem
-        plan, found = future.result()
-        dependencies.include(found)
+        plan, reads = future.result()
+        dependencies.include(reads)
         return plan
 
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
     """Plan in a worker; also what that has read. Raises UrdfsyncError."""
-    with Dependencies() as found:
+    with Dependencies() as reads:
         plan = plan_robot(config, robot, options)
-    found.add_modules()
-    return plan, found
+    reads.add_modules()
+    return plan, reads

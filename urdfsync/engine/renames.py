@@ -36,14 +36,14 @@ def find_renames_since(
     if open_ is None or not open_.seen:
         return direct
     later = find_renames(domain, open_.seen, now, declared)
-    there, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
+    existing, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
     gone, followed = displaced(open_.renamed), dict[ElementKey, str]()
     for kind, name in _elements(domain, recorded):
         if (kind, name) in gone:
             continue
         last_name = open_.renamed.get((kind, name), name)
         new_name = later.get((kind, last_name), last_name)
-        if (kind, last_name) in elements and (kind, new_name) in there:
+        if (kind, last_name) in elements and (kind, new_name) in existing:
             followed[kind, name] = new_name
     found = _find_declared(domain, recorded, now, declared)
     for more in (followed, direct):

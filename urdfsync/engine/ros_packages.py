@@ -22,14 +22,14 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
     As with rospack, a package holds no others, and folders that ask to be ignored are. Folders that can't be read
     are passed over.
     """
-    found: dict[str, Path] = {}
+    folders_by_name: dict[str, Path] = {}
     for folder in source.parents:
         if name := _package_name(folder):
-            found.setdefault(name, folder)
+            folders_by_name.setdefault(name, folder)
     for folder in folders:
         for name, path in _below(folder):
-            found.setdefault(name, path)
-    return found
+            folders_by_name.setdefault(name, path)
+    return folders_by_name
 
 
 class Packages:
@@ -55,8 +55,8 @@ class Packages:
     def _find(self, name: str) -> Path | None:
         named = [folder / name for folder in (*self.folders, *self.source.parents)]
         near = [*self.source.parents, *named]
-        if found := next((folder for folder in near if _package_name(folder) == name), None):
-            return found
+        if package := next((folder for folder in near if _package_name(folder) == name), None):
+            return package
         plain = [*named, *(folder for folder in self.source.parents if folder.name == name)]
         return self._all.get(name) or next(filter(is_folder, plain), None)
 
@@ -67,7 +67,7 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
     As Modelica tools have it, a library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the
     folder without a version comes first, then the newest version.
     """
-    found: dict[str, Path] = {}
+    folders: dict[str, Path] = {}
     for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):
         folder = Path(entry).absolute()
         try:
@@ -76,8 +76,8 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
             continue
         for name in sorted(names, key=_precedence):
             if is_visible_file(folder / name / "package.mo"):
-                found.setdefault(name.partition(" ")[0], folder / name)
-    return found
+                folders.setdefault(name.partition(" ")[0], folder / name)
+    return folders
 
 
 def _precedence(name: str) -> tuple[bool, list[int], str]:

@@ -152,7 +152,7 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
         content = read_unrecorded(file)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
-        raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(file), hint=hint)) from None
+        raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
         return Source(content, shown(file))
     from urdfsync.engine import expansion
@@ -165,16 +165,16 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
 
 def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
     """Return what xacro said of a source, and the arguments that it does not have; they are given at `place`."""
-    found = []
+    findings = []
     for name in made.unused:
         message = f"{robot}the source has no argument `{name}`"
-        found.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
+        findings.append(Diagnostic(Severity.WARNING, "unused-argument", message, *place, hint="correct its name"))
     for text in made.warnings:
         kind, _, message = text.partition(": ")
         is_warning = kind in ("warning", "error")
         severity = Severity.WARNING if is_warning else Severity.NOTE
-        found.append(Diagnostic(severity, "xacro-said", message if is_warning else text, shown(file)))
-    return tuple(found)
+        findings.append(Diagnostic(severity, "xacro-said", message if is_warning else text, shown(file)))
+    return tuple(findings)
 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:
@@ -188,7 +188,7 @@ def _read(config: Config, robot: RobotConfig) -> bytes:
     message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
     line = robot.lines.get("source", 0)
     hint = "`urdfsync build` runs its command" if robot.command else "correct `source`, or export the file again"
-    raise SourceError(Diagnostic(Severity.ERROR, "no-source", message, shown(config.file), line, hint=hint))
+    raise SourceError.of("no-source", message, shown(config.file), line, hint=hint)
 
 
 def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
@@ -198,7 +198,7 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
         if not is_folder(folder):
             message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
             line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-templates", message, shown(config.file), line, hint=hint))
+            raise ConfigError.of("no-templates", message, shown(config.file), line, hint=hint)
         _check_templates(folder)
     return domain_templates(domain, *folders)
 
@@ -227,7 +227,7 @@ def _check_templates(folder: Path) -> None:
                 hint = "move it out of the template folder"
             else:
                 continue
-            raise ConfigError(Diagnostic(Severity.ERROR, "template", message, shown(path), hint=hint))
+            raise ConfigError.of("template", message, shown(path), hint=hint)
 
 
 def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
@@ -235,7 +235,7 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
 
     Raises ConfigError with every option that does not suit the model.
     """
-    found = tuple(
+    findings = tuple(
         msgspec.structs.replace(
             said,
             message=f"robot `{robot.name}`: {said.message}",
@@ -244,9 +244,9 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
         )
         for option, said in domain.check_options(snapshot, robot.options)
     )
-    if errors := [said for said in found if said.severity is Severity.ERROR]:
+    if errors := [said for said in findings if said.severity is Severity.ERROR]:
         raise ConfigError(*sorted(errors, key=lambda error: error.line))
-    return found
+    return findings
 
 
 def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
@@ -255,7 +255,7 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
     Raises SourceError with all that is wrong in it.
     """
     reading = _read_model(domain, msgspec.json.encode(options), content, name)  # type: ignore[arg-type] # it is an object
-    if reading.snapshot is None or any(found.severity is Severity.ERROR for found in reading.diagnostics):
+    if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
 

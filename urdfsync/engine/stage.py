@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Actions, Kind
 from urdfsync.engine.conflicts import Conflict, conflict_files
@@ -20,11 +20,10 @@ from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.rules import files_after, pending_choices
 from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
-from urdfsync.state import bases, expansion, replaced, statefile
+from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.bases import DIGITS
 from urdfsync.state.record import FileRecord, Open, Record
-from urdfsync.state.replaced import Replaced
-from urdfsync.state.store import StateHashes
+from urdfsync.state.store import Replaced, StateHashes
 from urdfsync.state.transaction import FileChange
 
 
@@ -76,7 +75,9 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         versions = [conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts]
         texts = {path: encode(text) for version in versions for path, text in version}
         changes += store.save_conflicts(robot.name, texts)
-        changes += store.save(store.replaced_file(robot.name), replaced.dumps(aside))
+        changes += store.save(
+            store.replaced_file(robot.name), msgspec.json.encode(aside, order="sorted") if aside else None
+        )
         expanded = inputs.source.expansion
         if not inputs.source.stale:
             state += store.save(store.expansion(robot.name), expansion.dumps(expanded) if expanded else None)
@@ -164,7 +165,7 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
         if content is None:
             message, file = "it can't be written: the file that it is imported from is missing", shown(files.path(key))
             hint = "restore that file, or the imported copy"
-            raise OutputError(Diagnostic(Severity.ERROR, "no-source", message, file, hint=hint))
+            raise OutputError.of("no-source", message, file, hint=hint)
         return content
     generated, state = generation.package.content(path), files.state(key)
     mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""

@@ -17,7 +17,7 @@ from urdfsync.engine.conflicts import BOTH_SIDES, Conflict
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import text_hash
 from urdfsync.state.record import Choice, UsersChoice, role_of, sides_hash
-from urdfsync.state.replaced import Replaced
+from urdfsync.state.store import Replaced
 
 _MANY = 100
 """If a build writes over more files that nobody edited, these are not put aside: it was no export, but a template."""

@@ -31,13 +31,13 @@ class UsersFiles(msgspec.Struct, frozen=True):
 
     def tops(self) -> dict[str, Path]:
         """Return the files or folders of top-level classes, by name; where several have one name, none."""
-        found = dict[str, set[Path]]()
+        places_by_name = dict[str, set[Path]]()
         for path in self.all:
             folder = path.parent.parent if path.name == "package.mo" else path.parent
             if folder / "package.mo" not in self.all:
                 place = path.parent if path.name == "package.mo" else path
-                found.setdefault(class_of_file(path), set()).add(place)
-        return {name: places.pop() for name, places in found.items() if len(places) == 1}
+                places_by_name.setdefault(class_of_file(path), set()).add(place)
+        return {name: places.pop() for name, places in places_by_name.items() if len(places) == 1}
 
 
 def find_users_files(
@@ -48,7 +48,10 @@ def find_users_files(
     They are below the configuration's folder, `output` and what `users` names. Left out are the packages of all robots,
     of which `former_folder` may be one, other projects, virtual environments, and what can't be read.
     """
-    packages, found = {str(one.folder) for one in config.robots} | {str(former_folder)}, dict[Path, bytes]()
+    packages, contents = (
+        {str(configured.folder) for configured in config.robots} | {str(former_folder)},
+        dict[Path, bytes](),
+    )
     places = (config.root, robot.output, *robot.users)
     folders = (place for place in places if place.suffix != ".mo")
     try:
@@ -58,5 +61,5 @@ def find_users_files(
     for path in (*below, *(place for place in places if place.suffix == ".mo")):
         if not any(str(parent) in packages for parent in path.parents):
             with contextlib.suppress(OSError):
-                found[path] = dependencies.read_file(path)
-    return UsersFiles(found, files_that_use(found, names))
+                contents[path] = dependencies.read_file(path)
+    return UsersFiles(contents, files_that_use(contents, names))

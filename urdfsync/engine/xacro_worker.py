@@ -141,7 +141,8 @@ def find_matches(pattern: str) -> list[str]:
     except (OSError, ValueError):  # the pattern may be a stranger's, and no name of a folder
         return []
     is_hidden = name.startswith(".")
-    return sorted(os.path.join(folder, one) for one in filter_names(names, name) if one.startswith(".") == is_hidden)  # noqa: PTH118
+    matches = [match for match in filter_names(names, name) if match.startswith(".") == is_hidden]
+    return sorted(os.path.join(folder, match) for match in matches)  # noqa: PTH118
 
 
 class _Files:

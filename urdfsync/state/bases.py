@@ -29,7 +29,7 @@ def dumps(texts: Mapping[str, str]) -> bytes:
 @functools.lru_cache(maxsize=2 * len(DIGITS))  # the daemon looks at all of them in each build
 def loads(content: bytes) -> Mapping[str, str]:
     """Return the texts of one file by their hashes; damaged lines are passed over."""
-    found = {}
+    texts = {}
     for line in content.split(b"\n"):
         sha256, _, encoded = line.partition(b" ")
         try:
@@ -37,5 +37,5 @@ def loads(content: bytes) -> Mapping[str, str]:
         except ValueError:  # no JSON, or no UTF-8
             continue
         if digest(text.encode()).encode() == sha256:
-            found[sha256.decode()] = text
-    return found
+            texts[sha256.decode()] = text
+    return texts

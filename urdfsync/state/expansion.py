@@ -60,7 +60,7 @@ def loads(content: bytes) -> Expansion | None:
     text = content.decode(errors="replace").replace("\r\n", "\n").removeprefix(_HEADER)
     head, _, rest = text.partition(_END)
     try:
-        found = msgspec.structs.replace(msgspec.json.decode(f"{head}{_END}", type=Expansion), text=rest)
+        read = msgspec.structs.replace(msgspec.json.decode(f"{head}{_END}", type=Expansion), text=rest)
     except (msgspec.DecodeError, RecursionError):
         return None
-    return found if found.format == 1 and dumps(found) == (_HEADER + text).encode() else None
+    return read if read.format == 1 and dumps(read) == (_HEADER + text).encode() else None

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.files import Tree, failure, shown
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Lock:
             self._wait = 0
             message = f"{self.holder()} is building here, and did not finish in time"
             hint = "wait for it or end it, then build again"
-            raise LockedError(Diagnostic(Severity.ERROR, "locked", message, shown(self._file), hint=hint)) from None
+            raise LockedError.of("locked", message, shown(self._file), hint=hint) from None
         except OSError as error:
             raise failure(error, self._file, "it can't be locked") from None
         self._lock = lock

@@ -67,7 +67,7 @@ class FileRecord(msgspec.Struct, frozen=True):
             return None
         if isinstance(mine, str) and mine in self.hashes:
             return mine
-        return next((one for one in self.hashes if one != generated), self.hashes[0])
+        return next((sha256 for sha256 in self.hashes if sha256 != generated), self.hashes[0])
 
 
 class Generator(msgspec.Struct, frozen=True):

@@ -15,7 +15,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import, Snapshot
 from urdfsync.files import digest
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record, UsersChoice
@@ -63,7 +63,7 @@ def dumps(record: Record) -> str:
     listed = [f"file {sha256}  {path}" for path, sha256 in sorted(files)]
     if not record.is_united:
         lines.add(_line("sum", _sum([*lines, *listed])))
-    return "\n".join(f"{one}\n" for one in [_HEADER.rstrip(), *sorted(lines), *listed])
+    return "\n".join(f"{line}\n" for line in [_HEADER.rstrip(), *sorted(lines), *listed])
 
 
 def _line(word: str, value: object) -> str:
@@ -82,7 +82,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("option", item) for item in record.options.items())
     if record.snapshot is not None:
         yield from (("model", fact) for fact in _elements(record.snapshot))
-    yield from (("import", (key, one)) for key, found in record.imports.items() for one in found)
+    yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
         yield from (("choice", item) for item in record.open.choices.items())
         yield from (("seen", fact) for fact in _elements(record.open.seen))
@@ -105,7 +105,7 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
     Raises StateError with file and line for text that is no record, that names files outside of its package, or that a
     newer urdfsync wrote. Unless `strict`, lines that can't be read are passed over.
     """
-    found: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
+    values: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
     facts, seen_lines = set(), set()
     for number, content in enumerate(text.split("\n"), 1):
         if not content or content.startswith("#"):
@@ -123,14 +123,14 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
             continue
         if word == "format" and value > FORMAT:
             message = f"a newer urdfsync wrote this state (format {value}; this one knows {FORMAT})"
-            raise StateError(Diagnostic(Severity.ERROR, "newer-state", message, file, number, hint="update urdfsync"))
-        found[word].append(value)
-    missing = [word for word in ("format", *_HEADINGS) if not found[word]]
+            raise StateError.of("newer-state", message, file, number, hint="update urdfsync")
+        values[word].append(value)
+    missing = [word for word in ("format", *_HEADINGS) if not values[word]]
     if missing:
         raise _broken(file, 1, f"it has no {' and no '.join(missing)}")
-    record = _record(found, is_whole=found["sum"] == [_sum(facts)])
+    record = _record(values, is_whole=values["sum"] == [_sum(facts)])
     for path in _strange_paths(record):
-        number = next((n for n, one in enumerate(text.split("\n"), 1) if path in one), 1)
+        number = next((n for n, line in enumerate(text.split("\n"), 1) if path in line), 1)
         message = f"the recorded path {path!r} does not belong to the package `{record.package}`"
         raise _broken(file, number, message)
     return record
@@ -147,25 +147,25 @@ def _parse(content: str) -> tuple[str, Any]:
     return word, _DECODERS[word].decode(rest)
 
 
-def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
+def _record(values: Mapping[str, list[Any]], is_whole: bool) -> Record:
     """The record that facts make; of headings that are there twice, the last ones."""
-    package, class_, folder, domain, _, templates = (found[word][-1] for word in _HEADINGS)
-    is_placed = all(len(found[word]) == 1 for word in _PLACE)
-    options = dict(found["option"])
+    package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
+    is_placed = all(len(values[word]) == 1 for word in _PLACE)
+    options = dict(values["option"])
     hashes: dict[str, list[str]] = {}
-    for path, sha256 in found["file"] if is_placed else ():  # else nobody knows where these files are
+    for path, sha256 in values["file"] if is_placed else ():  # else nobody knows where these files are
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
     imports: dict[str, tuple[Import, ...]] = {}
-    for key, one in found["import"]:
-        imports[key] = (*imports.get(key, ()), one)
+    for key, entry in values["import"]:
+        imports[key] = (*imports.get(key, ()), entry)
     open_ = None
-    if found["seen"]:
-        choices = dict(found["choice"])
-        renamed = {(kind, old): new for kind, old, new in found["renamed"]}
-        seen = _snapshot(found["seen"])
-        is_known = seen is not None and len(renamed) == len(found["renamed"])
+    if values["seen"]:
+        choices = dict(values["choice"])
+        renamed = {(kind, old): new for kind, old, new in values["renamed"]}
+        seen = _snapshot(values["seen"])
+        is_known = seen is not None and len(renamed) == len(values["renamed"])
         open_ = Open(
-            choices if len(choices) == len(found["choice"]) else {},
+            choices if len(choices) == len(values["choice"]) else {},
             (seen or {}) if is_known else {},
             renamed if is_known else {},
         )
@@ -173,11 +173,11 @@ def _record(found: Mapping[str, list[Any]], is_whole: bool) -> Record:
         package=package,
         class_=class_,
         folder=folder,
-        generator=Generator(domain, max(found["revision"]), templates),
+        generator=Generator(domain, max(values["revision"]), templates),
         options=options,
-        snapshot=_snapshot(found["model"]),
+        snapshot=_snapshot(values["model"]),
         imports=imports,
-        files={key: FileRecord(tuple(found)) for key, found in sorted(hashes.items())},
+        files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},
         open=open_,
         is_united=not is_whole,
     )
@@ -205,7 +205,7 @@ def _what_is_wrong(content: str, error: Exception) -> str:
 
 
 def _broken(file: str, line: int, message: str) -> StateError:
-    return StateError(Diagnostic(Severity.ERROR, "broken-state", message, file, line, hint=_HINT))
+    return StateError.of("broken-state", message, file, line, hint=_HINT)
 
 
 def _strange_paths(record: Record) -> Iterator[str]:
@@ -215,7 +215,7 @@ def _strange_paths(record: Record) -> Iterator[str]:
         yield folder
     below = len(folder) + 1
     paths = [key[below:] for key in record.files]
-    targets = [entry.target for found in record.imports.values() for entry in found]
+    targets = [entry.target for entries in record.imports.values() for entry in entries]
     yield from (
         path for path in paths if not (_is_inside(path) and (path.startswith(RESOURCES) or path.endswith(".mo")))
     )

@@ -6,14 +6,15 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
+import msgspec
+
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.files import Tree, digest, normalised, shown
-from urdfsync.state import bases, expansion, replaced, statefile
+from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.expansion import Expansion
 from urdfsync.state.record import Record
-from urdfsync.state.replaced import Replaced
 from urdfsync.state.transaction import FileChange
 
 SUFFIX = ".state"
@@ -36,6 +37,22 @@ _FOR_GIT = {
 
 StateHashes: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
+
+
+class Replaced(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One file that a build wrote over."""
+
+    before: str
+    """Text that stood there."""
+    base: str | None = None
+    """The generated text that this took into account: the same if nobody had edited it, None if it is not known."""
+    after: str | None = None
+    """Text that was written; None for the generated one."""
+
+    @property
+    def is_users(self) -> bool:
+        """Whether something of the user's was written over."""
+        return self.base != self.before
 
 
 class Store:
@@ -92,8 +109,11 @@ class Store:
         return None if content is None else bases.loads(content)
 
     def replaced(self, robot: str) -> Mapping[str, Replaced]:
-        """Texts that the last build wrote over, by path below the package."""
-        return replaced.loads(self._bytes(self.replaced_file(robot)) or b"")
+        """Return the texts that the last build wrote over, by path below the package; none if they can't be read."""
+        try:
+            return msgspec.json.decode(self._bytes(self.replaced_file(robot)) or b"{}", type=dict[str, Replaced])
+        except (ValueError, RecursionError):  # it is safe to lose, and may be a stranger's
+            return {}
 
     # --- places ---------------------------------------------------------------------------------------------------
 
@@ -150,19 +170,19 @@ class Store:
 
     def for_git(self) -> list[FileChange]:
         """How git is told what is safe to lose and how states merge; lines of the user's stay."""
-        found = list[FileChange]()
+        changes = list[FileChange]()
         for name, text in _FOR_GIT.items():
             path = self.folder / name
             old = self._bytes(path)
             if old is None:
-                found += self.save(path, text.encode())
+                changes += self.save(path, text.encode())
                 continue
-            known = {line.strip() for line in old.splitlines()}
-            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in known]
+            present = {line.strip() for line in old.splitlines()}
+            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in present]
             if lines:
                 old += b"" if old.endswith(b"\n") or not old else b"\n"
-                found += self.save(path, old + b"".join(b"%s\n" % line for line in lines))
-        return found
+                changes += self.save(path, old + b"".join(b"%s\n" % line for line in lines))
+        return changes
 
     def hashes(self) -> StateHashes:
         """The hashes of all files that were loaded, but for bases.
@@ -176,8 +196,8 @@ class Store:
     def is_unchanged(self, hashes: StateHashes, but: Collection[Path] = ()) -> bool:
         """Whether all files still are as they were then, but for some that somebody else looks at."""
         tree = Tree(self._tree.root)  # which finds folders that have come since
-        found = ((tree.read(path), before) for path, before in hashes.items() if path not in but)
-        return all((None if content is None else digest(content)) == before for content, before in found)
+        contents = ((tree.read(path), before) for path, before in hashes.items() if path not in but)
+        return all((None if content is None else digest(content)) == before for content, before in contents)
 
     def _bytes(self, path: Path) -> bytes | None:
         if path not in self._contents:

@@ -28,9 +28,12 @@ import msgspec
 from urdfsync.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
-from urdfsync.state import file_operations, planned
-from urdfsync.state.planned import PlannedBuild, PlannedFile
+from urdfsync.state import file_operations
 
+PLANNED = "planned.json"
+"""The file of the planned hashes. What stands there is of a build that is at work, or was killed."""
+DRAFT = f".{PLANNED}{TEMPORARY}"
+"""The file's name until all new files are written; nothing has changed as long as it has that."""
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 
@@ -51,6 +54,28 @@ class FileChange(msgspec.Struct, frozen=True):
     """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
 
 
+class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
+    """The change of one file, by SHA-256 (hex) of its bytes; None stands for no file."""
+
+    path: str
+    """POSIX, from the configuration's folder."""
+    old: str | None = None
+    new: str | None = None
+    is_moved: bool = False
+    """As in `FileChange`."""
+
+
+class PlannedBuild(file_operations.Bound, frozen=True):
+    """The planned changes of one build."""
+
+    robot: str
+    token: str
+    """Part of the temporary files' names: hexadecimal."""
+    files: tuple[PlannedFile, ...]
+    emptied: tuple[str, ...] = ()
+    """Folders that go if the build leaves them empty, innermost first."""
+
+
 class Applied(msgspec.Struct, frozen=True):
     """The outcome of a transaction."""
 
@@ -66,8 +91,7 @@ class Transactions:
         """`root` is the configuration's folder; `outputs` may be written to as well."""
         self._root, self._state_folder, self._outputs = root, state_folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
-        self._planned = state_folder / planned.FILE
-        self._draft = state_folder / planned.DRAFT
+        self._planned, self._draft = state_folder / PLANNED, state_folder / DRAFT
 
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes. `emptied` are folders to remove if they are empty then.
@@ -77,8 +101,8 @@ class Transactions:
         """
         hashes = (None if change.content is None else digest(change.content) for change in changes)
         files = tuple(
-            PlannedFile(self._key(one.path), one.old, new, one.is_moved)
-            for one, new in zip(changes, hashes, strict=True)
+            PlannedFile(self._key(change.path), change.old, new, change.is_moved)
+            for change, new in zip(changes, hashes, strict=True)
         )
         build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)))
         targets, made, has_begun = self._targets(build), self._missing_folders(changes), False
@@ -95,8 +119,8 @@ class Transactions:
                 else:
                     self._finish(build, targets)  # Ctrl-C: it takes some milliseconds
             except OSError as problem:
-                known = error.diagnostics if isinstance(error, OutputError) else ()
-                raise UnfinishedError(*known, self._unfinished(problem)) from error
+                told = error.diagnostics if isinstance(error, OutputError) else ()
+                raise UnfinishedError(*told, self._unfinished(problem)) from error
             raise
 
     def recover(self) -> tuple[Diagnostic, ...]:
@@ -104,7 +128,7 @@ class Transactions:
 
         Raises UnfinishedError if that can't be done, OutputError for links on the way.
         """
-        found: tuple[Diagnostic, ...] = ()
+        notes: tuple[Diagnostic, ...] = ()
         try:
             if draft := self._load(self._draft):
                 self._discard(self._targets(draft))
@@ -112,26 +136,35 @@ class Transactions:
             build = self._load(self._planned)
             if build is not None:
                 applied = self._finish(build, self._targets(build))
-                found = applied.diagnostics
+                notes = applied.diagnostics
                 if not applied.not_done:
                     message = f"the last build of robot `{build.robot}` was interrupted; it is finished"
-                    found = Diagnostic(Severity.NOTE, "recovered", message), *found
-            elif planned.is_interrupted(self._state_folder):
+                    notes = Diagnostic(Severity.NOTE, "recovered", message), *notes
+            elif is_interrupted(self._state_folder):
                 file_operations.remove(self._planned)
                 message = "an interrupted build belongs to another folder or can't be read; it is ignored"
                 hint = f"look for files .*{TEMPORARY} in packages: they may hold what you saved during that build"
-                found = (Diagnostic(Severity.WARNING, "unknown-build", message, shown(self._planned), hint=hint),)
+                notes = (Diagnostic(Severity.WARNING, "unknown-build", message, shown(self._planned), hint=hint),)
         except OSError as error:
             raise UnfinishedError(self._unfinished(error)) from error
-        return found
+        return notes
 
     def is_pending(self) -> bool:
         """Whether a build is at work, or was when its process ended."""
-        return planned.is_interrupted(self._state_folder) or file_type(self._draft, follow=False) != 0
+        return is_interrupted(self._state_folder) or file_type(self._draft, follow=False) != 0
 
     def _load(self, file: Path) -> PlannedBuild | None:
-        """The planned hashes of a file, None if there are none, or none of this place. Raises OutputError for links."""
-        return planned.parse(file, Tree(self._root).read(file))
+        """Return the planned hashes of a file; None if they were not written in this very place.
+
+        A file that a stranger has committed is not believed: what is under temporary names would be taken for
+        urdfsync's. Raises OutputError for links.
+        """
+        content = Tree(self._root).read(file)
+        try:
+            build = msgspec.json.decode(content or b"", type=PlannedBuild)
+            return build if file_operations.is_bound(file, build) else None
+        except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            return None
 
     def _prepare(
         self, build: PlannedBuild, made: Sequence[Path], targets: Sequence[_Target], contents: Sequence[bytes | None]
@@ -173,7 +206,7 @@ class Transactions:
         others = [target for target in targets if target.folder != state_folder]
         bases = f"{self._state_folder / 'bases'}{os.sep}"
         # a base is there before the file that was generated with it, and goes after it
-        others.sort(key=lambda one: (one.new is None, one.folder.startswith(bases) == (one.new is None)))
+        others.sort(key=lambda target: (target.new is None, target.folder.startswith(bases) == (target.new is None)))
         changed = [(target, target.change()) for target in others]
         # again, since somebody may have written to an old file through a handle that was opened before
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
@@ -182,17 +215,17 @@ class Transactions:
                 not_done.append(target.path)
         folders = sorted({target.folder for target in targets})
         file_operations.sync([folder for folder in map(Path, folders) if folder.is_dir()])
-        found = []
+        notes = []
         message = "it was saved while a build replaced it; the other text is kept as"
-        left = _temporary_files(folders)
-        for target in targets if left else ():
-            for kept in target.clear(left):
+        temporary_files = _temporary_files(folders)
+        for target in targets if temporary_files else ():
+            for kept in target.clear(temporary_files):
                 text = f"{message} {shown(kept)}"
-                found.append(Diagnostic(Severity.WARNING, "kept-save", text, shown(target.path)))
+                notes.append(Diagnostic(Severity.WARNING, "kept-save", text, shown(target.path)))
         for key in build.emptied:
             file_operations.remove_folder(Path(placed(self._prefix, key)))
         file_operations.remove(self._planned)
-        return Applied(tuple(not_done), tuple(found))
+        return Applied(tuple(not_done), tuple(notes))
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to make, outermost first."""
@@ -211,14 +244,14 @@ class Transactions:
 
     def _targets(self, build: PlannedBuild) -> list[_Target]:
         """The files to change. Raises OutputError for one outside of the outputs, and for a link on the way."""
-        trees, found = [Tree(self._root), *map(Tree, self._outputs)], []
+        trees, targets = [Tree(self._root), *map(Tree, self._outputs)], []
         for number, file in enumerate(build.files):
             path = placed(self._prefix, file.path)
             folder = path.rpartition(os.sep)[0]
             next((tree for tree in trees if tree.covers(path)), trees[0]).check_folder(folder)
             temporary = f"{folder}{os.sep}.{build.token}-{number}{TEMPORARY}"
-            found.append(_Target(folder, Path(path), Path(temporary), file.old, file.new, file.is_moved))
-        return found
+            targets.append(_Target(folder, Path(path), Path(temporary), file.old, file.new, file.is_moved))
+        return targets
 
     def _key(self, path: Path) -> str:
         """A path from the configuration's folder, POSIX."""
@@ -250,19 +283,19 @@ class _Target(msgspec.Struct, frozen=True):
         except (FileNotFoundError, FileExistsError, NotADirectoryError):
             return False  # somebody deleted the file or its folder, or saved a file whose name was free
 
-    def clear(self, left: Collection[str]) -> Iterator[Path]:
+    def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
         """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
 
         So is a text of the user's that was to move here. `left` are the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
-            if str(path) not in left:
+            if str(path) not in temporary_files:
                 continue
-            found = hash_of(path)
-            is_homeless = self.is_moved and found == self.new != hash_of(self.path)
-            if found in (self.old, self.new) and not is_homeless:
+            current = hash_of(path)
+            is_homeless = self.is_moved and current == self.new != hash_of(self.path)
+            if current in (self.old, self.new) and not is_homeless:
                 file_operations.remove(path)
-            elif found is not None:
+            elif current is not None:
                 for number in itertools.count(1):
                     name = self.path.with_name(f"{self.path.name}.saved{'' if number == 1 else number}")
                     with contextlib.suppress(FileExistsError):
@@ -279,32 +312,37 @@ class _Target(msgspec.Struct, frozen=True):
         return True
 
     def _delete(self) -> bool:
-        found, current = hash_of(self.temporary), hash_of(self.path)
-        if found is None and current == self.old:
+        aside, current = hash_of(self.temporary), hash_of(self.path)
+        if aside is None and current == self.old:
             file_operations.replace(self.path, self.temporary)
-            found = hash_of(self.temporary)
-        if found is None:
+            aside = hash_of(self.temporary)
+        if aside is None:
             return current is None
-        if found != self.old:
+        if aside != self.old:
             file_operations.place(self.temporary, self.path)
-        return found == self.old
+        return aside == self.old
 
     def _replace(self) -> bool:
         if os.path.lexists(file_operations.spare(self.temporary)):
             file_operations.exchange(self.temporary, self.path)  # the rest of one that was cut short
-        found, current = hash_of(self.temporary), hash_of(self.path)
-        if found == self.new and current == self.old:
+        aside, current = hash_of(self.temporary), hash_of(self.path)
+        if aside == self.new and current == self.old:
             file_operations.exchange(self.temporary, self.path)
-            found, current = hash_of(self.temporary), self.new
-        if found in (self.new, None):
+            aside, current = hash_of(self.temporary), self.new
+        if aside in (self.new, None):
             return current == self.new
-        if found == self.old:
+        if aside == self.old:
             return True
         if current == self.new:  # what was replaced is somebody's save: it takes its place again
             file_operations.exchange(self.temporary, self.path)
             if hash_of(self.temporary) != self.new:  # and was saved once more: the later save counts
                 file_operations.exchange(self.temporary, self.path)
         return False
+
+
+def is_interrupted(state_folder: Path) -> bool:
+    """Return whether a build is changing files, or was when its process ended. Needs no lock."""
+    return file_type(state_folder / PLANNED, follow=False) != 0
 
 
 def save(file: Path, old: bytes, new: bytes) -> None:
@@ -329,7 +367,7 @@ def save(file: Path, old: bytes, new: bytes) -> None:
     if not is_done:
         message = "it has changed meanwhile, and stays as it is now"
         hint = f"{'an earlier save is kept as ' + shown(kept[0]) + '; ' if kept else ''}run the command again"
-        raise OutputError(Diagnostic(Severity.ERROR, "changed-meanwhile", message, shown(file), hint=hint))
+        raise OutputError.of("changed-meanwhile", message, shown(file), hint=hint)
 
 
 def hash_of(path: Path) -> str | None:
@@ -343,8 +381,8 @@ def hash_of(path: Path) -> str | None:
 
 def _temporary_files(folders: Iterable[str]) -> set[str]:
     """The paths of all temporary files in some folders, `….urdfsync-tmp~` of an exchange of three renames included."""
-    found = set[str]()
+    paths = set[str]()
     for folder in folders:
         with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-            found |= {f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name}  # noqa: PTH208
-    return found
+            paths |= {f"{folder}{os.sep}{name}" for name in os.listdir(folder) if TEMPORARY in name}  # noqa: PTH208
+    return paths
