@@ -171,9 +171,14 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
         return file.read(MAX_FILE) or b""
 
 
+def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
+    """Return the stat values of a path, before its content is read; `(0,)` for none. Raises OSError."""
+    return _look(LSTAT, path)
+
+
 def read_mode(path: str | os.PathLike[str]) -> int:
     """Return the mode of a path, links not followed, before its content is read; 0 for none. Raises OSError."""
-    return _look(LSTAT, path)[0]
+    return read_stat(path)[0]
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
