@@ -94,7 +94,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        files[key] = File(role, owner, last.file(key, role, on_disk), on_disk, generated)
+        files[key] = File(role, owner, last.file(key, role, on_disk, generated), on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))

@@ -50,16 +50,16 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The recorded files by key; those that a build may not touch are left out."""
         return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
 
-    def file(self, key: str, role: Role, on_disk: OnDisk) -> FileRecord:
+    def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file as it is on disk.
 
         A text in the bases is urdfsync's own, whatever is recorded: a build that a save overtook may have written it,
         or git has put it back.
         """
         record = self.files.get(key, NEVER_WRITTEN)
-        if isinstance(on_disk, str) and role is not Role.IMPORT and on_disk not in record.hashes and self.base(on_disk):
-            return FileRecord((on_disk,))
-        return record
+        if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
+            return record
+        return record if self.base(on_disk) is None else FileRecord((on_disk,))
 
     @cached_property
     def options(self) -> Any:
