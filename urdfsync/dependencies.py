@@ -63,7 +63,7 @@ class Dependencies:
             self.complete = False  # it changed between two reads
 
     def add_modules(self) -> None:
-        """Record the program itself, which somebody may be working on; Python goes by its version."""
+        """Record the program itself, which a developer may change; Python goes by its version."""
         for name, module in list(sys.modules.items()):
             file = getattr(module, "__file__", None)
             if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
@@ -157,7 +157,7 @@ def read_file(path: str | os.PathLike[str]) -> bytes:
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: where `read_stat` has, or nobody asks for dependencies."""
+    """Read a file as `read_file` does, without recording it: where `read_mode` has, or no answer depends on it."""
     # a pipe would wait for somebody who writes to it
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())

@@ -325,10 +325,10 @@ def test_a_trajectory_that_is_no_number_or_ends_early_does_not_agree(
     )
     found = tried()
     assert found.agreement["me"] == math.inf
-    assert found.problems == {"cs": "it ends at 0.5 s, not at 1 s"}
+    assert found.problems == {"cs": "the FMU ends at 0.5 s, not at 1 s"}
     openmodelica.results = [CompileResult(fmu=archive())]
     monkeypatch.setattr("urdfsync.check.process.run", Fmpy([], me={"time": [0.0, 0.5, 1.0]}))
-    assert tried().problems == {"me": "it has no variable of the model"}
+    assert tried().problems == {"me": "the FMU has no variable of the model"}
 
 
 def test_a_model_without_a_package_gets_another_name(openmodelica: Compiler) -> None:

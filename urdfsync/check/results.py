@@ -102,7 +102,7 @@ class ToolResult(msgspec.Struct):
 
 
 class CheckResult(msgspec.Struct):
-    """The result for one robot. The check fills it, and nobody changes it afterwards."""
+    """The result for one robot. The check alone fills it."""
 
     robot: str
     package: str

@@ -40,7 +40,7 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     on_conflict: Literal["keep", "merge"] = "keep"
     on_build: Literal["nothing", "check"] = "nothing"
     ignore: frozenset[str] = frozenset()
-    """Codes of warnings and notes that nobody wants to see."""
+    """Codes of warnings and notes that are not shown."""
     renamed: Mapping[str, str] = {}
     """Old → new name of elements, as far as the user declares it."""
 

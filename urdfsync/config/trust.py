@@ -70,7 +70,8 @@ def _find_untrusted(config: Config, message: str, line: int, code: str = "untrus
     except FileNotFoundError:
         folders = []
     except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
-        message, hint = f"it can't be used: {error}", 'write `folders = ["/home/me/robots"]`, in UTF-8'
+        message = f"the file of trusted folders can't be used: {error}"
+        hint = 'write `folders = ["/home/me/robots"]`, in UTF-8'
         raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
     if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None

@@ -25,7 +25,7 @@ from urdfsync.simulate.results import STOP, SimulateOptions
 from urdfsync.simulate.values import modifiers
 
 TOLERANCE = 1e-10
-"""Of the integration inside of an FMU for co-simulation, which whoever imports it can't change."""
+"""The tolerance of the integration inside of an FMU for co-simulation, which importers can't change."""
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16

@@ -128,9 +128,9 @@ def _judge(answer: _Examined, reference: Series) -> Trial:
     agreement, worst, compared = dict[str, float](), dict[str, str](), 0
     for kind, series in answer.series.items():
         if series["time"][-1] < end - _SAME_TIME:
-            problems[kind] = f"it ends at {series['time'][-1]:g} s, not at {end:g} s"
+            problems[kind] = f"the FMU ends at {series['time'][-1]:g} s, not at {end:g} s"
         elif len(series) == 1:
-            problems[kind] = "it has no variable of the model"
+            problems[kind] = "the FMU has no variable of the model"
         if differences := _differences(series, reference):
             worst[kind] = max(differences, key=lambda name: differences[name])
             agreement[kind] = differences[worst[kind]]

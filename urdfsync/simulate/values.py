@@ -45,7 +45,7 @@ def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) 
 
 
 def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
-    """Return the parameter that somebody may have meant: its name is much like `name`, or its last part is.
+    """Return the parameter that the user may have meant: its name is much like `name`, or its last part is.
 
     Of several with such a last part it is one that has most of the other parts, the shortest; empty if there is none.
     """

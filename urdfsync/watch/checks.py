@@ -114,7 +114,7 @@ class CheckQueue:
         except CancelledError:
             pass
         except Exception as error:  # noqa: BLE001 - a bug that one robot meets must not end the checks of all
-            result = BuildCheck(Checked.WRONG, (internal_error(error, "it can't be checked: "),))
+            result = BuildCheck(Checked.WRONG, (internal_error(error, "the package can't be checked: "),))
         finally:
             self._queue.put(CheckEnded(job, result))
 

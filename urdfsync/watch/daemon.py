@@ -329,7 +329,7 @@ class Daemon:
                     robots.pop(0)
                     yield result
             except Exception as error:  # noqa: BLE001 - going on is safe: the next build reads everything from the disk
-                robot, bug = robots.pop(0), internal_error(error, "it can't be built: ")
+                robot, bug = robots.pop(0), internal_error(error, "the robot can't be built: ")
                 yield Result(
                     robot.name, robot.target.package, robot.folder, self._config.root, diagnostics=(bug,), failed=True
                 )

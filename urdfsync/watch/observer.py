@@ -43,7 +43,7 @@ logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
 class Observer(events.FileSystemEventHandler):
-    """Puts paths that may have changed into a queue, until it is closed; paths that matter to nobody are left out."""
+    """Puts paths that may have changed into a queue, until it is closed; paths that matter to no robot are left out."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue
