@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import corpus, fake_omc
 from support.trajectories import write_trajectory
@@ -290,7 +290,8 @@ def test_an_omc_that_does_not_say_its_version_has_no_state(tmp_path: Path, monke
         state(Tool("omc"))
 
 
-@given(st.lists(st.text()))
+@settings(max_examples=30)
+@given(st.lists(st.text(), max_size=5))
 def test_any_texts_are_read_as_answers(texts: list[str]) -> None:
     printed = "".join(f"true\n{omc.quoted(text)}\n" for text in texts)
     assert [one.messages for one in omc.read_answers(printed)[0]] == texts
