@@ -61,7 +61,7 @@ def test_take_replaces_the_edits(contradictory: Path, execute: Execute) -> None:
     execute("build", code=3)
     lines = execute("resolve", MODEL, "--take").lines
     assert lines[0] == "ladder: 4 files written, 2 deleted"
-    assert lines[-1] == f"  accepted   {MODEL}  the generated file; --undo brings your edits back"
+    assert lines[-1] == f"  update     {MODEL}  the generated file; --undo brings your edits back"
     assert MINE not in Path(MODEL).read_text()
     assert FRESH in Path(MODEL).read_text()
     assert execute("build").lines[0] == "ladder: in step, 14 files"
@@ -181,7 +181,7 @@ def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradic
         printed = execute("resolve", MODEL, "--merge", code=3)
         assert "Component `elementR2`: you changed it, the export removes it." in printed.words
         assert f"    urdfsync resolve {Path(MODEL)} --merge --prefer generated" not in printed.lines
-        assert "accepted" not in printed.out
+        assert not any(line.startswith(("  keep ", "  merge ", "  update ")) for line in printed.lines)
         assert MINE in proposal.read_text()
 
 
@@ -336,7 +336,7 @@ def test_an_orphan_has_to_be_named_to_be_deleted(orphan: Path, execute: Execute)
         in execute("resolve", str(orphan), "--merge", code=2).err
     )
     assert (
-        f"  accepted   {orphan.relative_to(Path.cwd())}  deleted; --undo brings it back"
+        f"  delete     {orphan.relative_to(Path.cwd())}  deleted; --undo brings it back"
         in execute("resolve", str(orphan), "--take").lines
     )
     assert not orphan.exists()
@@ -402,7 +402,7 @@ def test_a_file_that_is_saved_after_the_look_stays_in_conflict(
     save_before(monkeypatch, Path(MODEL), MINE, '"Element R2, 2 %"')
     printed = execute("resolve", named, *choice.split(), code=3)
     assert CHANGED in printed.err
-    assert "accepted" not in printed.out
+    assert not any(line.startswith(("  keep ", "  merge ", "  update ")) for line in printed.lines)
     assert '"Element R2, 2 %"' in Path(MODEL).read_text()
     assert conflicts(execute) == ["Ladder.mo"]
 
@@ -510,7 +510,7 @@ def test_without_a_base_the_editor_sees_both_texts(execute: Execute, editor: Edi
     own = 'within Ladder;\nmodel Ladder "of both"\nend Ladder;\n'
     copy = project.parent / "seen"
     editor(f"Path({str(copy)!r}).write_text(file.read_text()); file.write_text({own!r})")
-    assert f"  accepted   {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines
+    assert f"  merge      {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines
     assert Path(MODEL).read_text() == own
     seen = copy.read_text()
     assert seen.startswith('<<<<<<< mine\nmodel Ladder "of mine"\n=======\nwithin ')

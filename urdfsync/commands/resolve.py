@@ -20,21 +20,9 @@ from urdfsync.engine.build import build
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.console import Console, first_lines
-from urdfsync.output.results import file_line, show_result, show_results
+from urdfsync.output.console import Console
+from urdfsync.output.results import show_result, show_results
 from urdfsync.state.record import Choice, UsersChoice
-
-_LINES = 20
-"""So many files are listed at most, without --verbose."""
-_MEANINGS = {
-    Choice.KEEP: "your file as it is",
-    Choice.TAKE: "the generated file; --undo brings your edits back",
-    Choice.MERGE: "both sides' changes",
-    Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
-    Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
-    Choice.EDIT: "as you edited it",
-    Choice.UNDO: "as you had it before",
-}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -102,19 +90,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
-    results = show_results(console, build_and_check(configuration, robots, request))
+    results = show_results(console, build_and_check(configuration, robots, request), named=targets)
     accepted, problems = _compare(targets, results, choice)
-    if not args.dry_run:
-        lines = [
-            file_line(shown(configuration.root / path), "accepted", "green", _meaning(action))
-            for path, action in accepted.items()
-        ]
-        console.tell(first_lines(lines, _LINES, "file", verbose=console.verbose))
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:
         is_error = any(problem.severity is Severity.ERROR for problem in problems)
         code = Exit.ERROR if is_error else Exit.CONFLICT
-    if folder and not args.dry_run and edited.keys() <= accepted.keys():
+    if folder and not args.dry_run and edited.keys() <= accepted:
         shutil.rmtree(folder)
     elif folder:
         hint = "put what you want of it into your file, or edit again"
@@ -170,14 +152,14 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
 
 def _compare(
     targets: Mapping[str, tuple[Result, Action]], results: Sequence[Result], choice: Choice
-) -> tuple[dict[str, Action], list[Diagnostic]]:
-    """Return the actions that the choice led to, by path, and why others did not come about.
+) -> tuple[set[str], list[Diagnostic]]:
+    """Return the paths at which the choice came about, and why it did not at others.
 
     A conflict that the choice does not settle is shown as such, with the reason.
     """
     actions = {action.path: action for result in results for action in result.actions}
     failed = {result.robot for result in results if result.failed}
-    accepted, problems = dict[str, Action](), list[Diagnostic]()
+    accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
         after, place = actions.get(path), shown(Path(os.path.normpath(result.root / (before.origin or path))))
         if result.robot in failed:
@@ -189,7 +171,7 @@ def _compare(
         elif after is None or (after.choice is not choice and before.kind is not Kind.CONFLICT):
             problems.append(_without_effect(choice, before, place))
         elif after.kind is not Kind.CONFLICT:
-            accepted[path] = after
+            accepted.add(path)
     return accepted, problems
 
 
@@ -203,11 +185,3 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
         code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
         hint = "make it yours with --keep, or delete it with --take"
     return Diagnostic(Severity.ERROR, code, message, place, hint=hint)
-
-
-def _meaning(action: Action) -> str:
-    """Return what a choice makes of a file."""
-    words = _MEANINGS[action.choice] if action.choice else "your file has both sides' changes already"
-    if action.generated is None and action.choice is not Choice.UNDO:
-        words = "deleted; --undo brings it back" if action.reason is Reason.DELETE else "yours from now on"
-    return f"{words}, once the other conflicts are resolved" if action.held else words

@@ -14,20 +14,12 @@ from urdfsync.output.console import Console, StyledLine, first_lines, line
 from urdfsync.output.phrases import change_counts, generator_change, reason
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
-from urdfsync.output.results import file_line, headline, result_values
+from urdfsync.output.results import action_word, file_line, headline, result_values
 
 _INPUTS = 5
 """So many inputs that changed are named at most, without --verbose."""
 _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
-_STYLES = {
-    FileStatus.CONFLICT: "bold red",
-    FileStatus.MISSING: "red",
-    FileStatus.STALE: "yellow",
-    FileStatus.EDITED: "cyan",
-    FileStatus.ORPHAN: "magenta",
-    FileStatus.IN_STEP: "green",
-}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -95,7 +87,7 @@ def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLi
     status = action.reason.status or FileStatus.IN_STEP
     says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.held
     why = "" if says_all else conflict or reason(action, result.effective_changes)
-    return file_line(shown_path(result, _path(action)), status, _STYLES[status], why)
+    return file_line(shown_path(result, _path(action)), status, action_word(action)[1], why)
 
 
 def summary(result: Result) -> str:

@@ -11,6 +11,7 @@ from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.outline import change_row, outline
+from urdfsync.state.record import Choice
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -25,6 +26,17 @@ _NAMED = {
     Reason.CONFLICT: "you edited it, and its generated text changed too: {}",
 }
 """Reasons of actions that follow from a change of the model, which takes the place of `{}`."""
+
+_CHOSEN = {
+    Choice.KEEP: "your file as it is",
+    Choice.TAKE: "the generated file; --undo brings your edits back",
+    Choice.MERGE: "both sides' changes",
+    Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
+    Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
+    Choice.EDIT: "as you edited it",
+    Choice.UNDO: "as you had it before",
+}
+"""The text that a choice of the user's gives a file."""
 
 
 def counted(count: int, noun: str) -> str:
@@ -95,6 +107,10 @@ def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> s
 
 
 def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
+    if action.choice and action.kind is not Kind.CONFLICT:
+        is_orphan = action.generated is None and action.choice is not Choice.UNDO
+        kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
+        return kept if is_orphan else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None:
         return action.reason.text
     # records follow from the changes of their element, models and packages from structural ones

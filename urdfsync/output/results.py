@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -58,16 +58,18 @@ def change_line(text: str) -> StyledLine:
     return line((f"  {element}{colon}", "bold" if colon else ""), (what, style))
 
 
-def show_results(console: Console, results: Iterator[Result], *, explain: bool = False) -> list[Result]:
-    """Show what was done with each robot as soon as it is done, and return it all."""
+def show_results(
+    console: Console, results: Iterator[Result], *, explain: bool = False, named: Container[str] = ()
+) -> list[Result]:
+    """Show what was done with each robot as soon as it is done, and return it all; `named` files are listed."""
     shown_results = []
     for result in results:
-        show_result(console, result, explain=explain)
+        show_result(console, result, explain=explain, named=named)
         shown_results.append(result)
     return shown_results
 
 
-def show_result(console: Console, result: Result, *, explain: bool = False) -> None:
+def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot."""
     if console.json:
         console.add_robot(result_values(result))
@@ -78,21 +80,28 @@ def show_result(console: Console, result: Result, *, explain: bool = False) -> N
         return
     lines = [headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))]
     if not console.quiet:
-        lines += result_lines(result, verbose=console.verbose, explain=explain)
+        lines += result_lines(result, verbose=console.verbose, explain=explain, named=named)
     console.print(lines, error=result.failed)
     if result.conflicts:
         console.print(conflict_lines(result, console), error=result.failed)
 
 
-def result_lines(result: Result, *, verbose: bool, explain: bool = False) -> Iterator[StyledLine]:
-    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file."""
+def result_lines(
+    result: Result, *, verbose: bool, explain: bool = False, named: Container[str] = ()
+) -> Iterator[StyledLine]:
+    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file.
+
+    Without it, files that are `named` by their keys are among those that are listed.
+    """
     if result.effective_changes:
         most = None if verbose or explain else _CHANGES
         changed = map(change_line, change_lines(result.effective_changes, most, everything=verbose))
         yield from first_lines(list(changed), _CHANGES, "line", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
-        actions = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]
+        special = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]
+        settled = [action for action in result.actions if action.path in named and action.kind is not Kind.CONFLICT]
+        actions = list({action.path: action for action in (*special, *settled)}.values())
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         why = reason(action, result.effective_changes, brief=True)
         yield file_line(shown_path(result, action.path), *action_word(action), why)
