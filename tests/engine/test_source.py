@@ -139,11 +139,11 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     assert "mass = 1.5" in Path(RECORD).read_text()
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
-        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", f"  urdf/{name}"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}", f"  urdf/{name}"]
         assert execute("status", "--json", code=1).json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
-        assert execute("status", code=1).lines[0] == f"arm: {CHANGED}, 15 files"
+        assert execute("status", code=1).lines[0] == f"arm: {CHANGED}"
     execute("build")
     assert "mass = 2.5" in Path(RECORD).read_text()
     assert execute("status").lines == ["arm: in step, 15 files"]
@@ -240,7 +240,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert execute("build").lines == ["arm: in step, 15 files"]
     assert execute("status").lines == ["arm: in step, 15 files"]
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
-    assert execute("status", code=1).lines == [f"arm: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+    assert execute("status", code=1).lines == [f"arm: {CHANGED}", "  urdf/masses.yaml"]
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 
@@ -284,7 +284,7 @@ def test_files_that_match_a_pattern_are_inputs(project: Path, execute: Execute) 
     xacros.write(project, {"arm.urdf.xacro": xacros.ARM.replace("parts/beam.xacro", "parts/*.xacro")})
     execute("build")
     (project / "urdf/parts/more.xacro").write_text(f'{xacros.HEAD.format("more")}<link name="more"/></robot>')
-    assert execute("status", code=1).lines[:2] == [f"arm: {CHANGED}, 15 files", "  urdf/parts/*.xacro"]
+    assert execute("status", code=1).lines[:2] == [f"arm: {CHANGED}", "  urdf/parts/*.xacro"]
 
 
 def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execute) -> None:
@@ -437,15 +437,15 @@ def test_a_hook_asks_for_every_input(built: Path, execute: Execute, monkeypatch:
     (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
     execute("build")
     repository.git("add", "modelica", ".urdfsync")
-    assert "git add urdf/masses.yaml" in execute("hook", "check", code=1).out
+    assert "git add :/urdf/masses.yaml" in execute("hook", "check", code=1).err
     repository.git("add", "urdf")
     repository.git("reset", "-q", str(EXPANDED))
-    assert f"git add {EXPANDED}" in execute("hook", "check", code=1).out
+    assert f"git add :/{EXPANDED}" in execute("hook", "check", code=1).err
     repository.git("add", ".urdfsync")
     execute("hook", "check")
     (built / "urdf/masses.yaml").write_text("upper: 2.5 # kg\n")
     repository.git("add", "urdf")
-    assert "out of step" in execute("hook", "check", code=1).out
+    assert "out of step" in execute("hook", "check", code=1).err
 
 
 def test_remove_takes_the_expanded_source_away(built: Path, execute: Execute) -> None:
@@ -476,7 +476,7 @@ def test_xacro_is_noticed_whatever_its_name(project: Path, execute: Execute) -> 
     assert "nothing changed" in execute("diff", "urdf/second.urdf", "--against", "urdf/arm.urdf").out
     assert "0.25" in execute("record", "urdf/arm.urdf", "length:=0.25").out
     (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
-    assert execute("status", "second", code=1).lines == [f"second: {CHANGED}, 15 files", "  urdf/masses.yaml"]
+    assert execute("status", "second", code=1).lines == [f"second: {CHANGED}", "  urdf/masses.yaml"]
 
 
 @pytest.mark.parametrize(
@@ -640,7 +640,7 @@ def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute
     assert execute("build").lines == execute("status").lines == ["arm: in step, 9 files"]  # which asks for no trust
     (commanded / "mass.txt").write_text("2.5")
     with unchanged(commanded):
-        assert execute("status", code=1).lines == [f"arm: {CHANGED}, 9 files", "  mass.txt"]
+        assert execute("status", code=1).lines == [f"arm: {CHANGED}", "  mass.txt"]
         assert execute("build", "--check", code=1).lines == [f"arm: {CHANGED}"]
     execute("build", "--trust")
     assert "mass = 2.5" in record.read_text()

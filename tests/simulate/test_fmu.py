@@ -116,7 +116,7 @@ def test_without_openmodelica_it_is_one_line(
     (["--output", "arm.zip"], "an FMU's name ends with .fmu"),
     (["--output", "none/arm.fmu"], "there is no such folder"),
     (["--input", "motion.csv"], "`--input` is the motion for `--check`"),
-    (["--input", "motion.csv", "--check", "--kind", "me"], "a motion is for the check of co-simulation"),
+    (["--input", "motion.csv", "--check", "--kind", "me"], "`--input` is the motion for `--check` of co-simulation"),
 ])  # fmt: skip
 def test_bad_arguments_are_refused_before_anything_is_compiled(
     openmodelica: Compiler, arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]

@@ -94,7 +94,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "OpenModelica though the configuration chooses it, or names its program with `omc`",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
-    "--timeout": {"type": amount, "metavar": "S", "default": 600, "help": "seconds for a robot (default: 600)"},
+    "--timeout": {"type": amount, "metavar": "S", "default": 600.0, "help": "seconds for a robot (default: 600)"},
     "--memory": {"type": amount, "metavar": "GB", "help": "memory for all of it (default: most of what is free)"},
     # never from the configuration: workers may do whatever they want
     "--executor": {

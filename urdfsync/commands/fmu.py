@@ -62,12 +62,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     robot = arguments.select_robot(args, configuration, console)
     if args.check and importlib.util.find_spec("fmpy") is None:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
-    if args.motion and args.kind == "me":
-        raise arguments.UsageError(
-            args.parser, "a motion is for the check of co-simulation", "take `--kind cs` or `both`"
-        )
-    if args.motion and not args.check:
-        raise arguments.UsageError(args.parser, "`--input` is the motion for `--check`", "give both, or none")
+    if args.motion and (args.kind == "me" or not args.check):
+        message = "`--input` is the motion for `--check` of co-simulation"
+        raise arguments.UsageError(args.parser, message, "give both, with `--kind cs` or `both`")
     if args.output and args.output.suffix.lower() != ".fmu":
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:
@@ -87,8 +84,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.add_robot(fmu_to_json(robot.name, exported, kind, trial, file, diagnostics))
     console.tell(fmu_lines(robot.name, exported, kind, trial, file))
     console.findings(diagnostics)
-    code = Exit.OUT_OF_STEP if warnings else Exit.IN_STEP
-    return console.end(code)
+    return console.end(Exit.OUT_OF_STEP if warnings else Exit.IN_STEP)
 
 
 def _findings(trial: Trial, file: Path) -> list[Diagnostic]:

@@ -68,8 +68,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
-    code = Exit.ERROR if stopped else Exit.IN_STEP
-    return console.end(code)
+    return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
 
 
 def input_files(configuration: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:

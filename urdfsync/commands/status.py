@@ -92,6 +92,8 @@ def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLi
 
 def summary(result: Result) -> str:
     """Return what a build would do, as the rest of a line that names the robot."""
+    if result.stale and not result.actions:
+        return "not expanded, so its files were not compared"
     words = build_summary(result)
     if result.failed or result.in_step or result.is_broken or result.stale:
         return words

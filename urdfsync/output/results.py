@@ -99,9 +99,12 @@ def result_lines(
         yield from first_lines(list(changed), _CHANGES, "line", verbose=verbose or explain)
     actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
     if not (verbose or explain):
-        special = [action for action in actions if action.reason in _ALWAYS_LISTED and not action.held]
-        settled = [action for action in result.actions if action.path in named and action.kind is not Kind.CONFLICT]
-        actions = list({action.path: action for action in (*special, *settled)}.values())
+        actions = [
+            action
+            for action in actions
+            if (action.reason in _ALWAYS_LISTED and not action.held)
+            or (action.path in named and action.kind is not Kind.CONFLICT)  # conflicts have lines of their own
+        ]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         why = reason(action, result.effective_changes, brief=True)
         yield file_line(shown_path(result, action.path), *action_word(action), why)
