@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from support import checks
 from support.commands import Execute
 from support.networks import configure, edit
 
@@ -49,8 +50,8 @@ def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command
     assert "nowhere" not in told
 
 
-@pytest.mark.slow
-def test_check_does_not_either(project: Path, execute: Execute) -> None:
+def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("urdfsync.check.run.workers", checks.thread_workers)
     execute("build", "-q")
     edit("modelica/Ladder/package.order", "Ladder\n", "")
     edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error, so that nothing is compiled

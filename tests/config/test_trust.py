@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support import fake_omc
+from support import checks, fake_omc
 from support.commands import Execute
 from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
@@ -133,6 +133,7 @@ def asked(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     configure('on_build = "check"\n\n[check]\ntool = "omc"\n')
     balanced = '"Check of it completed successfully.\nClass it has 4 equation(s) and 4 variable(s)."\n""\n'
     fake_omc.install(tmp_path / "bin", {"checkModel": balanced})
+    monkeypatch.setattr("urdfsync.check.run.workers", checks.thread_workers)
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     return tmp_path / "bin/asked.txt"
@@ -151,7 +152,6 @@ def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: P
     assert not asked.exists()
 
 
-@pytest.mark.slow
 @NEEDS_SCRIPTS
 @pytest.mark.parametrize("command", ["build --trust", "check --trust", "check --tool omc"])
 def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command: str) -> None:
@@ -160,7 +160,6 @@ def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command
     assert "checkModel(" in asked.read_text()
 
 
-@pytest.mark.slow
 @NEEDS_SCRIPTS
 def test_a_trusted_folder_may_choose_openmodelica(asked: Path, trusted: Path, execute: Execute) -> None:
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")
