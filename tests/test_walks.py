@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import collections
 import difflib
+import hashlib
 import re
 import shutil
 import subprocess
@@ -431,10 +432,15 @@ class Walk:
         self.git("add", "-A")
 
     def mark_mixtures(self) -> None:
-        """Texts that git has made of two generated ones count as edits: nobody can tell them from such."""
+        """Texts that git has made of two generated ones count as edits: nobody can tell them from such.
+
+        So do those of a side that was taken, whose generated text is not in the bases of the other.
+        """
+        bases = b"".join(replay.contents(Path(".urdfsync/bases")).values())
         for path, text in texts().items():
-            known = [package[path] for package in self.built.values() if path in package]
-            if not any(is_but_for_edits(text, generated) for generated in known):
+            generated = (package[path] for package in self.built.values() if path in package)
+            known = [text for text in generated if hashlib.sha256(text.encode()).hexdigest().encode() in bases]
+            if not any(is_but_for_edits(text, base) for base in known):
                 self.free.add(path)
 
 
