@@ -122,7 +122,8 @@ def test_a_terminal_is_asked(plant: Path, rc_site: Path, answer: str, stays: boo
 def test_the_last_robot_may_leave_and_another_one_join(project: Path, execute: Execute) -> None:
     assert execute("remove", "ladder", "--yes").lines == ["ladder: removed"]
     assert (project / "urdfsync.toml").read_text() == ""
-    assert "urdfsync.toml: error: the configuration has no robot; `urdfsync add SOURCE`" in execute("build", code=2).err
+    (error,) = execute("build", code=2).errors
+    assert error.startswith("urdfsync.toml: error: the configuration has no robot; add one with `urdfsync add SOURCE`")
     execute("add", "--domain", "rcnetwork", "ladder.json", "-q")
     execute("build", "-q")
 
