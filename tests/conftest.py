@@ -6,6 +6,7 @@ import gc
 import os
 import shutil
 import signal
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,6 +79,13 @@ def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the user's shell sets must not decide about tests."""
     for name in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "NO_COLOR", "FORCE_COLOR", "COLUMNS"):
         monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture(autouse=True)
+def _no_reading_of_another_test() -> None:
+    """A test that breaks a reader meets no source that an earlier test has read in the same process."""
+    if source := sys.modules.get("urdfsync.engine.source"):
+        source._read_model.cache_clear()
 
 
 @pytest.fixture(scope="session")
