@@ -95,7 +95,7 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
             assert action.path in moved
         mine, bases = files[action.path].on_disk, files[action.path].record.hashes
         if action.reason is Reason.DELETE:
-            assert bases == (mine,)
+            assert mine in bases
         if action.writes and mine not in (None, *bases, action.generated):
             others = {one for file in files.values() for one in file.record.hashes}
             assert action.path in moved or (action.reason is Reason.UPDATE and mine in others), (
@@ -127,7 +127,8 @@ def test_places_that_are_handed_on() -> None:
         pytest.param("theirs", "ours", Reason.UPDATE, id="untouched, and the other one is wanted"),
         pytest.param("edited", "new", Reason.CONFLICT, id="edited"),
         pytest.param("edited", "ours", Reason.CONFLICT, id="edited, and nothing may be new"),
-        pytest.param("ours", None, Reason.ORPHAN, id="no longer generated"),
+        pytest.param("ours", None, Reason.DELETE, id="no longer generated"),
+        pytest.param("edited", None, Reason.ORPHAN, id="edited, and no longer generated"),
         pytest.param("new", "new", Reason.ADOPT, id="already right"),
     ],
 )
@@ -135,10 +136,10 @@ def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str |
     file = File(Role.MODEL, record=FileRecord(("ours", "theirs")), on_disk=mine, generated=generated)
     actions = decide({"A.mo": file}, {})
     assert [action.reason for action in actions] == [kind]
-    (record,) = files_after(actions, {"A.mo": file.record}, is_complete=True).values()
-    assert not record.is_ambiguous
-    again = decide({"A.mo": msgspec.structs.replace(file, record=record)}, {})
-    assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted the next time"
+    for record in files_after(actions, {"A.mo": file.record}, is_complete=True).values():
+        assert not record.is_ambiguous
+        again = decide({"A.mo": msgspec.structs.replace(file, record=record)}, {})
+        assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted later"
 
 
 LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)

@@ -99,8 +99,6 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
             elif old_base and old_mine is None and isinstance(mine, str) and file.record == NEVER_WRITTEN:
                 base = old_base  # the user moved the file there by hand
             reason = decide_file(base, mine, generated)
-            if reason is Reason.DELETE and file.record.is_ambiguous:
-                reason = Reason.ORPHAN
         if reason is Reason.FORGET and not file.record.hashes:
             continue  # it was never written, and is not wanted any more
         on_disk_hash = mine if isinstance(mine, str) else None
@@ -183,11 +181,8 @@ def files_after(
             continue
         if action.generated is not None:
             records[action.path] = FileRecord((action.generated,))
-        elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED):
-            # of an ambiguous base one hash is left: not that of the file, or the next build would delete it
-            hashes = recorded[action.path].hashes
-            base = next((sha256 for sha256 in hashes if sha256 != action.mine), hashes[0])
-            records[action.path] = FileRecord((base,))
+        elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED) and action.base is not None:
+            records[action.path] = FileRecord((action.base,))
     return records
 
 
