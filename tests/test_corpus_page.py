@@ -18,11 +18,13 @@ from support.corpus import ABSENT, FOLDER, REPOSITORY
 from support.packages import read
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.urdf.options import LeftOut
+from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.snapshot import from_snapshot
 
 PAGE = REPOSITORY / "tests" / "golden" / "corpus.md"
-HEADER = """| robot | has beside links and joints | drives | sensors | contacts | not modelled | left out by `allow` |
+HEADER = """| robot | has beside links and joints | Run drives | sensors | contacts | not modelled | left out |
 | --- | --- | --- | --- | --- | --- | --- |
 """
 KNOWN = ("link", "joint", "material")
@@ -45,7 +47,10 @@ def rows(file: str) -> Iterator[str]:
     note = next((one.message for one in reading.diagnostics if one.code == "not-modelled"), "")
     counts = note.removeprefix("not modelled: ")
     allowed = ", ".join(f"{count_of(one)} {one.code}" for one in reading.diagnostics if one.code in get_args(LeftOut))
-    drives = sum(joint.actuated for joint in robot.joints)
+    inputs = Counter(
+        drive.command or "free" for drive in connector_names(KinematicTree.of(robot), Options()).drives.values()
+    )
+    drives = ", ".join(f"{count} {command}" for command, count in inputs.items())
     contacts = sum(link.contact is not None for link in robot.links)
     if has or counts:
         numbers = " | ".join(str(number or "") for number in (drives, len(robot.sensors), contacts))

@@ -11,7 +11,14 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Limit, Mimic
 
 
-def joint(name: str, kind: str = "continuous", limit: bool = False, mimic: str = "", actuated: bool = False) -> Joint:
+def joint(
+    name: str,
+    kind: str = "continuous",
+    limit: bool = False,
+    mimic: str = "",
+    actuated: bool = False,
+    measured: bool = False,
+) -> Joint:
     return Joint(
         name,
         kind,  # type: ignore[arg-type]
@@ -20,6 +27,7 @@ def joint(name: str, kind: str = "continuous", limit: bool = False, mimic: str =
         limit=Limit() if limit else None,
         mimic=Mimic(mimic) if mimic else None,
         actuated=actuated,
+        measured=measured,
     )
 
 
@@ -45,6 +53,8 @@ SILENT = [joint("wheel"), *CART[1:7], *CART[9:]]
 
 @pytest.mark.parametrize(("joints", "names", "driven", "passive"), [
     pytest.param(CART, None, DRIVEN, {"caster"}, id="others have a drive"),
+    pytest.param([joint("fork", "revolute", limit=True, measured=True), joint("wheel")], None, {"wheel"}, {"fork"},
+        id="one is only measured"),
     pytest.param(SILENT, None, {*DRIVEN, "caster"}, set(), id="nobody has one"),
     pytest.param(CART, (), set(), {"caster"}, id="none is asked for"),
     pytest.param(CART, ("caster", "caster", "mast"), {"caster", "mast"}, {"caster"}, id="two are asked for"),

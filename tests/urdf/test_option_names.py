@@ -79,6 +79,19 @@ def test_nothing_to_say(options: dict[str, Any]) -> None:
     assert found(**options) == []
 
 
+def test_commands_are_of_joints_that_run_drives() -> None:
+    """Each entry has its own line in the configuration."""
+    wrong = found(CART, commands={"wheel": "effort", "casters": "velocity", "lift": "effort"})
+    assert [(option, said.partition(";")[0]) for option, _, said in wrong] == [
+        ("commands.casters", f"`commands` names `casters`, but the robot has no such {DRIVEN}"),
+        ("commands.lift", f"`commands` names `lift`, but the robot has no such {DRIVEN}"),
+    ]
+    assert "did you mean `caster`?" in wrong[0][2]
+    (left_out,) = found(CART, commands={"caster": "effort"}, driven=("wheel",))
+    words = "`commands` names `caster`, which `driven` leaves out; add it there [drive-of-no-joint]"
+    assert left_out == ("commands.caster", Severity.ERROR, words)
+
+
 def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
     note = (
         "Run and Test do not drive `caster`: no transmission, no ros2_control and no limit; "

@@ -97,7 +97,10 @@ def in_words(kind: Any) -> str:
     if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
     if origin is Mapping:
-        return "a table of strings" if arguments[1] is str else "a table of strings, numbers, true and false"
+        kinds = {str: "strings", float: "numbers"}
+        is_choice = get_origin(arguments[1]) is Literal
+        words = in_words(arguments[1]) if is_choice else kinds.get(arguments[1], "strings, numbers, true and false")
+        return f"a table of {words}"
     if origin in (tuple, list, frozenset):
         return f"a list of {'strings' if arguments[0] in (str, Path) else in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
@@ -210,7 +213,10 @@ class _Reader:
         keys, options = self._read(table, Keys), self._read(table, domain.options)
         if keys is None:
             return None
-        lines |= {f"renamed.{old}": self._line("robots", name, "renamed", old) for old in keys.renamed}
+        for key, value in table.values.items():
+            if isinstance(value, dict):
+                path = ("robots", name) if key in own else ("defaults",)
+                lines |= {f"{key}.{entry}": self._line(*path, key, entry) for entry in value}
         olds: dict[str, str] = {}
         for old, new in keys.renamed.items():
             if (other := olds.setdefault(new, old)) != old:

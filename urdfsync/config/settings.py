@@ -75,7 +75,7 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
     arguments: Mapping[str, str] | None = None
     """Arguments of xacro; None for a source whose name or content may give it to xacro."""
     lines: Mapping[str, int] = {}
-    """Line of every key in the configuration; of the robot's table for `""`, of an old name for `renamed.NAME`."""
+    """Line of every key in the configuration; of the robot's table for `""`, of an entry of a table for `KEY.NAME`."""
 
     @property
     def merging(self) -> bool:

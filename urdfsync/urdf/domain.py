@@ -55,7 +55,7 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 9
+    revision = 10
     fits_since = 9
     warnings = WARNINGS
     options = Options
@@ -66,7 +66,7 @@ class UrdfDomain(Domain):
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
         """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated."""
-        robot, diagnostics, lines, unmodelled = read_robot(content, file, options.allow)
+        robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)

@@ -1,7 +1,7 @@
 """The joints that Run and Test drive.
 
-A joint can be driven if it has one axis and follows no other joint. Some of these are passive, such as casters. Where a
-transmission or ros2_control drives any joint of a source, a continuous joint without them and without limit is passive.
+A joint can be driven if it has one axis and follows no other joint. Some of these are passive, such as casters: joints
+that the source only measures, and where it drives any other joint, continuous ones without a drive and without limit.
 Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a limit was
 meant to be moved by something. A source without any drives has no passive joints.
 """
@@ -28,10 +28,13 @@ def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
 def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
     """Return the names of the joints that could be driven, but are not by the source alone."""
     joints = list(joints)
-    if not any(joint.actuated for joint in joints):
-        return frozenset()
-    free = (joint for joint in joints if joint.type == "continuous" and joint.limit is None and not joint.actuated)
-    return frozenset(joint.name for joint in free if can_be_driven(joint))
+    has_drives = any(joint.actuated for joint in joints)
+
+    def is_passive(joint: Joint) -> bool:
+        is_free = has_drives and joint.type == "continuous" and joint.limit is None and not joint.actuated
+        return can_be_driven(joint) and (joint.measured or is_free)
+
+    return frozenset(joint.name for joint in joints if is_passive(joint))
 
 
 def has_motor(joint: Joint, options: Options) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator, Sequence
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
-from urdfsync.urdf.drives import can_be_driven, passive_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints, passive_joints
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
@@ -30,9 +30,15 @@ def check_options(
     if "package" not in options.approach:
         return
     drivable = [joint.name for joint in joints if can_be_driven(joint)]
+    driven = driven_joints(joints, options)
+    for name in options.commands:
+        if name in drivable and name not in driven:
+            message = f"`commands` names `{name}`, which `driven` leaves out"
+            yield f"commands.{name}", Diagnostic(Severity.ERROR, "drive-of-no-joint", message, hint="add it there")
     for option, given, possible, kind, code in (
         ("frames", options.frames, links, "link", "frame-of-no-link"),
         ("driven", options.driven, drivable, _DRIVABLE, "drive-of-no-joint"),
+        *((f"commands.{name}", (name,), drivable, _DRIVABLE, "drive-of-no-joint") for name in options.commands),
     ):
         for name, count in Counter(given if isinstance(given, tuple) else ()).items():
             if count > 1:
@@ -41,11 +47,16 @@ def check_options(
             if name not in possible:
                 near = nearest(name, possible)
                 hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
-                message = f"`{option}` names `{name}`, but the robot has no such {kind}"
+                message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
-    passive = sorted(passive_joints(joints), key=natural_key) if options.driven is None else []
-    if passive:
-        listed = ", ".join(f"`{name}`" for name in passive)
-        message = f"Run and Test do not drive {listed}: no transmission, no ros2_control and no limit"
-        hint = "if that is wrong, list all joints to drive in `driven`"
-        yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)
+    passive = passive_joints(joints) if options.driven is None else frozenset()
+    measured = {joint.name for joint in joints if joint.measured}
+    for names, reason in (
+        (passive - measured, "no transmission, no ros2_control and no limit"),
+        (passive & measured, "the source only measures them"),
+    ):
+        if names:
+            listed = ", ".join(f"`{name}`" for name in sorted(names, key=natural_key))
+            message = f"Run and Test do not drive {listed}: {reason}"
+            hint = "if that is wrong, list all joints to drive in `driven`"
+            yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
 import msgspec
+
+from urdfsync.urdf.robot import Command
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 """Libraries that all generated packages are written for."""
@@ -32,6 +35,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None
     """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
+    commands: Mapping[str, Command] = {}
+    """The quantity by which Run drives a joint, by URDF names of joints; others go by the source."""
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"

@@ -239,11 +239,13 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     calibration: Calibration | None = None
     safety_controller: SafetyController | None = None
     actuated: bool = False
-    """Whether a `<transmission>` or `<ros2_control>` of the robot drives it."""
+    """Whether a `<transmission>`, `<ros2_control>` or plugin of the robot drives it."""
+    measured: bool = False
+    """Whether these only measure it."""
     transmission: Transmission | None = None
     """None if there is no gear: neither reduction nor offset nor rotor."""
     command: Command = "position"
-    """Quantity by which `<ros2_control>` commands the joint."""
+    """Quantity by which the source commands the joint."""
 
 
 def reflected_inertia(joint: Joint) -> float | None:

@@ -40,7 +40,7 @@ def _plain(element: Link | Joint | Sensor) -> Mapping[str, Any]:
     """Return an element as plain data but for its name."""
     data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
-    for key, default in (("actuated", False), ("command", "position")):
+    for key, default in (("actuated", False), ("measured", False), ("command", "position")):
         if data.get(key) == default:
             del data[key]
     return data

@@ -121,6 +121,8 @@ _WARNINGS = {
     "unknown-reference": "correct the name, or take it out; it has no effect",
     "bad-sensor": "correct the number; it is taken as 0",
     "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
+    "drive-contradiction": "correct one of them, or choose by `commands` in the configuration",
+    "unknown-interface": "correct its name, or take it out",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",

@@ -12,7 +12,7 @@ from lxml import etree
 from support.corpus import FOLDER as CORPUS
 
 from urdfsync.diagnostics import Severity
-from urdfsync.urdf.options import LeftOut
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 
@@ -70,7 +70,7 @@ ODD = {
 
 
 def read(file: str) -> RobotReading:
-    return read_robot((CORPUS / file).read_bytes(), file, get_args(LeftOut))
+    return read_robot((CORPUS / file).read_bytes(), file, Options(allow=get_args(LeftOut)))
 
 
 @pytest.mark.parametrize("file", FILES)
@@ -94,7 +94,8 @@ def test_nothing_is_dropped_and_every_line_is_right(file: str) -> None:
     assert len(reading.robot.links) == len(root.findall("link"))
     assert sum(len(link.visuals) for link in reading.robot.links) == len(root.findall("link/visual"))
     assert sum(len(link.collisions) for link in reading.robot.links) == len(root.findall("link/collision"))
-    named = {str(name) for name in root.xpath("/robot/transmission/joint/@name")}
+    names = root.xpath("/robot/transmission/joint/@name | //plugin/leftJoint/text() | //plugin/rightJoint/text()")
+    named = {str(name) for name in names}
     actuated = {joint.name for joint in reading.robot.joints if joint.actuated}
     assert actuated == named & {joint.name for joint in reading.robot.joints}
     lines = (CORPUS / file).read_text(encoding="utf-8").split("\n")

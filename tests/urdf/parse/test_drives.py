@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from support import urdfs
 
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Dynamics, Joint, Transmission
 
@@ -48,6 +49,15 @@ FORMS = {
     "ros2_control of a sensor": (
         f'<ros2_control name="c" type="sensor"><joint name="roll">{STATE}</joint></ros2_control>',
         [],
+    ),
+    "an interface that only measures": (
+        f"""<transmission name="t"><joint name="roll"><hardwareInterface>JointStateInterface</hardwareInterface></joint>
+            </transmission><ros2_control name="c"><joint name="elbow">{STATE}{COMMAND}</joint></ros2_control>""",
+        ["elbow"],
+    ),
+    "wheels of a plugin": (
+        "<gazebo><plugin name='d'><leftJoint>drive wheel</leftJoint><right_joint>roll</right_joint></plugin></gazebo>",
+        ["drive wheel", "roll"],
     ),
     "of a simulator": ('<gazebo><transmission><joint name="elbow"/></transmission></gazebo>', []),
 }  # fmt: skip
@@ -138,7 +148,7 @@ def test_a_drive_counts_on_a_joint_with_an_axis_only() -> None:
 def test_of_two_gears_the_first_counts() -> None:
     first, other = (transmission("", f"<mechanicalReduction>{n}</mechanicalReduction>") for n in (5, 6))
     reading = read(first, other, control(first))
-    assert [found.code for found in reading.diagnostics] == ["duplicate-element"]
+    assert [found.code for found in reading.diagnostics] == ["drive-contradiction"]
     assert elbow(reading).transmission == Transmission(5.0)
 
 
@@ -148,6 +158,77 @@ def test_a_transmission_of_several_joints_drives_them_without_gears() -> None:
     assert actuated(reading) == ["drive wheel", "elbow"]
     assert [found.code for found in reading.diagnostics] == ["coupled-transmission"]
     assert elbow(reading).transmission is None
+
+
+def interfaces(*names: str, place: str = "joint") -> str:
+    inside = "".join(f"<hardwareInterface>{name}</hardwareInterface>" for name in names)
+    return transmission(**{f"inside_{place}": inside})
+
+
+@pytest.mark.parametrize(("element", "command"), [
+    (interfaces("hardware_interface/EffortJointInterface"), "effort"),
+    (interfaces(" VelocityJointInterface "), "velocity"),
+    (interfaces("VelocityJointInterface", place="actuator"), "velocity"),
+    (interfaces("PosVelJointInterface"), "position"),
+    (interfaces("EffortJointInterface", "JointStateInterface", "VelocityJointInterface"), "velocity"),
+    ("<gazebo><plugin name='d'><leftJoint>elbow</leftJoint></plugin></gazebo>", "velocity"),
+])  # fmt: skip
+def test_commands_of_ros_1_and_of_gazebo(element: str, command: str) -> None:
+    reading = read(element)
+    assert elbow(reading).command == command
+    assert not reading.diagnostics
+
+
+def test_state_interfaces_alone_measure_a_joint_that_nothing_drives() -> None:
+    for measured in (interfaces("JointStateInterface"), control(f'<joint name="elbow">{STATE}</joint>')):
+        assert elbow(read(measured)).measured
+        assert not elbow(read(measured, interfaces("EffortJointInterface"))).measured
+
+
+WAYS = {
+    "ros2_control": control('<joint name="elbow"><command_interface name="position"/></joint>'),
+    "transmission": interfaces("EffortJointInterface"),
+    "gazebo": "<gazebo><plugin name='d'><leftJoint>elbow</leftJoint></plugin></gazebo>",
+}
+
+
+@pytest.mark.parametrize(("first", "second", "command"), [
+    ("ros2_control", "transmission", "position"), ("ros2_control", "gazebo", "position"),
+    ("transmission", "gazebo", "effort"),
+])  # fmt: skip
+def test_of_two_commands_one_counts_whatever_their_order(first: str, second: str, command: str) -> None:
+    for elements in ((WAYS[first], WAYS[second]), (WAYS[second], WAYS[first])):
+        reading = read(*elements)
+        assert elbow(reading).command == command
+        (warning,) = reading.diagnostics
+        assert (warning.code, warning.line) == ("drive-contradiction", 10 + elements.index(WAYS[second]))
+
+
+def test_the_configuration_counts_before_all() -> None:
+    content = urdfs.robot(*BASE, WAYS["ros2_control"], WAYS["transmission"]).encode()
+    reading = read_robot(content, "own.urdf", Options(commands={"elbow": "velocity"}))
+    assert (elbow(reading).command, reading.diagnostics) == ("velocity", ())
+
+
+def test_joint_and_actuator_that_differ_are_told() -> None:
+    both = interfaces("EffortJointInterface").replace(
+        '<actuator name="m">', '<actuator name="m"><hardwareInterface>PositionJointInterface</hardwareInterface>'
+    )
+    reading = read(both)
+    assert [found.code for found in reading.diagnostics] == ["drive-contradiction"]
+    assert elbow(reading).command == "effort"
+
+
+@pytest.mark.parametrize(("element", "words"), [
+    (interfaces("EfortJointInterface"), "transmission t / joint elbow has the unknown interface "
+     "'EfortJointInterface', which has no effect; perhaps 'EffortJointInterface' is meant"),
+    (control('<joint name="elbow"><command_interface name="velocty"/></joint>'), "ros2_control c / joint elbow has "
+     "the unknown interface 'velocty', which has no effect; perhaps 'velocity' is meant"),
+])  # fmt: skip
+def test_an_unknown_interface_is_told_with_its_line(element: str, words: str) -> None:
+    reading = read(element)
+    assert [str(found) for found in reading.diagnostics] == [f"own.urdf:10: warning: {words} [unknown-interface]"]
+    assert (elbow(reading).actuated, elbow(reading).command) == (True, "position")
 
 
 @pytest.mark.parametrize(("names", "command"), [

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pytest
 from support import corpus as corpora
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.source import read_robot
 
 TREE = [link("base"), link("arm", 1.0), joint("j", "continuous", "base", "arm")]
@@ -51,9 +54,9 @@ LEFT_OUT = {
         "1 <sensor>",
     ),
     "of a transmission": (
-        f"""<transmission name="t">{SIMPLE}<joint name="j"><hardwareInterface>E</hardwareInterface></joint>
-        <actuator name="m">{GEAR}<hardwareInterface>E</hardwareInterface></actuator></transmission>""",
-        "2 <hardwareInterface>",
+        f"""<transmission name="t">{SIMPLE}<joint name="j"><role>E</role></joint>
+        <actuator name="m">{GEAR}<role>E</role></actuator></transmission>""",
+        "2 <role>",
     ),
     "another transmission": ('<transmission name="t"><type>Wheel</type><joint name="j"/></transmission>', "1 <type>"),
     "a gear of a joint that does not move": (
@@ -136,16 +139,16 @@ def test_a_robot_of_links_and_joints_has_no_note() -> None:
 @pytest.mark.parametrize(("element", "code"), [
     (LOOP, "loop-joint"), (GAZEBO_LOOP, "loop-joint"), (STRAY, "stray-inertial"),
 ])  # fmt: skip
-def test_what_moves_and_is_in_no_tree_is_an_error_unless_it_is_allowed(element: str, code: str) -> None:
+def test_what_moves_and_is_in_no_tree_is_an_error_unless_it_is_allowed(element: str, code: LeftOut) -> None:
     content = robot(*TREE, element).encode()
     (error,) = read_robot(content, "a.urdf").diagnostics
     assert (error.severity, error.code, error.line) == (Severity.ERROR, code, 6)
     assert f'`allow = ["{code}"]`' in error.hint
-    reading = read_robot(content, "a.urdf", [code])
+    reading = read_robot(content, "a.urdf", Options(allow=(code,)))
     assert reading.robot is not None
     assert [(one.severity, one.code, one.line) for one in reading.diagnostics] == [(Severity.WARNING, code, 6)]
-    (other,) = {"loop-joint", "stray-inertial"} - {code}
-    assert read_robot(content, "a.urdf", [other]).robot is None
+    (other,) = set(get_args(LeftOut)) - {code}
+    assert read_robot(content, "a.urdf", Options(allow=(other,))).robot is None
 
 
 @pytest.mark.parametrize(("element", "name"), [(LOOP, "<loop_joint> bar"), (GAZEBO_LOOP, "<gazebo> bar")])

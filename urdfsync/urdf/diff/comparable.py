@@ -15,8 +15,8 @@ from urdfsync.urdf.snapshot import joints_of
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
     """Return the snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
 
-    Each joint that can be driven has an entry `drive` in place of `actuated`: `driven` or `passive`, as the source has
-    it. One transmission more or less can change it for joints that the transmission does not name.
+    Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, as
+    the source has it. One transmission more or less can change it for joints that the transmission does not name.
     """
     displaced_elements = displaced(renames)
 
@@ -32,7 +32,7 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
     for name, joint in snapshot["joints"].items():
         if ("joint", name) in displaced_elements:
             continue
-        joint = {key: value for key, value in joint.items() if key != "actuated"}
+        joint = {key: value for key, value in joint.items() if key not in ("actuated", "measured")}
         if renames:
             joint |= {end: renamed("link", joint[end]) for end in ("parent", "child")}
             if mimic := joint.get("mimic"):

@@ -19,7 +19,7 @@ from typing import Any
 
 from urdfsync.domain import ElementKey, Snapshot
 
-_NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "drive", "transmission", "command"})
+_NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command"})
 """Entries of the snapshot, in any block, that do not make elements alike.
 
 They are names, or follow from names elsewhere, such as that of the joint in a transmission.

@@ -1,16 +1,23 @@
-"""Read the drives of joints: `<transmission>` and `<ros2_control>`."""
+"""Read how joints are driven: `<ros2_control>`, `<transmission>`, and plugins of Gazebo that turn wheels.
+
+Where several speak of one joint, the configuration counts before all, then `<ros2_control>`, a transmission, a plugin.
+A contradiction is a warning, except to the configuration.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.urdf.parse.fields import Reader
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Transmission
-from urdfsync.urdf.validate import Finding
+from urdfsync.urdf.validate import Finding, perhaps
 
 _REDUCTIONS = (
     "actuator/drake:gear_ratio",
@@ -22,52 +29,110 @@ _REDUCTIONS = (
 )
 """Elements of a transmission that hold its reduction; the first that is there counts."""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
+"""Of several interfaces of a joint, the first of these counts."""
+_INTERFACES: Mapping[str, Command | None] = {
+    "PositionJointInterface": "position",
+    "VelocityJointInterface": "velocity",
+    "EffortJointInterface": "effort",
+    "PosVelJointInterface": "position",
+    "PosVelAccJointInterface": "position",
+    "JointStateInterface": None,
+}
+"""The command of each interface of ROS 1; None for the one that only measures."""
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces of a joint that a model has."""
+_WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
+"""Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
 
 
 class Drive(NamedTuple):
-    """The drive of one joint, as one element describes it."""
+    """A statement about the drive of one joint."""
 
     path: str
-    """For example `transmission wheel_trans / joint wheel`."""
+    """For example `transmission wheel_trans / joint wheel`; empty for the configuration."""
     joint: str
-    element: Element
-    """The `<transmission>`, or the `<joint>` of a `<ros2_control>`."""
+    element: Element | None = None
+    """The element that counts as modelled with it."""
     transmission: Transmission | None = None
     command: Command | None = None
+    is_driven: bool = True
+    """Whether it drives the joint."""
+    is_measured: bool = False
+    """Whether it measures the joint, and no more."""
     is_coupled: bool = False
     """Whether the transmission has other joints, too."""
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
-    """Yield a drive for each joint of a `<transmission>` or `<ros2_control>`.
-
-    A `<ros2_control>` drives the joints of its own transmissions, and those with a `<command_interface>`. It only
-    measures its other joints.
-    """
+    """Yield a drive for each joint of a `<ros2_control>`, a `<transmission>` or a `<gazebo>`."""
+    if element.tag == "gazebo":
+        for wheel in element.iterfind("plugin/*"):
+            if _WHEELS.fullmatch(wheel.tag) and (name := (wheel.text or "").strip()):
+                yield Drive(reader.place(wheel, f"{path} / joint {name}"), name, None, None, "velocity")
+        return
     transmissions = [element]
     if element.tag == "ros2_control":
         transmissions = element.findall("transmission")
         for joint in element.findall("joint"):
-            interfaces = {interface.get("name", ""): interface for interface in joint.findall("command_interface")}
-            states = joint.findall("state_interface")
-            reader.used.update(state for state in states if state.get("name") in _STATES)
-            if interfaces and (name := joint.get("name", "")):
-                command = next((command for command in _COMMANDS if command in interfaces), None)
-                if command:
-                    reader.used.add(interfaces[command])
-                yield Drive(reader.place(joint, f"{path} / joint {name}"), name, joint, None, command)
+            if name := joint.get("name", ""):
+                yield _read_control(reader, joint, reader.place(joint, f"{path} / joint {name}"), name)
     for transmission in transmissions:
         joints = transmission.findall("joint")
         gear = _read_gear(reader, transmission, path) if len(joints) == 1 else None
         for joint in joints:
             if name := joint.get("name", ""):
                 place = reader.place(joint, f"{path} / joint {name}")
-                yield Drive(place, name, transmission, gear, None, len(joints) > 1)
+                commands = _read_interfaces(reader, transmission, joint, place)
+                command = next((command for command in _COMMANDS if command in commands), None)
+                is_measured = commands == {None}
+                yield Drive(place, name, transmission, gear, command, not is_measured, is_measured, len(joints) > 1)
         if len(joints) > 1:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
             reader.add(transmission, "coupled-transmission", message)
+
+
+def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
+    """Return the drive of a joint of `<ros2_control>`: what it commands, or else that it measures the joint."""
+    interfaces = {interface.get("name", ""): interface for interface in joint.findall("command_interface")}
+    states = joint.findall("state_interface")
+    reader.used.update(state for state in states if state.get("name") in _STATES)
+    reader.used.update(interfaces[command] for command in _COMMANDS if command in interfaces)
+    command = next((command for command in _COMMANDS if command in interfaces), None)
+    if interfaces and not command:
+        unknown = next(iter(interfaces))
+        _add_unknown(reader, interfaces[unknown], path, unknown, _COMMANDS)
+    return Drive(path, name, joint, None, command, bool(interfaces), bool(states) and not interfaces)
+
+
+def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
+    """Return the commands of a joint of a transmission, None among them for the interface that measures.
+
+    Those of the actuator count where the joint names none, and there is one joint.
+    """
+    is_alone = len(element.findall("joint")) == 1
+    places = [joint, *(element.findall("actuator") if is_alone else ())]
+    commands = list[set[Command | None]]()
+    for place in places:
+        commands.append(set())
+        for interface in place.findall("hardwareInterface"):
+            name = (interface.text or "").strip()
+            known = name.removeprefix("hardware_interface/")
+            if known in _INTERFACES:
+                reader.used.add(interface)
+                commands[-1].add(_INTERFACES[known])
+            else:
+                _add_unknown(reader, interface, path, name, _INTERFACES)
+    stated = [interfaces for interfaces in commands if interfaces]
+    for other in stated[1:]:
+        if other != stated[0]:
+            message = f"{path}: the interfaces of joint and actuator differ; those of the joint count"
+            reader.add(element, "drive-contradiction", message)
+    return stated[0] if stated else set()
+
+
+def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: Iterable[str]) -> None:
+    message = f"{path} has the unknown interface {quoted(name)}, which has no effect"
+    reader.add(element, "unknown-interface", message, perhaps(name, list(names)))
 
 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
@@ -87,32 +152,51 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
     return None if gear == Transmission() else gear
 
 
+def configured_drives(options: Options) -> Iterator[Drive]:
+    """Yield what the configuration says of drives."""
+    for name, command in options.commands.items():
+        yield Drive("", name, None, None, command)
+
+
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
-    """Return the joints with their drives; of several transmissions of a joint the first counts.
+    """Return the joints with their drives: of contradicting ones of a joint the first counts.
 
     An element that drives a joint without an axis counts as not modelled.
     """
-    joints = list(joints)
-    gears, commands, actuated = dict[str, Drive](), dict[str, Command](), set[str]()
-    by_name = {joint.name: joint for joint in joints if joint.type in MOTION_KINDS}
+    by_joint = defaultdict[str, list[Drive]](list)
     for drive in drives:
-        actuated.add(drive.joint)
-        joint = by_name.get(drive.joint)
-        if joint and not drive.is_coupled:
-            reader.used.add(drive.element)
-        if joint and drive.command and not joint.mimic:
-            commands.setdefault(drive.joint, drive.command)
-        if drive.transmission and gears.setdefault(drive.joint, drive).transmission != drive.transmission:
-            message = f"joint {drive.joint!r} has another gear, and the first counts"
-            reader.extend([Finding("duplicate-element", drive.path, message)])
-    return [
-        msgspec.structs.replace(
-            joint,
-            actuated=True,
-            transmission=gears[joint.name].transmission if joint.name in gears else None,
-            command=commands.get(joint.name, "position"),
-        )
-        if joint.name in actuated
-        else joint
-        for joint in joints
-    ]
+        by_joint[drive.joint].append(drive)
+    return [_with_drives(reader, joint, by_joint[joint.name]) if joint.name in by_joint else joint for joint in joints]
+
+
+def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
+    is_driven = any(drive.is_driven for drive in drives)
+    if joint.type not in MOTION_KINDS:
+        return msgspec.structs.replace(joint, actuated=is_driven)
+    reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
+
+    def first(field: str) -> Drive | None:
+        """Return the first drive that says something of a field; report those that contradict it."""
+        stated = [drive for drive in drives if getattr(drive, field) is not None]
+        for other in stated[1:] if stated and stated[0].path else ():
+            if getattr(other, field) != getattr(stated[0], field):
+                values = [f"{drive.path}: {_words(getattr(drive, field))}" for drive in (stated[0], other)]
+                message = f"joint {joint.name!r} is driven in two ways: {'; '.join(values)}; the first counts"
+                reader.extend([Finding("drive-contradiction", other.path, message)])
+        return stated[0] if stated else None
+
+    gear, command = first("transmission"), None if joint.mimic else first("command")
+    return msgspec.structs.replace(
+        joint,
+        actuated=is_driven,
+        measured=not is_driven and any(drive.is_measured for drive in drives),
+        transmission=gear.transmission if gear else None,
+        command=(command and command.command) or "position",
+    )
+
+
+def _words(value: Transmission | Command) -> str:
+    if isinstance(value, Transmission):
+        rotor = f", rotor inertia {value.rotor_inertia:g}" if value.rotor_inertia is not None else ""
+        return f"reduction {value.reduction:g}, offset {value.offset:g}{rotor}"
+    return value

@@ -17,7 +17,7 @@ import yourdfpy
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import LeftOut
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
@@ -35,7 +35,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
     `file` is how diagnostics name it.
     """
-    reading = read_robot(content, file, get_args(LeftOut))
+    reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
     if reading.robot is None:
         return ()
     return located(compare_readers(content, reading.robot), file, reading.lines)

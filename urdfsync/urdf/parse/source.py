@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -16,9 +16,10 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf import validate
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.contacts import read_contacts
-from urdfsync.urdf.parse.drives import read_drives, with_drives
+from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.sensors import read_sensors
@@ -34,6 +35,7 @@ _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 _TEXTS = ("name", "link", "joint", "filename", "group")
 _VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
 _NEWEST = 1, 2
+_DEFAULTS = Options()
 
 
 class RobotReading(NamedTuple):
@@ -50,8 +52,10 @@ class RobotReading(NamedTuple):
     """One note if any element is not modelled."""
 
 
-def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotReading:
-    """Read a URDF; `file` is how diagnostics name it, `allow` is the option. Raises nothing for bad input.
+def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> RobotReading:
+    """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
+
+    The options say what it may leave out, and how joints are driven.
 
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
@@ -59,8 +63,8 @@ def read_robot(content: bytes, file: str, allow: Collection[str] = ()) -> RobotR
         document = xml.parse(content)
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
-    reader = Reader(document.lines, allow)
-    robot = _read(reader, document) if _is_urdf(reader, document) else None
+    reader = Reader(document.lines, options.allow)
+    robot = _read(reader, document, options) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
@@ -124,7 +128,7 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
     return version
 
 
-def _read(reader: Reader, document: xml.Document) -> Robot:
+def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
@@ -154,7 +158,7 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
         paths = validate.element_paths(tag, [element.get("name", "") for element in children])
         return [(element, reader.place(element, path)) for element, path in zip(children, paths, strict=True)]
 
-    driving = [*elements("transmission"), *elements("ros2_control")]
+    driving = [place for tag in ("ros2_control", "transmission", "gazebo") for place in elements(tag)]
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
     all_links = [
@@ -162,7 +166,8 @@ def _read(reader: Reader, document: xml.Document) -> Robot:
     ]
     all_joints = [read_joint(reader, *place) for place in elements("joint")]
     links = [link for link in all_links if link.name]
-    joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), drives)
+    all_drives = [*configured_drives(options), *drives]
+    joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), all_drives)
     complete = len(links) == len(all_links) and len(joints) == len(all_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}

@@ -28,7 +28,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
-    reading = read_robot(content, file, options.allow)
+    reading = read_robot(content, file, options)
     # such a package lacks a part of the robot
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]

@@ -1,6 +1,6 @@
 within UrdfSync.Examples.WheeledRobot;
 
-model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the model to export as FMU"
+model WheeledRobotRun "Run robot WheeledRobot with commands from outside: the model to export as FMU"
   extends UrdfSync.Robots.PartialMobileBench(
     redeclare WheeledRobotStance stance,
     load = robot.m*world.g);
@@ -12,33 +12,33 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 355}})));
 
-  Modelica.Blocks.Interfaces.RealInput drive_left_phi(unit = "rad")
-    "Where joint \"drive_left\" is to go"
+  Modelica.Blocks.Interfaces.RealInput drive_left_w(unit = "rad/s")
+    "How fast joint \"drive_left\" is to go"
     annotation (Placement(transformation(extent={{-140, 270}, {-120, 290}}), iconTransformation(extent={{-116, 207}, {-100, 223}})));
 
   Modelica.Blocks.Interfaces.RealOutput drive_left_tau(unit = "N.m") = robot.drive_leftAxis.tau
     "What the drive of joint \"drive_left\" has to give"
     annotation (Placement(transformation(extent={{340, 270}, {360, 290}}), iconTransformation(extent={{100, 207}, {116, 223}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position drive_leftDrive(
+  Modelica.Mechanics.Rotational.Sources.Speed drive_leftDrive(
     useSupport = true,
     exact = false,
-    w(fixed = true))
+    phi(start = robot.drive_left.phi_start))
     "Moves joint \"drive_left\", through a filter"
     annotation (Placement(transformation(extent={{-40, 270}, {-20, 290}})));
 
-  Modelica.Blocks.Interfaces.RealInput drive_right_phi(unit = "rad")
-    "Where joint \"drive_right\" is to go"
+  Modelica.Blocks.Interfaces.RealInput drive_right_w(unit = "rad/s")
+    "How fast joint \"drive_right\" is to go"
     annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-116, 187}, {-100, 203}})));
 
   Modelica.Blocks.Interfaces.RealOutput drive_right_tau(unit = "N.m") = robot.drive_rightAxis.tau
     "What the drive of joint \"drive_right\" has to give"
     annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 187}, {116, 203}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position drive_rightDrive(
+  Modelica.Mechanics.Rotational.Sources.Speed drive_rightDrive(
     useSupport = true,
     exact = false,
-    w(fixed = true))
+    phi(start = robot.drive_right.phi_start))
     "Moves joint \"drive_right\", through a filter"
     annotation (Placement(transformation(extent={{-40, 240}, {-20, 260}})));
 
@@ -105,13 +105,13 @@ model WheeledRobotRun "Run robot WheeledRobot with positions from outside: the m
 equation
   connect(base.frame_b, robot.frame_a)
     annotation (Line(points={{-40, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
-  connect(drive_left_phi, drive_leftDrive.phi_ref)
+  connect(drive_left_w, drive_leftDrive.w_ref)
     annotation (Line(points={{-130, 280}, {-42, 280}}, color={0, 0, 127}));
   connect(drive_leftDrive.flange, robot.drive_leftAxis)
     annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 0, 0}));
   connect(drive_leftDrive.support, robot.drive_leftSupport)
     annotation (Line(points={{-30, 270}, {-30, 265}, {20, 265}}, color={0, 0, 0}));
-  connect(drive_right_phi, drive_rightDrive.phi_ref)
+  connect(drive_right_w, drive_rightDrive.w_ref)
     annotation (Line(points={{-130, 250}, {-42, 250}}, color={0, 0, 127}));
   connect(drive_rightDrive.flange, robot.drive_rightAxis)
     annotation (Line(points={{-20, 250}, {20, 250}}, color={0, 0, 0}));
@@ -154,7 +154,7 @@ equation
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-140, -280}, {360, 375}})),
     Documentation(info="<html>
 <p>
-Robot WheeledRobot in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Robot WheeledRobot in its world, with one input per axis: its position, velocity or effort, as the source or the configuration commands it. Positions and velocities are filtered, so that they need no derivatives, and have an output for what the drive has to give; where the input is that, the outputs are position and velocity. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end WheeledRobotRun;
