@@ -113,7 +113,9 @@ def dressed(robot: Robot, random: Random) -> Robot:
         Extension("", "gazebo", f"<gazebo reference={quoteattr(first)}><selfCollide>1</selfCollide></gazebo>")
     ]
     if driven:
-        drive = f"<joint name={quoteattr(driven[0])}><hardwareInterface>E</hardwareInterface></joint>"
+        drive = (
+            f"<joint name={quoteattr(driven[0])}><hardwareInterface>PositionJointInterface</hardwareInterface></joint>"
+        )
         extensions.append(Extension("", "transmission", f'<transmission name="t">{drive}</transmission>'))
     return Robot(robot.name, links, joints, tuple(one for one in extensions if random.random() < 0.3))
 

@@ -201,7 +201,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
-    """Position = `multiplier` · position of `joint` + `offset`."""
+    """Position = `multiplier` · position of `joint` + `offset`, by `<mimic>`, `<ros2_control>` or a plugin."""
 
     joint: str
     multiplier: float = 1.0

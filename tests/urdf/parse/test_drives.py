@@ -7,7 +7,7 @@ from support import urdfs
 
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Dynamics, Joint, Transmission
+from urdfsync.urdf.robot import Dynamics, Joint, Mimic, Transmission
 
 BASE = (
     *map(urdfs.link, ("base", "arm", "wheel", "caster")),
@@ -241,6 +241,53 @@ def test_an_unknown_interface_is_told_with_its_line(element: str, words: str) ->
 def test_commands(names: tuple[str, ...], command: str) -> None:
     interfaces = "".join(f'<command_interface name="{name}"/>' for name in names)
     assert elbow(read(control(f'<joint name="elbow">{interfaces}</joint>'))).command == command
+
+
+def plugin(leader: str = "roll", numbers: str = "") -> str:
+    return f"<gazebo><plugin name='p'><joint>{leader}</joint><mimicJoint>elbow</mimicJoint>{numbers}</plugin></gazebo>"
+
+
+def followed(leader: str = "roll", numbers: str = "") -> str:
+    return control(f'<joint name="elbow"><param name="mimic">{leader}</param>{numbers}{STATE}</joint>')
+
+
+@pytest.mark.parametrize(("element", "mimic"), [
+    (plugin(), Mimic("roll")),
+    (plugin(numbers="<multiplier>-2</multiplier><offset>0.1</offset>"), Mimic("roll", -2.0, 0.1)),
+    (followed(), Mimic("roll")),
+    (followed(numbers='<param name="multiplier">3</param><param name="offset">1</param>'), Mimic("roll", 3.0, 1.0)),
+])  # fmt: skip
+def test_couplings_of_ros2_control_and_of_plugins(element: str, mimic: Mimic) -> None:
+    reading = read(element, interfaces("EffortJointInterface"))
+    assert (elbow(reading).mimic, elbow(reading).command) == (mimic, "position")
+    assert not reading.diagnostics
+    assert not reading.unmodelled
+
+
+@pytest.mark.parametrize(("element", "words"), [
+    (plugin("drive wheel"), "warning: joint 'elbow' has two couplings: 1 times 'roll' plus 0 (joint elbow / mimic); "
+     "1 times 'drive wheel' plus 0 (gazebo number 1 / joint elbow); the first counts; correct one of them"),
+    (followed(numbers='<param name="multiplier">2</param>'), "warning: joint 'elbow' has two couplings: 1 times 'roll' "
+     "plus 0 (joint elbow / mimic); 2 times 'roll' plus 0 (ros2_control c / joint elbow); the first counts; "
+     "correct one of them"),
+    (control('<joint name="elbow" mimic="false"/>'), "warning: ros2_control c / joint elbow has mimic='false', but "
+     "joint 'elbow' follows another one, which counts; correct one of them"),
+])  # fmt: skip
+def test_a_coupling_that_contradicts_the_mimic_of_the_joint_is_told(element: str, words: str) -> None:
+    mimicking = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimic("roll")])
+    content = urdfs.robot(*BASE[:4], mimicking, *BASE[5:], element)
+    reading = read_robot(content.encode(), "own.urdf")
+    assert [str(found) for found in reading.diagnostics] == [f"own.urdf:10: {words} [drive-contradiction]"]
+    assert elbow(reading).mimic == Mimic("roll")
+
+
+@pytest.mark.parametrize(("element", "code"), [
+    (plugin("elbow"), "mimic-cycle"), (followed("elbow"), "mimic-cycle"), (followed("rol"), "unknown-mimic"),
+    (control('<joint name="elbow" mimic="true"/>'), "drive-contradiction"),
+    (plugin(numbers="<offset>none</offset>"), "bad-mimic"),
+])  # fmt: skip
+def test_a_faulty_coupling_has_one_finding_with_its_line(element: str, code: str) -> None:
+    assert [(found.code, found.line) for found in read(element).diagnostics] == [(code, 10)]
 
 
 def test_an_armature_is_read() -> None:

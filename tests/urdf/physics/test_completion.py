@@ -9,7 +9,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio, with_inertias
 from urdfsync.urdf.physics.reference import read
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import Mimic, Robot
 
 ENDS = '<parent link="base"/><child link="arm"/>'
 
@@ -90,3 +90,15 @@ def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
     base = inertials["base"]
     assert base is not None
     assert (base.mass, base.origin.xyz, base.inertia.ixy) == (0.946, (0.04, -0.07, 0.06), 0.001891)
+
+
+def test_a_coupling_that_stands_elsewhere_becomes_a_mimic() -> None:
+    plugin = "<plugin><joint>a</joint><mimicJoint>b</mimicJoint><multiplier>-2</multiplier></plugin>"
+    urdf = robot(
+        *map(link, ("base", "arm", "tip")),
+        joint("a", "continuous", "base", "arm"),
+        joint("b", "continuous", "base", "tip"),
+        f"<gazebo>{plugin}</gazebo>",
+    ).encode()
+    content, _ = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
+    assert read(content, "robot.urdf").followers == {"b": Mimic("a", -2.0, 0.0)}

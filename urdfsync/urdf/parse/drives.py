@@ -1,7 +1,7 @@
-"""Read how joints are driven: `<ros2_control>`, `<transmission>`, and plugins of Gazebo that turn wheels.
+"""Read how joints are driven: `<ros2_control>`, `<transmission>`, and plugins of Gazebo for wheels and couplings.
 
 Where several speak of one joint, the configuration counts before all, then `<ros2_control>`, a transmission, a plugin.
-A contradiction is a warning, except to the configuration.
+A contradiction is a warning, except to the configuration. The `<mimic>` of a joint counts before all other couplings.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import msgspec
 
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.fields import Reader, quoted
-from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Transmission
+from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Mimic, Transmission
 from urdfsync.urdf.validate import Finding, perhaps
 
 _REDUCTIONS = (
@@ -41,6 +41,8 @@ _INTERFACES: Mapping[str, Command | None] = {
 """The command of each interface of ROS 1; None for the one that only measures."""
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces of a joint that a model has."""
+_KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings"}
+"""Fields of `Drive` that may contradict each other, in words."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
 """Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
 
@@ -55,6 +57,7 @@ class Drive(NamedTuple):
     """The element that counts as modelled with it."""
     transmission: Transmission | None = None
     command: Command | None = None
+    mimic: Mimic | None = None
     is_driven: bool = True
     """Whether it drives the joint."""
     is_measured: bool = False
@@ -66,6 +69,7 @@ class Drive(NamedTuple):
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
     """Yield a drive for each joint of a `<ros2_control>`, a `<transmission>` or a `<gazebo>`."""
     if element.tag == "gazebo":
+        yield from _read_mimic_plugins(reader, element, path)
         for wheel in element.iterfind("plugin/*"):
             if _WHEELS.fullmatch(wheel.tag) and (name := (wheel.text or "").strip()):
                 yield Drive(reader.place(wheel, f"{path} / joint {name}"), name, None, None, "velocity")
@@ -85,7 +89,8 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
                 commands = _read_interfaces(reader, transmission, joint, place)
                 command = next((command for command in _COMMANDS if command in commands), None)
                 is_measured = commands == {None}
-                yield Drive(place, name, transmission, gear, command, not is_measured, is_measured, len(joints) > 1)
+                is_coupled = len(joints) > 1
+                yield Drive(place, name, transmission, gear, command, None, not is_measured, is_measured, is_coupled)
         if len(joints) > 1:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
             reader.add(transmission, "coupled-transmission", message)
@@ -101,7 +106,35 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
     if interfaces and not command:
         unknown = next(iter(interfaces))
         _add_unknown(reader, interfaces[unknown], path, unknown, _COMMANDS)
-    return Drive(path, name, joint, None, command, bool(interfaces), bool(states) and not interfaces)
+    params = {param.get("name", ""): param for param in joint.findall("param")}
+    mimic = _read_mimic(reader, params, "mimic", path)
+    return Drive(path, name, joint, None, command, mimic, bool(interfaces), bool(states) and not interfaces)
+
+
+def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
+    """Yield the coupling of each plugin that has a `<mimicJoint>`."""
+    for plugin in element.iterfind("plugin"):
+        parts = {part.tag: part for part in plugin}
+        name = (parts["mimicJoint"].text or "").strip() if "mimicJoint" in parts else ""
+        if name:
+            place = reader.place(plugin, f"{path} / joint {name}")
+            reader.used.add(parts["mimicJoint"])
+            mimic = _read_mimic(reader, parts, "joint", place)
+            yield Drive(place, name, plugin, mimic=mimic, is_driven=False)
+
+
+def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path: str) -> Mimic | None:
+    """Return a coupling from elements by their names; None without one that names a leader."""
+    name = (parts[leader].text or "").strip() if leader in parts else ""
+    if not name:
+        return None
+
+    def number(part: str, default: float) -> float:
+        numbers = reader.numbers(parts[part], ("",), path, "bad-mimic") if part in parts else None
+        return numbers[0] if numbers else default
+
+    reader.used.update(parts[part] for part in (leader, "multiplier", "offset") if part in parts)
+    return Mimic(name, number("multiplier", 1.0), number("offset", 0.0))
 
 
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
@@ -180,22 +213,39 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
             if getattr(other, field) != getattr(stated[0], field):
-                values = [f"{drive.path}: {_words(getattr(drive, field))}" for drive in (stated[0], other)]
-                message = f"joint {joint.name!r} is driven in two ways: {'; '.join(values)}; the first counts"
-                reader.extend([Finding("drive-contradiction", other.path, message)])
+                values = [f"{_words(getattr(drive, field))} ({drive.path})" for drive in (stated[0], other)]
+                message = f"joint {joint.name!r} has two {_KINDS[field]}: {'; '.join(values)}; the first counts"
+                hint = "correct one of them, or choose by `commands` in the configuration" if field == "command" else ""
+                reader.extend([Finding("drive-contradiction", other.path, message, hint)])
         return stated[0] if stated else None
 
-    gear, command = first("transmission"), None if joint.mimic else first("command")
+    place = f"joint {joint.name} / mimic"
+    if joint.mimic:
+        drives.append(Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
+        drives.sort(key=lambda drive: drive.path != place)  # it comes first, and the others stay in their order
+    mimic = first("mimic")
+    if mimic and not joint.mimic:
+        reader.lines[place] = reader.lines[mimic.path]  # of later findings about the coupling
+    for drive in drives:
+        stated = drive.element.get("mimic", "").lower() if drive.element is not None else ""
+        if stated == ("false" if mimic else "true"):
+            fact = "follows another one, which counts" if mimic else "has no <mimic>, and moves by itself"
+            message = f"{drive.path} has mimic={quoted(stated)}, but joint {joint.name!r} {fact}"
+            reader.extend([Finding("drive-contradiction", drive.path, message)])
+    gear, command = first("transmission"), None if mimic else first("command")
     return msgspec.structs.replace(
         joint,
         actuated=is_driven,
         measured=not is_driven and any(drive.is_measured for drive in drives),
         transmission=gear.transmission if gear else None,
+        mimic=mimic.mimic if mimic else None,
         command=(command and command.command) or "position",
     )
 
 
-def _words(value: Transmission | Command) -> str:
+def _words(value: Transmission | Command | Mimic) -> str:
+    if isinstance(value, Mimic):
+        return f"{value.multiplier:g} times {value.joint!r} plus {value.offset:g}"
     if isinstance(value, Transmission):
         rotor = f", rotor inertia {value.rotor_inertia:g}" if value.rotor_inertia is not None else ""
         return f"reduction {value.reduction:g}, offset {value.offset:g}{rotor}"

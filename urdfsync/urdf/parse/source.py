@@ -180,7 +180,8 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         names = {joint.name for joint in joints}
         for drive in drives:
             if drive.joint not in names:
-                message = f"{drive.path.partition(' / ')[0]} drives joint {drive.joint!r}, which does not exist"
+                verb = "drives" if drive.is_driven else "names"
+                message = f"{drive.path.partition(' / ')[0]} {verb} joint {drive.joint!r}, which does not exist"
                 hint = validate.perhaps(drive.joint, names)
                 reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]

@@ -11,6 +11,8 @@ import random
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
+import msgspec
+
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.robot import Inertia
@@ -64,12 +66,19 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
     """Return the URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
 
-    The root link counts as moving: a robot without any mass gets inertias in all its links.
+    The root link counts as moving: a robot without any mass gets inertias in all its links. Couplings that stand
+    elsewhere become `<mimic>`.
     """
-    massless = _massless_links(tree)
+    massless, root = _massless_links(tree), xml.parse(content).root
+    couplings = {joint.name: mimic for joint, mimic in tree.followers()}
+    elsewhere = [
+        joint for joint in root.findall("joint") if joint.get("name") in couplings and joint.find("mimic") is None
+    ]
+    for joint in elsewhere:
+        numbers = msgspec.structs.asdict(couplings[joint.get("name", "")])
+        SubElement(joint, "mimic", {name: str(value) for name, value in numbers.items()})
     if not massless:
-        return CompletedSource(content)
-    root = xml.parse(content).root
+        return CompletedSource(tostring(root, "UTF-8", xml_declaration=True) if elsewhere else content)
     for link in root.findall("link"):
         if (name := link.get("name", "")) in massless:
             for old in link.findall("inertial"):
