@@ -96,6 +96,7 @@ NUMBERS = """
     continuous  <dynamics damping="-1"/>                                    warning negative-dynamics
     continuous  <dynamics friction="-1"/>                                   warning negative-dynamics
     planar      <dynamics damping="1"/>
+    planar      <dynamics damping="1" armature="1"/>                        warning dynamics-without-effect
     fixed       <dynamics damping="0" friction="0"/>
     fixed       <dynamics damping="-1"/>                                    warning dynamics-without-effect
     floating    <dynamics friction="1"/>                                    warning dynamics-without-effect
@@ -106,6 +107,15 @@ NUMBERS = """
 def test_numbers_of_a_joint(case: list[str]) -> None:
     kind, inner, finding, *_ = case
     assert found(*elements("a b"), joint(f"\n{inner}", kind)) == (finding and f"{finding} 4")
+
+
+def test_only_the_losses_without_effect_are_named() -> None:
+    losses = '<dynamics damping="1" armature="2"/>'
+    messages = [read(*elements("a b"), joint(losses, kind)).diagnostics[0].message for kind in ("planar", "floating")]
+    assert [message.partition(": ")[2] for message in messages] == [
+        "armature of <dynamics> can't act on a planar joint",
+        "damping and armature of <dynamics> can't act on a floating joint",
+    ]
 
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)

@@ -351,8 +351,10 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
             value = getattr(getattr(effect, block), name, None)
             if value is not None and value < 0:
                 yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
-    if joint.dynamics and not kind.motion and joint.dynamics != (effect.dynamics or Dynamics()):
-        message = f"{path}: <dynamics> has no effect on a {joint.type} joint"
+    given, acting = joint.dynamics or Dynamics(), effect.dynamics or Dynamics()
+    idle = [name for name in Dynamics.__struct_fields__ if getattr(given, name) != getattr(acting, name)]
+    if idle:
+        message = f"{path}: {' and '.join(idle)} of <dynamics> can't act on a {joint.type} joint"
         yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
 
 
