@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from urdfsync.check.compilers import COMPILERS
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.config import Config
 from urdfsync.config.trust import find_untrusted_compiler
 from urdfsync.diagnostics import ConfigError
 
 BOTH = "both"
-"""The value of `--tool` that means all compilers."""
+"""The value of `--tool` that means two compilers, which are held against each other."""
+_BOTH = ("rumoca", "omc")
 
 
 def chosen_tools(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
@@ -18,7 +18,7 @@ def chosen_tools(config: Config, name: str | None = None, *, trusted: bool = Fal
     `trusted` says whether the user trusts the configuration, which may choose OpenModelica, or name its program: both
     run what is not the user's. Who gives `--tool omc` has chosen it himself.
     """
-    names = COMPILERS if (name or config.check.tool) == BOTH else [name or config.check.tool]
+    names = _BOTH if (name or config.check.tool) == BOTH else [name or config.check.tool]
     return tuple(_tool(config, tool, is_trusted=trusted or (bool(name) and not config.check.omc)) for tool in names)
 
 

@@ -59,6 +59,7 @@ class CheckConfig(msgspec.Struct, frozen=True):
     library: Path | None = None
     """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
     tool: Literal["rumoca", "omc", "both"] = "rumoca"
+    """One of `check.compilers.COMPILERS`, or `check.tools.BOTH`."""
     omc: str = ""
     """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
 

@@ -123,7 +123,7 @@ class CompilerError(UrdfsyncError):
 
 
 class Compiler(Protocol):
-    """A module of this package that drives one compiler. To add one, list it in `COMPILERS`."""
+    """A module of this package that drives one compiler. `COMPILERS` and `CheckConfig.tool` list its name."""
 
     TITLE: str
     """The name of the compiler in messages."""
