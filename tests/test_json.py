@@ -21,7 +21,7 @@ from urdfsync import cli, config
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
-from urdfsync.engine.actions import FileStatus, Kind
+from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
 from urdfsync.simulate import results as simulation
@@ -321,7 +321,7 @@ def test_library(folder: Path, execute: Execute) -> None:
 
 
 def test_values_that_are_one_of_a_few_are_all_named() -> None:
-    few = (*Kind, *Role, *FileStatus, *Checked, *CheckStatus, *Quantity)
+    few = (*Kind, *(reason.word for reason in Reason), *Role, *FileStatus, *Checked, *CheckStatus, *Quantity)
     assert {f"`{kind}`" for kind in few} <= set(re.findall(r"`[\w -]+`", PAGE))
     assert f"`version` is {JSON_VERSION}" in PAGE
 

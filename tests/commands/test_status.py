@@ -147,7 +147,7 @@ def changed(*classes: ChangeClass, noise: bool = False) -> Changes:
 def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
     status = reason.status
     assert (status is FileStatus.CONFLICT) == (reason.kind is Kind.CONFLICT)
-    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == (reason.kind in (Kind.WRITE, Kind.DELETE))
+    assert (status in (FileStatus.STALE, FileStatus.MISSING)) == Action("A.mo", reason, Role.MODEL).writes
     shown, *_ = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
     assert shown.startswith(f"  {status}")
     assert not shown.endswith(".mo") or reason in (Reason.UNCHANGED, Reason.KEEP)

@@ -43,56 +43,35 @@ class Reason(enum.Enum):
 
     # Kind, status (None where there is no file any more), text: the end of a sentence about the path.
     # Then what a dry run says of n such files, and a build if it says something else: in this order.
-    UPDATE = (
-        *(Kind.WRITE, FileStatus.STALE, "its generated text changed"),
-        *("{n} file{s} to write", "{n} file{s} written"),
-    )
+    # fmt: off
+    UPDATE = Kind.WRITE, FileStatus.STALE, "its generated text changed", "{n} file{s} to write", "{n} file{s} written"
     CREATE = Kind.WRITE, FileStatus.STALE, "new"
-    RESTORE = (
-        *(Kind.WRITE, FileStatus.MISSING, "you deleted it"),
-        *("{n} to restore", "{n} restored because you deleted {them}"),
-    )
+    RESTORE = (Kind.WRITE, FileStatus.MISSING, "you deleted it",
+               "{n} to restore", "{n} restored because you deleted {them}")
     DELETE = Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
-    ADOPT = (
-        *(Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text"),
-        "{n} already equal to the generated text",
-    )
-    MERGE = (
-        *(Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged"),
-        *("{n} to merge with your edits", "{n} merged with your edits"),
-    )
-    UNDO = (
-        *(Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build"),
-        *("{n} to give back as you had {them}", "{n} given back as you had {them}"),
-    )
-    MOVE = (
-        *(Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here"),
-        *("{n} to move with your edits", "{n} moved with your edits"),
-    )
-    INCLUDED = (
-        *(Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new"),
-        "{n} that you edited already {have} what is new",
-    )
-    KEEP = (
-        *(Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it"),
-        "{n} kept because you edited {them}",
-    )
-    ORPHAN = (
-        *(Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept"),
-        "{n} no longer generated but kept because you edited {them}",
-    )
-    NEEDED = (
-        *(Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept"),
-        "{n} no longer generated but kept because your files need {them}",
-    )
-    CONFLICT = (
-        *(Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too"),
-        "{n} conflict{s}",
-    )
+    ADOPT = (Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text",
+             "{n} already equal to the generated text")
+    MERGE = (Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged",
+             "{n} to merge with your edits", "{n} merged with your edits")
+    UNDO = (Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build",
+            "{n} to give back as you had {them}", "{n} given back as you had {them}")
+    MOVE = (Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
+            "{n} to move with your edits", "{n} moved with your edits")
+    INCLUDED = (Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new",
+                "{n} that you edited already {have} what is new")
+    KEEP = (Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it",
+            "{n} kept because you edited {them}")
+    ORPHAN = (Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
+              "{n} no longer generated but kept because you edited {them}")
+    NEEDED = (Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept",
+              "{n} no longer generated but kept because your files need {them}")
+    CONFLICT = (Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
+                "{n} conflict{s}")
     UNOWNED = Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
     UNCHANGED = Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
     MOVED_AWAY = Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
     FORGET = Kind.LEAVE, None, "no longer generated, and already gone"
+    # fmt: on
 
     def __init__(self, kind: Kind, status: FileStatus | None, text: str, to_do: str = "", done: str = "") -> None:
         self.kind, self.status, self.text = kind, status, text
@@ -143,7 +122,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def writes(self) -> bool:
         """Whether a file changes now."""
-        return self.kind in (Kind.WRITE, Kind.DELETE) and not self.held
+        return self.kind not in (Kind.LEAVE, Kind.CONFLICT) and not self.held
 
     @property
     def sides(self) -> str:
