@@ -8,11 +8,14 @@ from pathlib import Path
 import pinocchio as pin
 import pytest
 
+from urdfsync.state import statefile
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 ROOT = Path(__file__).resolve().parents[1]
 ROBOTS = ROOT / "modelica" / "UrdfSync" / "Resources" / "robots"
 SOURCES = sorted(ROBOTS.glob("*/*.urdf"))
+STATES = sorted((ROOT / ".urdfsync" / "robots").glob("*.state"))
 MESHES = sorted(ROBOTS.glob("*/meshes/*"))
 TOTAL_MASS = {"floating_buoy": 63.3, "planar_platform": 11.9, "six_axis_arm": 52.345, "wheeled_robot": 36.1}
 every_robot = pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
@@ -35,3 +38,11 @@ def test_pinocchio_reads_it_without_a_word(source: Path, capfd: pytest.CaptureFi
 def test_meshes_are_what_their_script_writes() -> None:
     written = runpy.run_path(str(ROOT / "tools" / "make_example_meshes.py"))["meshes"]()
     assert written == {path.relative_to(ROBOTS): path.read_bytes() for path in MESHES}
+
+
+@pytest.mark.parametrize("state", STATES, ids=lambda path: path.stem)
+def test_a_robot_that_was_recorded_before_reads_as_the_same(state: Path) -> None:
+    """A field that is new in `urdf/robot` has to default to None, which is not recorded."""
+    recorded = statefile.loads(state.read_text(encoding="utf-8"), state.name).snapshot
+    assert recorded is not None
+    assert to_snapshot(from_snapshot(recorded)) == recorded

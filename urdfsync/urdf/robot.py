@@ -2,7 +2,8 @@
 
 Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m². `rpy` are the
 fixed-axis roll, pitch and yaw angles of URDF. What a URDF leaves out and its specification gives no
-number for stays None; all other defaults are those of ROS's urdfdom.
+number for stays None; all other defaults are those of ROS's urdfdom. A field that is new defaults to None: else each
+robot that was recorded before would have changed.
 
 These values refer to each other in one direction only, so Python need not search them for reference cycles
 (`gc=False`): that would take a third of the time that the daemon has for a changed mass of 1,000 links.
@@ -279,11 +280,9 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return an effective joint without its numbers and its drive. Models are made from this."""
-    dynamics = None if joint.dynamics is None else Dynamics()
+    """Return what the model of the robot says of a joint; `model.robot.joint_model` has what its own model says."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
-    limit = Limit(acceleration=0.0) if limits_acceleration(joint) else None
-    return Joint(joint.name, joint.type, joint.parent, joint.child, limit=limit, dynamics=dynamics, mimic=mimic)
+    return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic)
 
 
 def limits_acceleration(joint: Joint) -> bool:
