@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 from support.corpus import FOLDER, robots
 from support.packages import read
 from support.urdfs import joint, limit, link, robot
+
+from urdfsync.urdf import plausibility
 
 BASE, ARM = link("base", 4.0), link("arm", 2.0)
 
@@ -90,7 +95,7 @@ MASSLESS = (
     *("lbr_iiwa_14_r820", "puma560_robot", "irb6640_185_280", "irb7600_150_350"),
     *("m430ia2f", "m430ia2p", "m900ib700"),
 )
-CODES = {"no-inertia", "mass-unit", "inertia-size", "length-unit", "angle-unit", "shape-far"}
+CODES = set(re.findall(r'Finding\("([a-z-]+)"', Path(plausibility.__file__).read_text(encoding="utf-8")))
 
 
 @pytest.mark.usefixtures("corpus")
