@@ -104,12 +104,38 @@ def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> N
 def test_every_template_is_in_use() -> None:
     both = Options(approach=("package", "record"))
     mobile = Options(base="floating")
-    robots = (menagerie("fixed").robot, both), (twig("record").robot, both), (twig("record").robot, mobile)
+    begun = Robot("r", (Link("a"), Link("b")), (Joint("a", "continuous", "a", "b", start=0.5),))
+    robots = (
+        (begun, both),
+        (menagerie("fixed").robot, both),
+        (twig("record").robot, both),
+        (twig("record").robot, mobile),
+    )
     made = [each for robot, options in robots for each in artifacts(robot, {}, MENAGERIE, options)]
     used = {each.template for each in made if isinstance(each, Artifact)}
     for path in TEMPLATES.rglob("*.jinja"):
         used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
     assert used == {path.relative_to(TEMPLATES).as_posix() for path in TEMPLATES.rglob("*.jinja")}
+
+
+@pytest.mark.parametrize(("inputs", "words"), [
+    ("names", 'RealInput a_phi(unit = "rad", start = robot.a_joint.phi_start)'),
+    ("vector", '(unit = {"rad", "rad"}, start = {robot.a_joint.phi_start, 0})'),
+])  # fmt: skip
+def test_a_start_position_stands_in_a_record_and_the_models_begin_there(inputs: str, words: str) -> None:
+    made = package_of(
+        *map(urdfs.link, "abc"),
+        urdfs.joint("a joint", "continuous", "a", "b"),
+        urdfs.joint("b joint", "continuous", "a", "c"),
+        start={"a joint": 0.5},
+        inputs=inputs,
+        approach=("package", "record"),
+    ).texts
+    assert "Modelica.Units.SI.Angle a_joint = 0.5\n" in made["OwnStart.mo"]
+    assert made["Own.mo"].count("phi_start = startPositions.a_joint,") == 2
+    assert words.replace("a_phi", "a_joint_phi") in made["OwnRun.mo"]
+    assert "startPositions.a_joint,\n" in made["OwnGeneric.mo"]
+    assert "OwnStart\n" in made["package.order"]
 
 
 def test_roles_and_owners() -> None:

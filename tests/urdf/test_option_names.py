@@ -92,6 +92,17 @@ def test_commands_are_of_joints_that_run_drives() -> None:
     assert left_out == ("commands.caster", Severity.ERROR, words)
 
 
+def test_start_positions_are_of_joints_with_an_axis_and_inside_of_their_limits() -> None:
+    limited = CART.replace("</robot>", "") + urdfs.link("tip")
+    limited += urdfs.joint("mast", "revolute", "plate", "tip", inside=[urdfs.limit(-1, 1, 1, 1)]) + "</robot>"
+    words = [said for _, _, said in found(limited, start={"mast": 1.5, "wheels": 0.1, "lift": 0.2, "caster": 99.0})]
+    assert [said.partition(";")[0] for said in words] == [
+        "`start` puts `mast` at 1.5, outside of its limits -1 to 1",
+        f"`start` names `wheels`, but the robot has no such {DRIVEN}",
+        f"`start` names `lift`, but the robot has no such {DRIVEN}",
+    ]
+
+
 def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
     note = (
         "Run and Test do not drive `caster`: no transmission, no ros2_control and no limit; "

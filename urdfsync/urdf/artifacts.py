@@ -18,7 +18,7 @@ from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTIONS, Joint, Link, Robot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, Link, Robot
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -47,8 +47,20 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         if options.base == "floating":
             stance = {"record": f"{target.name}Stance", "height": standing_height(tree, imports)}
             files.append(_of_robot("Stance", "stance", target, options, stance, Role.RECORD))
+    if tree.starts():
+        starts = [
+            {"component": tree.joint(joint.name).component, "motion": MOTION_KINDS[joint.type], "joint": joint}
+            for joint in tree.starts()
+        ]
+        data = {"record": f"{target.name}Start", "starts": starts}
+        files.append(_of_robot("Start", "start", target, options, data, Role.RECORD))
     if has_bench(tree.joints, options):
-        axes = {f"{motion}_axes": len(tree.axes(motion)) for motion in MOTIONS}
+        axes = {
+            f"{motion}_axes": [
+                tree.joint(joint.name).component if joint.start is not None else None for joint in tree.axes(motion)
+            ]
+            for motion in MOTIONS
+        }
         files.append(_of_robot("Generic", "generic", target, options, axes))
     if "record" in options.approach:
         data = record_data(robot.name, tree, names, imports, package, options)
@@ -108,6 +120,8 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
         classes[f"{name}Stance"] = None
     if whole and tree.sensors:
         classes[f"{name}Sensors"] = None
+    if tree.starts():
+        classes[f"{name}Start"] = None
     if "record" in options.approach:
         classes[f"{name}{_PARAMETERS}"] = None
     folders = {"Links": [tree.link(link.name) for link in tree.links]} if whole else {}

@@ -22,9 +22,9 @@ GENERATED = frozenset(
     "linkcenters linkinertias linkmasses linkpositions linkrotations links m moveablejoints movingjoints name "
     "nextjoints parameters phi_start resources rotationalaxes rotationalaxis rotationaljoints rotationalrange "
     "rotationalsupport s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses "
-    "slidingmasses standingheight translationalaxes translationalaxis translationaljoints translationalrange "
-    "translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits turninglosses v_start "
-    "visualizationsetup visuals w_start world".split()
+    "slidingmasses standingheight startpositions translationalaxes translationalaxis translationaljoints "
+    "translationalrange translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits "
+    "turninglosses v_start visualizationsetup visuals w_start world".split()
 )
 """Names, folded to lower case, that models and records of robots use beside those of links and joints."""
 

@@ -13,6 +13,7 @@ from collections.abc import Collection, Iterator, Sequence
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 from urdfsync.urdf.drives import can_be_driven, driven_joints, passive_joints
+from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint
@@ -35,10 +36,16 @@ def check_options(
         if name in drivable and name not in driven:
             message = f"`commands` names `{name}`, which `driven` leaves out"
             yield f"commands.{name}", Diagnostic(Severity.ERROR, "drive-of-no-joint", message, hint="add it there")
+    for name, start in options.start.items():
+        lower, upper = next((own_range(joint) for joint in joints if joint.name == name), (0.0, 0.0))
+        if name in drivable and not lower <= start <= upper:
+            message = f"`start` puts `{name}` at {start:g}, outside of its limits {lower:g} to {upper:g}"
+            yield f"start.{name}", Diagnostic(Severity.ERROR, "start-outside", message, hint="correct the position")
     for option, given, possible, kind, code in (
         ("frames", options.frames, links, "link", "frame-of-no-link"),
         ("driven", options.driven, drivable, _DRIVABLE, "drive-of-no-joint"),
         *((f"commands.{name}", (name,), drivable, _DRIVABLE, "drive-of-no-joint") for name in options.commands),
+        *((f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start),
     ):
         for name, count in Counter(given if isinstance(given, tuple) else ()).items():
             if count > 1:

@@ -37,6 +37,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
     commands: Mapping[str, Command] = {}
     """The quantity by which Run drives a joint, by URDF names of joints; others go by the source."""
+    start: Mapping[str, float] = {}
+    """Positions at which simulations begin, in rad or m, by URDF names of joints; others go by the source."""
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"

@@ -247,6 +247,8 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """None if there is no gear: neither reduction nor offset nor rotor."""
     command: Command = "position"
     """Quantity by which the source commands the joint."""
+    start: Annotated[float | None, _POSITION] = None
+    """Position at which a simulation begins; None to go by the limits: see `kinematics.poses.start_positions`."""
 
 
 def reflected_inertia(joint: Joint) -> float | None:
@@ -276,13 +278,15 @@ def effective(joint: Joint) -> Joint:
         safety_controller=joint.safety_controller if kind.motion else None,
         transmission=joint.transmission if kind.motion else None,
         command=joint.command if kind.motion and joint.mimic is None else "position",
+        start=joint.start if kind.motion and joint.mimic is None else None,
     )
 
 
 def structure(joint: Joint) -> Joint:
     """Return what the model of the robot says of a joint; `model.robot.joint_model` has what its own model says."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
-    return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic)
+    start = None if joint.start is None else 0.0
+    return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic, start=start)
 
 
 def limits_acceleration(joint: Joint) -> bool:

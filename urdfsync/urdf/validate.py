@@ -124,6 +124,7 @@ _WARNINGS = {
     "drive-contradiction": "correct one of them",
     "unknown-interface": "correct its name, or take it out",
     "bad-mimic": "write a decimal number; a multiplier is taken as 1, an offset as 0",
+    "bad-start": "correct the position, or set another one by `start` in the configuration",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",

@@ -264,6 +264,9 @@ FORCE = '<gazebo reference="{}"><sensor name="s" type="force_torque"><force_torq
 CHILD = "<frame>child</frame>"
 COMMAND = '<ros2_control name="c"><joint name="wheel"><command_interface name="{}"/></joint></ros2_control>'
 
+START = """<ros2_control name="c"><joint name="wheel"><command_interface name="position"/><state_interface
+    name="position"><param name="initial_value">{}</param></state_interface></joint></ros2_control>"""
+
 
 def geared(inside: str) -> str:
     """The drive of the wheel, with more to say of its motor."""
@@ -320,6 +323,16 @@ DRIVES = {
         (*CASTERS, COMMAND.format("position")),
         (*CASTERS, COMMAND.format("velocity")),
         {"joint wheel / command: added, structural"},
+    ),
+    "another start position": (
+        (*CASTERS, START.format(0.5)),
+        (*CASTERS, START.format(0.6)),
+        {"joint wheel / start: changed, parameter"},
+    ),
+    "a start position comes": (
+        (*CASTERS, COMMAND.format("position")),
+        (*CASTERS, START.format(0.5)),
+        {"joint wheel / start: added, structural"},
     ),
     "a sensor comes": (
         PAIR,

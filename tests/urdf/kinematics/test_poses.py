@@ -98,6 +98,12 @@ def chain(*joints: Joint) -> KinematicTree:
     return KinematicTree.of(Robot("r", (Link("l0"), *(Link(joint.child) for joint in joints)), joints))
 
 
+def test_a_joint_starts_where_it_is_said_and_its_follower_with_it() -> None:
+    leader = Joint("leader", "revolute", "l0", "l1", limit=Limit(-3, 3), start=0.5)
+    follower = Joint("follower", "revolute", "l1", "l2", limit=Limit(-3, 3), mimic=Mimic("leader", -2, 0.25))
+    assert start_positions(chain(leader, follower)) == {"leader": 0.5, "follower": -0.75}
+
+
 def test_joints_that_follow_a_fixed_one_are_held_at_their_offsets() -> None:
     mount = Joint("mount", "fixed", "l0", "l1")
     held = Joint("held", "revolute", "l1", "l2", limit=Limit(-3, -2), mimic=Mimic("mount", 1, 0.25))

@@ -290,6 +290,48 @@ def test_a_faulty_coupling_has_one_finding_with_its_line(element: str, code: str
     assert [(found.code, found.line) for found in read(element).diagnostics] == [(code, 10)]
 
 
+def begins(position: str, kind: str = "position", joint: str = "elbow") -> str:
+    param = f'<param name="initial_value">{position}</param>'
+    return control(f'<joint name="{joint}">{COMMAND}<state_interface name="{kind}">{param}</state_interface></joint>')
+
+
+@pytest.mark.parametrize(("element", "start"), [
+    (begins("0.5"), 0.5), (begins("0"), 0.0), (begins("0", "velocity"), None), (begins("7", "effort"), None),
+])  # fmt: skip
+def test_a_start_position_is_read(element: str, start: float | None) -> None:
+    reading = read(element)
+    assert elbow(reading).start == start
+    assert not reading.diagnostics
+
+
+LIMITED = urdfs.joint("elbow", "revolute", "base", "arm", inside=[urdfs.limit(-1, 2, 1, 1)])
+FOLLOWING = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimic("roll", 2, 0.1)])
+
+
+@pytest.mark.parametrize(("joint", "elements", "words"), [
+    (LIMITED, [begins("2.5")], "10: warning: joint 'elbow' begins at 2.5, outside of its limits -1 to 2, and is not "
+     "put there"),
+    (LIMITED, [begins("half")], "10: warning: ros2_control c / joint elbow: <param> 'half' is not a decimal number"),
+    (LIMITED, [begins("2", "velocity")], "10: warning: ros2_control c / joint elbow begins with velocity 2; in Run and "
+     "Test it begins at rest"),
+    (LIMITED, [begins("1"), begins("2")], "11: warning: joint 'elbow' has two start positions: "
+     "1 (ros2_control c / joint elbow); 2 (ros2_control c #2 / joint elbow); the first counts"),
+    (FOLLOWING, [begins("1", joint="roll"), begins("2")], "11: warning: joint 'elbow' can't begin at 2: the joint that "
+     "it follows holds it at 2.1"),
+])  # fmt: skip
+def test_a_start_position_that_can_not_be_is_told_with_its_line(joint: str, elements: list[str], words: str) -> None:
+    content = urdfs.robot(*BASE[:4], joint, *BASE[5:], *elements)
+    (warning,) = read_robot(content.encode(), "own.urdf").diagnostics
+    assert str(warning).startswith(f"own.urdf:{words};")
+
+
+def test_a_start_position_in_the_configuration_counts() -> None:
+    content = urdfs.robot(*BASE, begins("0.5")).encode()
+    reading = read_robot(content, "own.urdf", Options(start={"elbow": -0.5, "roll": 1.0}))
+    assert (elbow(reading).start, reading.diagnostics) == (-0.5, ())
+    assert actuated(reading) == ["elbow"]
+
+
 def test_an_armature_is_read() -> None:
     inside = ['<dynamics damping="0.5" armature="0.02"/>']
     content = urdfs.robot(*map(urdfs.link, "ab"), urdfs.joint("elbow", "continuous", "a", "b", inside=inside))

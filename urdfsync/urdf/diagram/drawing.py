@@ -77,7 +77,9 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
         extent=diagram.extent,
         lines=_lines(diagram),
         junctions=_junctions(diagram),
-        placements={name: box for name, box in diagram.placements.items() if name != "sensorParameters"},
+        placements={
+            name: box for name, box in diagram.placements.items() if name not in ("sensorParameters", "startPositions")
+        },
         parts=parts,
         axes={drive.axis: drive.motion for drive in names.drives.values()}
         | {drive.motor: "rotational" for drive in names.drives.values() if drive.motor},

@@ -184,7 +184,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         detours=detours,
         top=tops[0],
         right=trunks[-1] + _MARGIN,
-        bottom=y - (_SIZE + _NAME if tree.sensors else 0),
+        bottom=y - (_SIZE + _NAME) * (bool(tree.sensors) + bool(tree.starts())),
     )
 
 
@@ -245,8 +245,10 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
         name: placements[names.frames[name]].y1 if name in names.frames and name not in leaves else place.y1
         for name, place in links.items()
     }
-    if tree.sensors:
-        placements["sensorParameters"] = Placement.around((FRAME_A[0], grid.bottom + _SIZE // 2))
+    records = ["startPositions"] * bool(tree.starts()) + ["sensorParameters"] * bool(tree.sensors)
+    for row, record in enumerate(records):
+        y = grid.bottom + _SIZE // 2 + row * (_SIZE + _NAME)
+        placements[record] = Placement.around((FRAME_A[0], y))
     for sensor, link in _carriers(tree).items():
         middle = links[link].centre[0], below[link] - _NAME - _SIZE // 2
         placements[names.sensors[sensor]] = place = Placement.around(middle)

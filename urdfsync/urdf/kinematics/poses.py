@@ -79,7 +79,10 @@ def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[s
 
 
 def start_positions(tree: KinematicTree) -> Mapping[str, float]:
-    """Return where each joint starts: as close to zero as its limits and those of its followers allow."""
+    """Return where each joint starts: at its `start`, else as close to zero as all limits allow.
+
+    Limits are those of the joint and of its followers.
+    """
     ranges = {joint.name: own_range(joint) for joint in tree.joints}
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
@@ -92,6 +95,8 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
     for joint in tree.leaders_first():
         if joint.mimic is not None:
             position = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+        elif joint.start is not None:
+            position = joint.start
         else:
             lower, upper = ranges[joint.name]
             position = min(max(0.0, lower), upper)

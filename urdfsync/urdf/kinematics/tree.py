@@ -90,6 +90,10 @@ class KinematicTree(msgspec.Struct, frozen=True):
         """Return the joints of that kind of motion that can be driven: all but those that follow another one."""
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
+    def starts(self) -> tuple[Joint, ...]:
+        """Return the joints for which the source or the configuration says where they begin."""
+        return tuple(joint for joint in self.joints if joint.start is not None)
+
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:
         """Yield the joints that follow another joint, each with its relation to that."""
         return ((joint, joint.mimic) for joint in self.joints if joint.mimic is not None)

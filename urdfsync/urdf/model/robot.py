@@ -83,6 +83,7 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
                 "type": tree.joint(joint.name).type,
                 "kind": joint.type,
                 "title": joint_title(joint),
+                "start": joint.start is not None,
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
                 "motor": joint.name in names.drives and names.drives[joint.name].motor is not None,
                 "follows": couplings.get(joint.name),
@@ -91,6 +92,7 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
             for joint in tree.joints
         ],
         "couplings": list(couplings.values()),
+        "starts": bool(tree.starts()),
         "sensors": sensor_models(tree, names),
         "sensor_frames": [
             {"connector": connector, "name": name, "y": top - 10 - _ROW * row}
@@ -118,6 +120,7 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     return {
         "visualizer": options.visualizer,
         "drives": [row | {"input": row[row["command"]]} for row in drives],
+        "starts": [tree.joint(joint.name).component for joint in tree.starts()],
         "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
         "inputs": options.inputs,
         "vector": input_vector(names),

@@ -14,6 +14,7 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
+from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Mimic, Transmission
@@ -41,8 +42,10 @@ _INTERFACES: Mapping[str, Command | None] = {
 """The command of each interface of ROS 1; None for the one that only measures."""
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces of a joint that a model has."""
-_KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings"}
+_KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Fields of `Drive` that may contradict each other, in words."""
+_SAME = 1e-6
+"""Difference of two positions that is rounding, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
 """Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
 
@@ -58,6 +61,7 @@ class Drive(NamedTuple):
     transmission: Transmission | None = None
     command: Command | None = None
     mimic: Mimic | None = None
+    start: float | None = None
     is_driven: bool = True
     """Whether it drives the joint."""
     is_measured: bool = False
@@ -90,7 +94,9 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
                 command = next((command for command in _COMMANDS if command in commands), None)
                 is_measured = commands == {None}
                 is_coupled = len(joints) > 1
-                yield Drive(place, name, transmission, gear, command, None, not is_measured, is_measured, is_coupled)
+                yield Drive(
+                    place, name, transmission, gear, command, None, None, not is_measured, is_measured, is_coupled
+                )
         if len(joints) > 1:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
             reader.add(transmission, "coupled-transmission", message)
@@ -108,7 +114,27 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
         _add_unknown(reader, interfaces[unknown], path, unknown, _COMMANDS)
     params = {param.get("name", ""): param for param in joint.findall("param")}
     mimic = _read_mimic(reader, params, "mimic", path)
-    return Drive(path, name, joint, None, command, mimic, bool(interfaces), bool(states) and not interfaces)
+    start = _read_start(reader, states, path, name)
+    return Drive(path, name, joint, None, command, mimic, start, bool(interfaces), bool(states) and not interfaces)
+
+
+def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str) -> float | None:
+    """Return the initial position of a joint of `<ros2_control>`; an initial velocity is left out, with a warning."""
+    start = None
+    for state in states:
+        kind = state.get("name")
+        for param in state.iterfind("param"):
+            if param.get("name") != "initial_value" or kind not in ("position", "velocity"):
+                continue
+            numbers = reader.numbers(param, ("",), path, "bad-start")
+            reader.used.add(param)
+            if kind == "position" and numbers:
+                reader.place(param, f"joint {name} / start")
+                start = numbers[0]
+            elif numbers and numbers[0]:
+                message = f"{path} begins with velocity {numbers[0]:g}; in Run and Test it begins at rest"
+                reader.add(param, "bad-start", message, "take it out")
+    return start
 
 
 def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
@@ -188,7 +214,9 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
 def configured_drives(options: Options) -> Iterator[Drive]:
     """Yield what the configuration says of drives."""
     for name, command in options.commands.items():
-        yield Drive("", name, None, None, command)
+        yield Drive("", name, command=command)
+    for name, start in options.start.items():
+        yield Drive("", name, start=start, is_driven=False)
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
@@ -199,7 +227,17 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
     by_joint = defaultdict[str, list[Drive]](list)
     for drive in drives:
         by_joint[drive.joint].append(drive)
-    return [_with_drives(reader, joint, by_joint[joint.name]) if joint.name in by_joint else joint for joint in joints]
+    driven = [
+        _with_drives(reader, joint, by_joint[joint.name]) if joint.name in by_joint else joint for joint in joints
+    ]
+    starts = {joint.name: joint.start or 0.0 for joint in driven}
+    for joint in driven:
+        if joint.mimic and joint.start is not None and joint.mimic.joint in starts:
+            position = joint.mimic.multiplier * starts[joint.mimic.joint] + joint.mimic.offset
+            if abs(position - joint.start) > _SAME:
+                message = f"joint {joint.name!r} can't begin at {joint.start:g}: the joint that it follows holds it at "
+                reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}{position:g}")])
+    return driven
 
 
 def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
@@ -232,18 +270,26 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
             fact = "follows another one, which counts" if mimic else "has no <mimic>, and moves by itself"
             message = f"{drive.path} has mimic={quoted(stated)}, but joint {joint.name!r} {fact}"
             reader.extend([Finding("drive-contradiction", drive.path, message)])
-    gear, command = first("transmission"), None if mimic else first("command")
+    gear, command, start = first("transmission"), None if mimic else first("command"), first("start")
+    lower, upper = own_range(joint)
+    if start and start.path and not lower - _SAME <= (start.start or 0.0) <= upper + _SAME:
+        message = f"joint {joint.name!r} begins at {start.start:g}, outside of its limits {lower:g} to {upper:g}"
+        reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}, and is not put there")])
+        start = None
     return msgspec.structs.replace(
         joint,
         actuated=is_driven,
         measured=not is_driven and any(drive.is_measured for drive in drives),
         transmission=gear.transmission if gear else None,
         mimic=mimic.mimic if mimic else None,
+        start=start.start if start else None,
         command=(command and command.command) or "position",
     )
 
 
-def _words(value: Transmission | Command | Mimic) -> str:
+def _words(value: Transmission | Command | Mimic | float) -> str:
+    if isinstance(value, float):
+        return f"{value:g}"
     if isinstance(value, Mimic):
         return f"{value.multiplier:g} times {value.joint!r} plus {value.offset:g}"
     if isinstance(value, Transmission):

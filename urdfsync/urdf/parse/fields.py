@@ -32,7 +32,7 @@ _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Child elements that stand for a field of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
-_ELSEWHERE = ("transmission",)
+_ELSEWHERE = ("transmission", "start")
 """Fields whose elements do not stand in the element of their struct."""
 # Elements of URDF. In a place where one means nothing, it is not taken for a misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
