@@ -325,6 +325,8 @@ class Axis(msgspec.Struct, frozen=True):
     velocity: Signal
     effort: Signal | None = None
     """None for a joint without a drive of its own."""
+    acceleration: Signal | None = None
+    """With the limits while the joint slows down and while it speeds up; None for a joint that has no such limit."""
 
 
 class Bench(msgspec.Struct, frozen=True):

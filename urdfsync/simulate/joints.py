@@ -12,8 +12,8 @@ from urdfsync.simulate.results import JointResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
 """From here on a limit is none: compilers write infinity as the greatest number that they have."""
-_MARGIN, _SHARE = 1e-6, 1e-6
-"""Rounding, as the models of joints have it: of positions in their unit, of speeds and efforts as a share as well."""
+_ROUNDING = 1e-6
+"""As `UrdfSync.Functions.isAtMost` has it: in the unit of a quantity, and as a share of it."""
 _INTEGRATION = 1e-4
 """The share of the way that a quantity goes in all which counts as an error of the integration.
 
@@ -29,7 +29,7 @@ Layouts: TypeAlias = Sequence[Sequence[Axis]]
 def pattern(layouts: Layouts) -> str:
     """Return a regular expression for the variables of joints, wherever in a model the robot is."""
     axes = [axis for layout in layouts for axis in layout]
-    names = dict.fromkeys(name for axis in axes for signal in _signals(axis) for name in _names(signal))
+    names = dict.fromkeys(name for axis in axes for _, signal in _signals(axis) for name in _names(signal))
     return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
 
 
@@ -39,10 +39,12 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
     for place, layout in robots(layouts, series):
         for axis in layout:
             quantities, passed = dict[str, Range](), list[PassedLimit]()
-            for name, signal in (("position", axis.position), ("speed", axis.velocity), ("effort", axis.effort)):
-                values = _values(signal, place, series, parameters) if signal else None
-                if signal and values is not None:
-                    quantities[name] = _quantity(signal, place, values, parameters)
+            for name, signal in _signals(axis):
+                values = _values(signal, place, series, parameters)
+                if signal is axis.acceleration and values is not None:
+                    values = _by_direction(values, _values(axis.velocity, place, series, parameters))
+                if values is not None:
+                    quantities[name] = _quantity(signal, place, values, parameters, signal is axis.acceleration)
                     passed += _passed(name, quantities[name], series["time"], values)
             if quantities:
                 results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
@@ -65,8 +67,9 @@ def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]
     return [(place, layouts[number]) for (place, number), share in sorted(shares.items()) if math.isclose(share, most)]
 
 
-def _signals(axis: Axis) -> Iterator[Signal]:
-    yield from filter(None, (axis.position, axis.velocity, axis.effort))
+def _signals(axis: Axis) -> Iterator[tuple[str, Signal]]:
+    signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
+    yield from ((name, signal) for name, signal in (*signals.items(), ("acceleration", axis.acceleration)) if signal)
 
 
 def _names(signal: Signal) -> Iterator[str]:
@@ -86,9 +89,18 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
     return values
 
 
-def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float]) -> Range:
+def _by_direction(accelerations: Any, speeds: Any) -> Any:
+    """Return the sizes of accelerations, below 0 where they slow a joint down."""
+    import numpy as np  # see above
+
+    sizes = np.abs(accelerations)
+    return sizes if speeds is None else np.where(accelerations * speeds < 0, -sizes, sizes)
+
+
+def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float], is_acceleration: bool) -> Range:
     limits = [parameters.get(_below(place, limit), math.inf) for limit in signal.limits] or [math.inf]
-    limits = [-limits[0], limits[0]] if len(limits) == 1 else limits
+    if len(limits) == 1 or is_acceleration:
+        limits = [-limits[0], limits[-1]]
     lower, upper = (limit if abs(limit) < _ENDLESS else None for limit in limits)
     name = _below(place, signal.variable)
     return Range(name, signal.unit, float(values.min()), float(values.max()), lower, upper)
@@ -98,11 +110,11 @@ def _passed(name: str, quantity: Range, times: Sequence[float], values: Any) -> 
     """Yield the limits that a quantity passes by more than rounding and the integration make."""
     import numpy as np  # see above
 
-    share = 0.0 if name == "position" else _SHARE
     for limit, sign in ((quantity.lower, -1), (quantity.upper, 1)):
         if limit is not None:
             excess = sign * (values - limit)
-            is_beyond = excess > _MARGIN + share * abs(limit) + _INTEGRATION * (quantity.greatest - quantity.least)
+            rounding = _ROUNDING * (1 + abs(limit))
+            is_beyond = excess > rounding + _INTEGRATION * (quantity.greatest - quantity.least)
             if is_beyond.any():
                 seconds = float(np.diff(times)[is_beyond[:-1]].sum())
                 first = float(times[int(is_beyond.argmax())])

@@ -63,7 +63,7 @@ class PassedLimit(msgspec.Struct, frozen=True):
     """A limit that a joint passes."""
 
     quantity: str
-    """`position`, `speed` or `effort`."""
+    """`position`, `speed`, `effort` or `acceleration`."""
     limit: float
     time: float
     """The time when it is passed first, in s."""
@@ -83,6 +83,8 @@ class JointResult(msgspec.Struct, frozen=True):
     position: Range | None = None
     speed: Range | None = None
     effort: Range | None = None
+    acceleration: Range | None = None
+    """Its size, below 0 where the joint slows down; None also for a joint without a limit of it."""
     passed: tuple[PassedLimit, ...] = ()
 
 

@@ -9,16 +9,20 @@ from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, JointType, Motion
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, limits_acceleration
 
 _VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
-    "rotational": ("revolute.phi", "revolute.w", "tau", "phi"),
-    "translational": ("prismatic.s", "prismatic.v", "f", "s"),
+    "rotational": ("revolute.phi", "revolute.w", "tau", "revolute.a"),
+    "translational": ("prismatic.s", "prismatic.v", "f", "prismatic.a"),
 }
-"""Position and speed in the model of a joint, effort of a flange, and position in the generic robot."""
-_UNITS: Mapping[Motion, tuple[str, str, str]] = {
-    "rotational": ("rad", "rad/s", "N·m"),
-    "translational": ("m", "m/s", "N"),
+"""Position and speed in the model of a joint, effort of a flange, and acceleration in the model of the joint."""
+_GENERIC_VARIABLES: Mapping[Motion, tuple[str, str, str]] = {
+    "rotational": ("phi", "w_phi", "a_phi"),
+    "translational": ("s", "v_s", "a_s"),
+}
+_UNITS: Mapping[Motion, tuple[str, str, str, str]] = {
+    "rotational": ("rad", "rad/s", "N·m", "rad/s²"),
+    "translational": ("m", "m/s", "N", "m/s²"),
 }
 
 _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
@@ -44,7 +48,7 @@ def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
     for joint in tree.joints:
         if motion := MOTION_KINDS.get(joint.type):
             name, drive = tree.joint(joint.name).component, drives.get(joint.name)
-            position, velocity, effort, _ = _VARIABLES[motion]
+            position, velocity, effort, acceleration = _VARIABLES[motion]
             units, limits = _UNITS[motion], f"{name}.parameters.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
             motor = (
@@ -55,6 +59,7 @@ def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
                 Signal(f"{name}.{position}", units[0], range_),
                 Signal(f"{name}.{velocity}", units[1], (f"{limits}.velocity",)),
                 Signal(f"{drive.axis}.{effort}", units[2], (f"{limits}.effort",), motor) if drive else None,
+                _acceleration(joint, f"{name}.{acceleration}", limits),
             )
 
 
@@ -62,13 +67,19 @@ def _generic_axes(tree: KinematicTree) -> Iterator[Axis]:
     """Yield the axes of the generic robot, which numbers them by kind."""
     for motion in MOTIONS:
         for number, joint in enumerate(tree.axes(motion), 1):
-            _, _, effort, position = _VARIABLES[motion]
+            position, speed, acceleration = _GENERIC_VARIABLES[motion]
             units, limits = _UNITS[motion], f"data.{tree.joint(joint.name).component}.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
-            speed = "w_phi" if motion == "rotational" else "v_s"
             yield Axis(
                 f"joint {joint.name}",
                 Signal(f"{position}[{number}]", units[0], range_),
                 Signal(f"{speed}[{number}]", units[1], (f"{limits}.velocity",)),
-                Signal(f"{motion}Axis[{number}].{effort}", units[2], (f"{limits}.effort",)),
+                Signal(f"{motion}Axis[{number}].{_VARIABLES[motion][2]}", units[2], (f"{limits}.effort",)),
+                _acceleration(joint, f"{acceleration}[{number}]", limits),
             )
+
+
+def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
+    if not limits_acceleration(joint):
+        return None
+    return Signal(variable, _UNITS[MOTION_KINDS[joint.type]][3], (f"{limits}.deceleration", f"{limits}.acceleration"))

@@ -10,19 +10,24 @@ model Ground "Horizontal ground: one per simulated model, declared as inner"
     "Height of the ground in the world frame";
 
   parameter Modelica.Units.SI.Force load(min = 0) = 1000
-    "Weight of the robot";
+    "Weight of the robot"
+    annotation (Dialog(group="Normal force"));
 
   parameter Modelica.Units.SI.Distance penetration(min = Modelica.Constants.eps) = 3e-4
-    "Depth at which one point carries the load alone";
+    "Depth at which one point carries the load alone"
+    annotation (Dialog(group="Normal force"));
 
   parameter Real dampingRatio(unit = "1", min = 0) = 2
-    "Damping ratio of one point that carries the load alone; n points share it as dampingRatio/sqrt(n)";
+    "Damping ratio of one point that carries the load alone; n points share it as dampingRatio/sqrt(n)"
+    annotation (Dialog(group="Normal force"));
 
   parameter Real friction(unit = "1", min = 0) = 0.8
-    "Coefficient of friction";
+    "Coefficient of friction"
+    annotation (Dialog(group="Friction"));
 
   parameter Modelica.Units.SI.Velocity slipSpeed(min = Modelica.Constants.eps) = 0.001
-    "Speed of sliding at which friction reaches 70 % of its limit";
+    "Speed of sliding at which friction reaches 70 % of its limit"
+    annotation (Dialog(group="Friction"));
 
   parameter Boolean animation = true
     "= true, if the ground is drawn"

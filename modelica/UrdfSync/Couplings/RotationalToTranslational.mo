@@ -7,13 +7,16 @@ model RotationalToTranslational "A sliding joint follows a turning joint"
     "Multiplier and offset";
 
   parameter Modelica.Units.SI.Position s_min = -Modelica.Constants.inf
-    "Smallest position of the joint that follows";
+    "Smallest position of the joint that follows"
+    annotation (Dialog(group="Range of the follower"));
 
   parameter Modelica.Units.SI.Position s_max = Modelica.Constants.inf
-    "Largest position of the joint that follows";
+    "Largest position of the joint that follows"
+    annotation (Dialog(group="Range of the follower"));
 
   parameter Modelica.Units.SI.Velocity v_max = Modelica.Constants.inf
-    "Largest speed of the joint that follows";
+    "Largest speed of the joint that follows"
+    annotation (Dialog(group="Range of the follower"));
 
   final parameter Boolean narrows = abs(parameters.multiplier) > Modelica.Constants.eps
     "= true, if the joint that follows moves at all, and so narrows the range of its leader";

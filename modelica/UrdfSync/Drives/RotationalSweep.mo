@@ -4,22 +4,28 @@ model RotationalSweep "Moves one axis smoothly to the roomier end of its range a
   extends UrdfSync.Icons.RotationalDrive;
 
   parameter Modelica.Units.SI.Angle phi_start = 0
-    "Position at the beginning";
+    "Position at the beginning"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Angle phi_min = -Modelica.Constants.inf
-    "Smallest position";
+    "Smallest position"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Angle phi_max = Modelica.Constants.inf
-    "Largest position";
+    "Largest position"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.AngularVelocity w_max = Modelica.Constants.inf
-    "Largest speed";
+    "Largest speed"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Angle reach = 1
-    "Longest way";
+    "Longest way"
+    annotation (Dialog(group="Motion"));
 
   parameter Modelica.Units.SI.Time period = 10
-    "Time of the way there and back";
+    "Time of the way there and back"
+    annotation (Dialog(group="Motion"));
 
   final parameter Modelica.Units.SI.Angle phi_end = UrdfSync.Functions.sweepEnd(phi_start, phi_min, phi_max, w_max, period, reach)
     "Turning point";

@@ -4,22 +4,28 @@ model TranslationalSweep "Moves one axis smoothly to the roomier end of its rang
   extends UrdfSync.Icons.TranslationalDrive;
 
   parameter Modelica.Units.SI.Position s_start = 0
-    "Position at the beginning";
+    "Position at the beginning"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Position s_min = -Modelica.Constants.inf
-    "Smallest position";
+    "Smallest position"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Position s_max = Modelica.Constants.inf
-    "Largest position";
+    "Largest position"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Velocity v_max = Modelica.Constants.inf
-    "Largest speed";
+    "Largest speed"
+    annotation (Dialog(group="Range"));
 
   parameter Modelica.Units.SI.Position reach = 0.1
-    "Longest way";
+    "Longest way"
+    annotation (Dialog(group="Motion"));
 
   parameter Modelica.Units.SI.Time period = 10
-    "Time of the way there and back";
+    "Time of the way there and back"
+    annotation (Dialog(group="Motion"));
 
   final parameter Modelica.Units.SI.Position s_end = UrdfSync.Functions.sweepEnd(s_start, s_min, s_max, v_max, period, reach)
     "Turning point";

@@ -8,10 +8,12 @@ partial model PartialPrismaticJoint "What joints that slide along one axis have 
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-100, 80}, {-80, 100}})));
 
   parameter Boolean checkLimits = true
-    "= true, if passing a limit is reported by a warning";
+    "= true, if passing a limit is reported by a warning"
+    annotation (Dialog(group="Limits"));
 
   parameter Boolean checkEffort = true
-    "= true, if the effort at axis is checked, too; = false, if axis is not all that drives the joint";
+    "= true, if the effort at axis is checked, too; = false, if axis is not all that drives the joint"
+    annotation (Dialog(group="Limits"));
 
   parameter StateSelect stateSelect = StateSelect.prefer
     "Whether position and speed are taken as states"
@@ -19,15 +21,15 @@ partial model PartialPrismaticJoint "What joints that slide along one axis have 
 
   parameter Modelica.Units.SI.Position s_min = parameters.limits.lower
     "Smallest position in use: the limit, or where a joint that follows this one has its own"
-    annotation (Dialog(tab="Advanced"));
+    annotation (Dialog(tab="Advanced", group="Range in use"));
 
   parameter Modelica.Units.SI.Position s_max = parameters.limits.upper
     "Largest position in use: the limit, or where a joint that follows this one has its own"
-    annotation (Dialog(tab="Advanced"));
+    annotation (Dialog(tab="Advanced", group="Range in use"));
 
   parameter Modelica.Units.SI.Velocity v_max = parameters.limits.velocity
     "Largest speed in use: the limit, or where a joint that follows this one has its own"
-    annotation (Dialog(tab="Advanced"));
+    annotation (Dialog(tab="Advanced", group="Range in use"));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values; = false, if they are guesses"

@@ -37,13 +37,13 @@ model Continuous "Continuous joint"
     annotation (Placement(transformation(extent={{76, 30}, {96, 50}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(revolute.w) <= parameters.limits.velocity + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(revolute.w), parameters.limits.velocity)),
     getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
-  assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
-  assert(not checkLimits or revolute.a*revolute.w < 0 or 0.999999*abs(revolute.a) <= parameters.limits.acceleration + 1e-6,
+  assert(noEvent(not checkLimits or revolute.a*revolute.w < 0 or UrdfSync.Functions.isAtMost(abs(revolute.a), parameters.limits.acceleration)),
     getInstanceName() + " (joint " + parameters.name + ") speeds up faster than its acceleration limit", AssertionLevel.warning);
-  assert(not checkLimits or revolute.a*revolute.w >= 0 or 0.999999*abs(revolute.a) <= parameters.limits.deceleration + 1e-6,
+  assert(noEvent(not checkLimits or revolute.a*revolute.w >= 0 or UrdfSync.Functions.isAtMost(abs(revolute.a), parameters.limits.deceleration)),
     getInstanceName() + " (joint " + parameters.name + ") slows down faster than its deceleration limit", AssertionLevel.warning);
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));

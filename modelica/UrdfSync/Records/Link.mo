@@ -6,6 +6,9 @@ record Link "Numbers of a link"
   String name = ""
     "Name of the link in the URDF";
 
+  Boolean hasInertial = true
+    "= false for a link without mass: its model then has no body; fixed when the model is translated";
+
   Inertial inertial
     "Mass properties";
 

@@ -7,22 +7,28 @@ block AxisSweeps "Smooth ways of all axes of one kind to the roomier ends of the
     "Number of axes";
 
   parameter Real start[n] = zeros(n)
-    "Positions at the beginning, all in rad or all in m";
+    "Positions at the beginning, all in rad or all in m"
+    annotation (Dialog(group="Range"));
 
   parameter Real lower[n] = fill(-1, n)
-    "Smallest positions";
+    "Smallest positions"
+    annotation (Dialog(group="Range"));
 
   parameter Real upper[n] = fill(1, n)
-    "Largest positions";
+    "Largest positions"
+    annotation (Dialog(group="Range"));
 
   parameter Real velocity[n] = fill(1, n)
-    "Largest velocities";
+    "Largest velocities"
+    annotation (Dialog(group="Range"));
 
   parameter Real reach = 1
-    "Longest way";
+    "Longest way"
+    annotation (Dialog(group="Motion"));
 
   parameter Modelica.Units.SI.Time period = 10
-    "Time of the way there and back";
+    "Time of the way there and back"
+    annotation (Dialog(group="Motion"));
 
   final parameter Real turn[n] = UrdfSync.Dynamics.sweepTurns(start, lower, upper, velocity, period, reach)
     "Turning points";

@@ -24,7 +24,8 @@ partial model PartialMobileBench "World, ground, and six degrees of freedom for 
     annotation (Dialog(tab="Initialization"));
 
   parameter Modelica.Units.SI.Force load = 100
-    "Weight of the robot: sets the stiffness of the ground";
+    "Weight of the robot: sets the stiffness of the ground"
+    annotation (Dialog(group="Ground"));
 
   inner UrdfSync.Contacts.Ground ground(load = load)
     "Ground that the collision shapes touch"

@@ -16,7 +16,8 @@ partial model PartialRecordRobot "Axes, mimic joints, losses and limits of a rob
     annotation (Dialog(tab="Animation"));
 
   parameter Boolean checkLimits = true
-    "= true, if a joint that passes one of its limits is reported by a warning";
+    "= true, if a joint that passes one of its limits is reported by a warning"
+    annotation (Dialog(group="Limits"));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values below; = false, if they are guesses, for axes that are driven by position"
@@ -290,17 +291,17 @@ equation
     getInstanceName() + ": robot " + data.name + " has planar or floating joints, so its record has no tables. Use the package approach, or write in the "
     + "URDF a planar joint as two prismatic joints and a continuous one, and leave out a floating joint at the root: put the robot on a FreeBase");
   for i in 1:n loop
-    assert(not checkLimits or q[i] >= lower[i] - 1e-6,
+    assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(lower[i], q[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is below its lower position limit", AssertionLevel.warning);
-    assert(not checkLimits or q[i] <= upper[i] + 1e-6,
+    assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(q[i], upper[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is above its upper position limit", AssertionLevel.warning);
-    assert(not checkLimits or 0.999999*abs(v[i]) <= velocity[i] + 1e-6,
+    assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(v[i]), velocity[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is faster than its velocity limit", AssertionLevel.warning);
-    assert(not checkLimits or 0.999999*abs(drive[i]) <= effortLimits[i] + 1e-6,
+    assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(drive[i]), effortLimits[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") is driven above its effort limit", AssertionLevel.warning);
-    assert(not checkLimits or a[i]*v[i] < 0 or 0.999999*abs(a[i]) <= acceleration[i] + 1e-6,
+    assert(noEvent(not checkLimits or a[i]*v[i] < 0 or UrdfSync.Functions.isAtMost(abs(a[i]), acceleration[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") speeds up faster than its acceleration limit", AssertionLevel.warning);
-    assert(not checkLimits or a[i]*v[i] >= 0 or 0.999999*abs(a[i]) <= deceleration[i] + 1e-6,
+    assert(noEvent(not checkLimits or a[i]*v[i] >= 0 or UrdfSync.Functions.isAtMost(abs(a[i]), deceleration[i])),
       getInstanceName() + " (joint " + data.jointNames[i].name + ") slows down faster than its deceleration limit", AssertionLevel.warning);
     assert(not fixedStart or driven[i] == 0 or axisInertias[i] > 0,
       getInstanceName() + " (joint " + data.jointNames[i].name + ") has no inertia about or along its axis: it can be driven by position only", AssertionLevel.warning);

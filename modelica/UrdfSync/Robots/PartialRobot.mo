@@ -11,7 +11,8 @@ partial model PartialRobot "What all robots have in common"
     annotation (Dialog(tab="Animation"));
 
   parameter Boolean checkLimits = true
-    "= true, if a joint that passes one of its limits is reported by a warning";
+    "= true, if a joint that passes one of its limits is reported by a warning"
+    annotation (Dialog(group="Limits"));
 
   parameter Boolean fixedStart = true
     "= true, if the simulation begins at the start values of the joints; = false, if they are guesses, for axes that are driven by position"

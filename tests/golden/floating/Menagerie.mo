@@ -435,9 +435,9 @@ model Menagerie "Robot Menagerie"
     annotation (Placement(transformation(extent={{-72, -92}, {-52, -72}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(liftAxis.f) <= lift.parameters.limits.effort + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(liftAxis.f), lift.parameters.limits.effort)),
     getInstanceName() + ".lift (joint " + lift.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
-  assert(not checkLimits or 0.999999*abs(shoulderAxis.tau) <= shoulder.parameters.limits.effort + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(shoulderAxis.tau), shoulder.parameters.limits.effort)),
     getInstanceName() + ".shoulder (joint " + shoulder.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, chassis.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));

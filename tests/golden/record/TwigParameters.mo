@@ -264,7 +264,8 @@ record TwigParameters "Numbers of robot Twig as a whole"
     "Link 5: \"shoot\"";
 
   UrdfSync.Records.Link bud(
-    name = "bud")
+    name = "bud",
+    hasInertial = false)
     "Link 6: \"bud\"";
 
   UrdfSync.Records.Link leaf2(

@@ -90,8 +90,9 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
             part = f"robot.{tree.link(link.name).component}"
             place = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
             axes = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
-            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {part}.body.r_CM)"
-            moments.append(f"{part}.body.m*({part}.frame_a.r_0 + {centre})")
+            inertial = f"{part}.parameters.inertial"
+            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {inertial}.origin.xyz)"
+            moments.append(f"{inertial}.mass*({part}.frame_a.r_0 + {centre})")
         else:
             place = tuple(f"robot.r_0[{k},{i}]" for i in three)
             axes = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)

@@ -46,7 +46,7 @@ model ElasticElbow "Elbow whose gear gives way between the motor and the arm"
     annotation (Placement(transformation(extent={{0, 40}, {20, 60}})));
 
 equation
-  assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, joint.frame_a)
     annotation (Line(points={{-100, 0}, {30, 0}}, color={95, 95, 95}, thickness=0.5));

@@ -36,7 +36,7 @@ model GearedTurret "Turret with a gear and the rotor of its motor"
     annotation (Placement(transformation(extent={{-40, 40}, {-20, 60}})));
 
 equation
-  assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, joint.frame_a)
     annotation (Line(points={{-100, 0}, {30, 0}}, color={95, 95, 95}, thickness=0.5));

@@ -342,7 +342,7 @@ model SixAxisArm "Robot SixAxisArm"
     annotation (Placement(transformation(extent={{312, -232}, {332, -212}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(gripper_strokeAxis.f) <= gripper_stroke.parameters.limits.effort + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(gripper_strokeAxis.f), gripper_stroke.parameters.limits.effort)),
     getInstanceName() + ".gripper_stroke (joint " + gripper_stroke.parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, base_link.frame_a)
     annotation (Line(points={{-100, 0}, {-76, 0}, {-76, -26}, {-72, -26}}, color={95, 95, 95}, thickness=0.5));

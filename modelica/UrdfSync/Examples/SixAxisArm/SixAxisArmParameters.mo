@@ -944,7 +944,8 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
     "Visual 2: \"zero_mark\" of link \"mounting_flange\"";
 
   UrdfSync.Records.Link tool0(
-    name = "tool0")
+    name = "tool0",
+    hasInertial = false)
     "Link 8: \"tool0\"";
 
   UrdfSync.Records.Link gripper_body(
@@ -1055,7 +1056,8 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
     "Visual 4: \"pad\" of link \"finger_right\"";
 
   UrdfSync.Records.Link grasp_point(
-    name = "grasp_point")
+    name = "grasp_point",
+    hasInertial = false)
     "Link 11: \"grasp_point\"";
 
   UrdfSync.Records.Link finger_left(

@@ -160,6 +160,7 @@ equation
     annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 127, 0}));
 
   annotation (
+    experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 250}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 250}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 226}, {94, 244}}, textColor={64, 64, 64}, textString="turret"),

@@ -1012,7 +1012,8 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
     "Visual 5: \"status_light\" of link \"head\"";
 
   UrdfSync.Records.Link camera_optical_frame(
-    name = "camera_optical_frame")
+    name = "camera_optical_frame",
+    hasInertial = false)
     "Link 10: \"camera_optical_frame\"";
 
   UrdfSync.Records.Link lidar_mast(

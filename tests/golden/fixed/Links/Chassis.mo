@@ -24,9 +24,13 @@ model Chassis "Link \"chassis\""
     I_33 = I[3, 3],
     I_21 = I[2, 1],
     I_31 = I[3, 1],
-    I_32 = I[3, 2])
+    I_32 = I[3, 2]) if parameters.hasInertial
     "Mass and inertia"
     annotation (Placement(transformation(extent={{-40, -10}, {-20, 10}})));
+
+  UrdfSync.Interfaces.NoBody noBody(m = parameters.inertial.mass) if not parameters.hasInertial
+    "In place of the body of a link without mass"
+    annotation (Placement(transformation(extent={{60, -10}, {80, 10}})));
 
   UrdfSync.Visualizers.Box visual1(
     parameters = parameters.visual1,
@@ -97,6 +101,8 @@ model Chassis "Link \"chassis\""
 equation
   connect(frame_a, body.frame_a)
     annotation (Line(points={{-100, 0}, {-40, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(frame_a, noBody.frame_a)
+    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 15}, {50, 15}, {50, 0}, {60, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, visual1.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 30}, {-40, 30}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, visual2.frame_a)

@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record End_linkParameters "Numbers of link \"end\""
   extends UrdfSync.Records.Link(
-    name = "end");
+    name = "end",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

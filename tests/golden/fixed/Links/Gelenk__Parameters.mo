@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record Gelenk__Parameters "Numbers of link \"Gelenk_ä\""
   extends UrdfSync.Records.Link(
-    name = "Gelenk_ä");
+    name = "Gelenk_ä",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

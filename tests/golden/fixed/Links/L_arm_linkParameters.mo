@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record L_arm_linkParameters "Numbers of link \"L_arm\""
   extends UrdfSync.Records.Link(
-    name = "L_arm");
+    name = "L_arm",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

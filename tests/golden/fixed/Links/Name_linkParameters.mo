@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record Name_linkParameters "Numbers of link \"name\""
   extends UrdfSync.Records.Link(
-    name = "name");
+    name = "name",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record NutParameters "Numbers of link \"nut\""
   extends UrdfSync.Records.Link(
-    name = "nut");
+    name = "nut",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

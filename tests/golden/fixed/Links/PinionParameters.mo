@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record PinionParameters "Numbers of link \"pinion\""
   extends UrdfSync.Records.Link(
-    name = "pinion");
+    name = "pinion",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

@@ -2,7 +2,8 @@ within Zoo.Menagerie.Links;
 
 record Time_linkParameters "Numbers of link \"time\""
   extends UrdfSync.Records.Link(
-    name = "time");
+    name = "time",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

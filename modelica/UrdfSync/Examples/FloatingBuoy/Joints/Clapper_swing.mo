@@ -31,9 +31,9 @@ model Clapper_swing "Continuous joint \"clapper_swing\" from link \"buoy\" to li
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
 equation
-  assert(not checkLimits or 0.999999*abs(revolute.w) <= parameters.limits.velocity + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(revolute.w), parameters.limits.velocity)),
     getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
-  assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));

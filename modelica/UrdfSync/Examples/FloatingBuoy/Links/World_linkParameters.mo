@@ -2,7 +2,8 @@ within UrdfSync.Examples.FloatingBuoy.Links;
 
 record World_linkParameters "Numbers of link \"world\""
   extends UrdfSync.Records.Link(
-    name = "world");
+    name = "world",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

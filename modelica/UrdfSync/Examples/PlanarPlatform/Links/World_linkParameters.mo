@@ -2,7 +2,8 @@ within UrdfSync.Examples.PlanarPlatform.Links;
 
 record World_linkParameters "Numbers of link \"world\""
   extends UrdfSync.Records.Link(
-    name = "world");
+    name = "world",
+    hasInertial = false);
 
   UrdfSync.Records.Box visual1(
     origin(

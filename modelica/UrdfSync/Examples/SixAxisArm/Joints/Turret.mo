@@ -29,13 +29,13 @@ model Turret "Revolute joint \"turret\" from link \"base_link\" to link \"carous
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
 equation
-  assert(not checkLimits or revolute.phi >= parameters.limits.lower - 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(parameters.limits.lower, revolute.phi)),
     getInstanceName() + " (joint " + parameters.name + ") is below its lower position limit", AssertionLevel.warning);
-  assert(not checkLimits or revolute.phi <= parameters.limits.upper + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(revolute.phi, parameters.limits.upper)),
     getInstanceName() + " (joint " + parameters.name + ") is above its upper position limit", AssertionLevel.warning);
-  assert(not checkLimits or 0.999999*abs(revolute.w) <= parameters.limits.velocity + 1e-6,
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(revolute.w), parameters.limits.velocity)),
     getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
-  assert(not (checkLimits and checkEffort) or 0.999999*abs(axis.tau) <= parameters.limits.effort + 1e-6,
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
     getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
   connect(frame_a, origin.frame_a)
     annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));

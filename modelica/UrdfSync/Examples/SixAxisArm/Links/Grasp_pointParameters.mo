@@ -2,7 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Links;
 
 record Grasp_pointParameters "Numbers of link \"grasp_point\""
   extends UrdfSync.Records.Link(
-    name = "grasp_point");
+    name = "grasp_point",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

@@ -2,7 +2,8 @@ within UrdfSync.Examples.SixAxisArm.Links;
 
 record Tool0Parameters "Numbers of link \"tool0\""
   extends UrdfSync.Records.Link(
-    name = "tool0");
+    name = "tool0",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>

@@ -2,7 +2,8 @@ within UrdfSync.Examples.WheeledRobot.Links;
 
 record Camera_optical_frameParameters "Numbers of link \"camera_optical_frame\""
   extends UrdfSync.Records.Link(
-    name = "camera_optical_frame");
+    name = "camera_optical_frame",
+    hasInertial = false);
 
   annotation (Documentation(info="<html>
 <p>
