@@ -126,6 +126,8 @@ _WARNINGS = {
     "bad-mimic": "write a decimal number; a multiplier is taken as 1, an offset as 0",
     "bad-start": "correct the position, or set another one by `start` in the configuration",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
+    "gravity-off": "exchange the link in a model of your own, or expect that the joints carry it",
+    "force-left-out": "add it in a model of your own, or expect another motion",
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",

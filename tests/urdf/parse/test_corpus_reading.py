@@ -43,10 +43,10 @@ ODD = {
     # A box of size 0 0 0, and principal moments 0, 0 and 3e-8.
     "matlab/sawyer_description/urdf/rethinkSawyer.urdf": ["shape-size", "inertia-triangle"],
     # Principal moments 0.0008, 0.001 and 0.01: no body has these.
-    "drake/atlas/urdf/robotiq.urdf": ["inertia-triangle", "loop-joint", "stray-inertial"],
+    "drake/atlas/urdf/robotiq.urdf": ["inertia-triangle", "loop-joint", "gravity-off", "stray-inertial"],
     "drake/atlas/urdf/robotiq_simple.urdf": ["inertia-triangle", "stray-inertial"],
     "drake/atlas/urdf/robotiq_tendons.urdf":
-        ["inertia-triangle", "stray-inertial", "unknown-material", "missing-limit-value"],
+        ["inertia-triangle", "force-left-out", "stray-inertial", "unknown-material", "missing-limit-value"],
     "ros-industrial/robotiq/robotiq_3f_gripper_visualization/cfg/robotiq-3f-gripper_articulated.urdf":
         ["inertia-triangle", "stray-inertial"],
     # <xacro:grey/> inside visuals, and materials that a file not included defines.

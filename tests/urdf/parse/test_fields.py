@@ -70,7 +70,7 @@ LEFT_OUT = {
         <joint name="j" mimic="false"><command_interface name="effort"><param name="min">-1</param></command_interface>
         <command_interface name="stiffness"/><state_interface name="position"><param name="initial_value">1</param>
         </state_interface><state_interface name="heat"/></joint><joint name="k"/></ros2_control>""",
-        "1 <hardware>, 1 <gpio>, 1 <joint>, 1 <command_interface>, 2 <param>, 1 <state_interface>",
+        "1 <hardware>, 1 <gpio>, 1 <joint>, 1 <command_interface>, 1 <param>, 1 <state_interface>",
     ),
     "of a sensor": (
         """<gazebo reference="arm"><sensor name="eye" type="camera"><always_on>1</always_on><camera><image>

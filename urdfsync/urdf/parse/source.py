@@ -22,6 +22,7 @@ from urdfsync.urdf.parse.contacts import read_contacts
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
+from urdfsync.urdf.parse.left_out import warn_of_left_out
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot
 
@@ -152,6 +153,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
     contacts = read_contacts(reader, root)
+    warn_of_left_out(reader, root)
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         children = root.findall(tag)
