@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import pytest
 
 from urdfsync.urdf.drives import driven_joints, passive_joints
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Limit, Mimic
+from urdfsync.urdf.robot import Command, Joint, Limit, Mimic
 
 
 def joint(
@@ -65,3 +65,9 @@ def test_driven_and_passive_joints(
 ) -> None:
     assert driven_joints(joints, Options(driven=names)) == driven
     assert passive_joints(joints) == passive
+
+
+def test_a_command_in_the_options_drives_a_passive_joint_unless_they_name_all_that_are_driven() -> None:
+    commands: Mapping[str, Command] = {"caster": "velocity", "slave": "effort"}
+    assert driven_joints(CART, Options(commands=commands)) == {*DRIVEN, "caster"}
+    assert driven_joints(CART, Options(commands=commands, driven=("mast",))) == {"mast"}

@@ -113,6 +113,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:
-    """Return a domain's options as they are recorded: plain data, without those that are None."""
+    """Return a domain's options as they are recorded: plain data, without None and empty tables."""
     values = msgspec.json.decode(msgspec.json.encode(options))
-    return {name: value for name, value in values.items() if value is not None}
+    return {name: value for name, value in values.items() if value not in (None, {})}

@@ -17,12 +17,16 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
     """Return the names of the driven joints: those of the option `driven` if it is set, else all but passive ones.
 
+    A passive joint with a command in the options is driven, too.
+
     No number of a joint matters, so that a structure without numbers has the same drives. Names in the option that no
     drivable joint has are left out: `check_options` reports them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))
-    return can.intersection(options.driven) if options.driven is not None else can - passive_joints(joints)
+    if options.driven is not None:
+        return can.intersection(options.driven)
+    return can - (passive_joints(joints) - options.commands.keys())
 
 
 def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:

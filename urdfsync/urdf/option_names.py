@@ -56,7 +56,7 @@ def check_options(
                 hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
                 message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
-    passive = passive_joints(joints) if options.driven is None else frozenset()
+    passive = passive_joints(joints) - driven if options.driven is None else frozenset()
     measured = {joint.name for joint in joints if joint.measured}
     for names, reason in (
         (passive - measured, "no transmission, no ros2_control and no limit"),

@@ -236,6 +236,7 @@ def test_an_unknown_interface_is_told_with_its_line(element: str, words: str) ->
     (("effort", "velocity"), "velocity"),
     (("effort", "velocity", "position"), "position"),
     (("effort",), "effort"),
+    (("velocity_pid",), "velocity"),
     (("stiffness",), "position"),
 ])  # fmt: skip
 def test_commands(names: tuple[str, ...], command: str) -> None:

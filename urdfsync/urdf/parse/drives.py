@@ -91,12 +91,9 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
             if name := joint.get("name", ""):
                 place = reader.place(joint, f"{path} / joint {name}")
                 commands = _read_interfaces(reader, transmission, joint, place)
-                command = next((command for command in _COMMANDS if command in commands), None)
+                drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
                 is_measured = commands == {None}
-                is_coupled = len(joints) > 1
-                yield Drive(
-                    place, name, transmission, gear, command, None, None, not is_measured, is_measured, is_coupled
-                )
+                yield drive._replace(is_driven=not is_measured, is_measured=is_measured, is_coupled=len(joints) > 1)
         if len(joints) > 1:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
             reader.add(transmission, "coupled-transmission", message)
@@ -104,11 +101,12 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
 
 def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
     """Return the drive of a joint of `<ros2_control>`: what it commands, or else that it measures the joint."""
-    interfaces = {interface.get("name", ""): interface for interface in joint.findall("command_interface")}
+    # gazebo_ros2_control has `velocity_pid` for a velocity that a controller of its own keeps
+    interfaces = {part.get("name", "").removesuffix("_pid"): part for part in joint.findall("command_interface")}
     states = joint.findall("state_interface")
     reader.used.update(state for state in states if state.get("name") in _STATES)
     reader.used.update(interfaces[command] for command in _COMMANDS if command in interfaces)
-    command = next((command for command in _COMMANDS if command in interfaces), None)
+    command = next(filter(interfaces.__contains__, _COMMANDS), None)
     if interfaces and not command:
         unknown = next(iter(interfaces))
         _add_unknown(reader, interfaces[unknown], path, unknown, _COMMANDS)
@@ -145,7 +143,7 @@ def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator
         if name:
             place = reader.place(plugin, f"{path} / joint {name}")
             reader.used.add(parts["mimicJoint"])
-            mimic = _read_mimic(reader, parts, "joint", place)
+            mimic = _read_mimic(reader, parts, "joint" if "joint" in parts else "jointName", place)
             yield Drive(place, name, plugin, mimic=mimic, is_driven=False)
 
 
@@ -212,11 +210,9 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
 
 
 def configured_drives(options: Options) -> Iterator[Drive]:
-    """Yield what the configuration says of drives."""
-    for name, command in options.commands.items():
-        yield Drive("", name, command=command)
-    for name, start in options.start.items():
-        yield Drive("", name, start=start, is_driven=False)
+    """Yield the commands and start positions of the configuration. Which joints are driven is not said by them."""
+    for name in dict.fromkeys((*options.commands, *options.start)):
+        yield Drive("", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False)
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
