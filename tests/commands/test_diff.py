@@ -14,6 +14,7 @@ from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
 from support.networks import LADDER, RECORD, ROBOT, configure, edit, rename, resistor
 
+from urdfsync import registry
 from urdfsync.engine.result import Exit
 
 ARM = """<robot name="arm">
@@ -55,6 +56,17 @@ def said(execute: Execute, *arguments: str) -> tuple[int, list[str]]:
     printed = execute("diff", *arguments, code=None)
     assert printed.err == ""
     return printed.code, printed.lines
+
+
+def test_a_revision_that_gives_the_same_texts_is_no_change(
+    built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type(registry.domain("rcnetwork")), "revision", 2)
+    assert said(execute) == (0, ["ladder: nothing changed since the last build"])
+    resistor(120)
+    code, lines = said(execute)
+    assert code == 1
+    assert "  a template, an option or urdfsync itself changed" in lines
 
 
 def test_a_file_with_a_loop_is_compared(arm: Path, execute: Execute) -> None:

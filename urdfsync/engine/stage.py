@@ -88,7 +88,10 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     above = {inputs.files.path(inputs.last.folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
     emptied = [folder for folder in folders if not above.isdisjoint(folder.parents)]
-    news = generation.changes
+    news, is_noop = generation.changes, not (state or is_writing)
+    if news and is_noop and decision.is_complete:
+        # the record keeps the old generator and options then, so that each later plan would tell them again
+        news = msgspec.structs.replace(news, generator=False, options=())
     return Plan(
         decision.actions,
         store.hashes(),
@@ -97,7 +100,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         diagnostics,
         changes=news if news and (news.changes or news.generator) else None,
         writes=tuple(changes),
-        is_noop=not (state or is_writing),
+        is_noop=is_noop,
         emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
         stale=inputs.source.stale,
