@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -95,9 +96,11 @@ def test_commands_are_of_joints_that_run_drives() -> None:
 def test_start_positions_are_of_joints_with_an_axis_and_inside_of_their_limits() -> None:
     limited = CART.replace("</robot>", "") + urdfs.link("tip")
     limited += urdfs.joint("mast", "revolute", "plate", "tip", inside=[urdfs.limit(-1, 1, 1, 1)]) + "</robot>"
-    words = [said for _, _, said in found(limited, start={"mast": 1.5, "wheels": 0.1, "lift": 0.2, "caster": 99.0})]
+    start = {"mast": 1.5, "wheels": 0.1, "lift": 0.2, "caster": 99.0, "wheel": math.inf}
+    words = [said for _, _, said in found(limited, start=start, approach=("record",))]
     assert [said.partition(";")[0] for said in words] == [
         "`start` puts `mast` at 1.5, outside of its limits -1 to 1",
+        "`start` puts `wheel` at inf, outside of its limits -inf to inf",
         f"`start` names `wheels`, but the robot has no such {DRIVEN}",
         f"`start` names `lift`, but the robot has no such {DRIVEN}",
     ]

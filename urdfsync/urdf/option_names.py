@@ -7,8 +7,9 @@ second may have been meant to be another.
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence, Set
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
@@ -26,28 +27,30 @@ def check_options(
 ) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
-    `links` are the names of all links. The record approach has no use for these options.
+    `links` are the names of all links. The record approach has no use for these options, but for `start`.
     """
-    if "package" not in options.approach:
-        return
-    drivable = [joint.name for joint in joints if can_be_driven(joint)]
-    driven = driven_joints(joints, options)
-    for name in options.commands:
-        if name in drivable and name not in driven:
-            message = f"`commands` names `{name}`, which `driven` leaves out"
-            yield f"commands.{name}", Diagnostic(Severity.ERROR, "drive-of-no-joint", message, hint="add it there")
+    ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
+    drivable, driven = list(ranges), driven_joints(joints, options)
+    checks: list[tuple[str, Sequence[str], Collection[str], str, str]] = [
+        (f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start
+    ]
     for name, start in options.start.items():
-        lower, upper = next((own_range(joint) for joint in joints if joint.name == name), (0.0, 0.0))
-        if name in drivable and not lower <= start <= upper:
+        lower, upper = ranges.get(name, (start, start))
+        if not (lower <= start <= upper and math.isfinite(start)):
             message = f"`start` puts `{name}` at {start:g}, outside of its limits {lower:g} to {upper:g}"
             yield f"start.{name}", Diagnostic(Severity.ERROR, "start-outside", message, hint="correct the position")
-    for option, given, possible, kind, code in (
-        ("frames", options.frames, links, "link", "frame-of-no-link"),
-        ("driven", options.driven, drivable, _DRIVABLE, "drive-of-no-joint"),
-        *((f"commands.{name}", (name,), drivable, _DRIVABLE, "drive-of-no-joint") for name in options.commands),
-        *((f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start),
-    ):
-        for name, count in Counter(given if isinstance(given, tuple) else ()).items():
+    if "package" in options.approach:
+        for name in [name for name in options.commands if name in ranges and name not in driven]:
+            message = f"`commands` names `{name}`, which `driven` leaves out"
+            yield f"commands.{name}", Diagnostic(Severity.ERROR, "drive-of-no-joint", message, hint="add it there")
+        frames = options.frames if isinstance(options.frames, tuple) else ()
+        checks += (
+            ("frames", frames, links, "link", "frame-of-no-link"),
+            ("driven", options.driven or (), drivable, _DRIVABLE, "drive-of-no-joint"),
+            *((f"commands.{name}", (name,), drivable, _DRIVABLE, "drive-of-no-joint") for name in options.commands),
+        )
+    for option, given, possible, kind, code in checks:
+        for name, count in Counter(given).items():
             if count > 1:
                 message, hint = f"`{option}` names `{name}` more than once", "take one out, or correct its name"
                 yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
@@ -56,7 +59,12 @@ def check_options(
                 hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
                 message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
-    passive = passive_joints(joints) - driven if options.driven is None else frozenset()
+    if "package" in options.approach and options.driven is None:
+        yield from _find_passive(joints, passive_joints(joints) - driven)
+
+
+def _find_passive(joints: Sequence[Joint], passive: Set[str]) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a note for each reason why joints are passive."""
     measured = {joint.name for joint in joints if joint.measured}
     for names, reason in (
         (passive - measured, "no transmission, no ros2_control and no limit"),

@@ -266,11 +266,10 @@ def test_couplings_of_ros2_control_and_of_plugins(element: str, mimic: Mimic) ->
 
 
 @pytest.mark.parametrize(("element", "words"), [
-    (plugin("drive wheel"), "warning: joint 'elbow' has two couplings: 1 times 'roll' plus 0 (joint elbow / mimic); "
-     "1 times 'drive wheel' plus 0 (gazebo number 1 / joint elbow); the first counts; correct one of them"),
-    (followed(numbers='<param name="multiplier">2</param>'), "warning: joint 'elbow' has two couplings: 1 times 'roll' "
-     "plus 0 (joint elbow / mimic); 2 times 'roll' plus 0 (ros2_control c / joint elbow); the first counts; "
-     "correct one of them"),
+    (plugin("drive wheel"), "warning: joint 'elbow' has two couplings that differ: that of joint elbow / mimic "
+     "counts, that of gazebo number 1 / joint elbow does not; correct one of them"),
+    (followed(numbers='<param name="multiplier">2</param>'), "warning: joint 'elbow' has two couplings that "
+     "differ: that of joint elbow / mimic counts, that of ros2_control c / joint elbow does not; correct one of them"),
     (control('<joint name="elbow" mimic="false"/>'), "warning: ros2_control c / joint elbow has mimic='false', but "
      "joint 'elbow' follows another one, which counts; correct one of them"),
 ])  # fmt: skip
@@ -315,8 +314,8 @@ FOLLOWING = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimi
     (LIMITED, [begins("half")], "10: warning: ros2_control c / joint elbow: <param> 'half' is not a decimal number"),
     (LIMITED, [begins("2", "velocity")], "10: warning: ros2_control c / joint elbow begins with velocity 2; in Run and "
      "Test it begins at rest"),
-    (LIMITED, [begins("1"), begins("2")], "11: warning: joint 'elbow' has two start positions: "
-     "1 (ros2_control c / joint elbow); 2 (ros2_control c #2 / joint elbow); the first counts"),
+    (LIMITED, [begins("1"), begins("2")], "11: warning: joint 'elbow' has two start positions that differ: that of "
+     "ros2_control c / joint elbow counts, that of ros2_control c #2 / joint elbow does not"),
     (FOLLOWING, [begins("1", joint="roll"), begins("2")], "11: warning: joint 'elbow' can't begin at 2: the joint that "
      "it follows holds it at 2.1"),
 ])  # fmt: skip

@@ -247,8 +247,8 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
             if getattr(other, field) != getattr(stated[0], field):
-                values = [f"{_words(getattr(drive, field))} ({drive.path})" for drive in (stated[0], other)]
-                message = f"joint {joint.name!r} has two {_KINDS[field]}: {'; '.join(values)}; the first counts"
+                message = f"joint {joint.name!r} has two {_KINDS[field]} that differ: "
+                message += f"that of {stated[0].path} counts, that of {other.path} does not"
                 hint = "correct one of them, or choose by `commands` in the configuration" if field == "command" else ""
                 reader.extend([Finding("drive-contradiction", other.path, message, hint)])
         return stated[0] if stated else None
@@ -281,14 +281,3 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         start=start.start if start else None,
         command=(command and command.command) or "position",
     )
-
-
-def _words(value: Transmission | Command | Mimic | float) -> str:
-    if isinstance(value, float):
-        return f"{value:g}"
-    if isinstance(value, Mimic):
-        return f"{value.multiplier:g} times {value.joint!r} plus {value.offset:g}"
-    if isinstance(value, Transmission):
-        rotor = f", rotor inertia {value.rotor_inertia:g}" if value.rotor_inertia is not None else ""
-        return f"reduction {value.reduction:g}, offset {value.offset:g}{rotor}"
-    return value
