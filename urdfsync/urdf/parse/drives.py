@@ -118,21 +118,19 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
 
 def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str) -> float | None:
     """Return the initial position of a joint of `<ros2_control>`; an initial velocity is left out, with a warning."""
-    start = None
+    starts = dict[str, float]()
     for state in states:
-        kind = state.get("name")
-        for param in state.iterfind("param"):
-            if param.get("name") != "initial_value" or kind not in ("position", "velocity"):
-                continue
-            numbers = reader.numbers(param, ("",), path, "bad-start")
+        kind, param = state.get("name", ""), state.find("param[@name='initial_value']")
+        if param is not None and kind in ("position", "velocity"):
             reader.used.add(param)
-            if kind == "position" and numbers:
+            if numbers := reader.numbers(param, ("",), path, "bad-start"):
+                starts[kind] = numbers[0]
+            if kind == "position":
                 reader.place(param, f"joint {name} / start")
-                start = numbers[0]
-            elif numbers and numbers[0]:
-                message = f"{path} begins with velocity {numbers[0]:g}; in Run and Test it begins at rest"
+            elif starts.get(kind):
+                message = f"{path} begins with velocity {starts[kind]:g}; in Run and Test it begins at rest"
                 reader.add(param, "bad-start", message, "take it out")
-    return start
+    return starts.get("position")
 
 
 def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
@@ -167,23 +165,20 @@ def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str
     Those of the actuator count where the joint names none, and there is one joint.
     """
     is_alone = len(element.findall("joint")) == 1
-    places = [joint, *(element.findall("actuator") if is_alone else ())]
-    commands = list[set[Command | None]]()
-    for place in places:
-        commands.append(set())
+    stated = list[set[Command | None]]()
+    for place in (joint, *(element.findall("actuator") if is_alone else ())):
+        commands = set[Command | None]()
         for interface in place.findall("hardwareInterface"):
             name = (interface.text or "").strip()
-            known = name.removeprefix("hardware_interface/")
-            if known in _INTERFACES:
+            if (known := name.removeprefix("hardware_interface/")) in _INTERFACES:
                 reader.used.add(interface)
-                commands[-1].add(_INTERFACES[known])
+                commands.add(_INTERFACES[known])
             else:
                 _add_unknown(reader, interface, path, name, _INTERFACES)
-    stated = [interfaces for interfaces in commands if interfaces]
-    for other in stated[1:]:
-        if other != stated[0]:
-            message = f"{path}: the interfaces of joint and actuator differ; those of the joint count"
-            reader.add(element, "drive-contradiction", message)
+        stated += [commands] if commands else []
+    if any(commands != stated[0] for commands in stated):
+        message = f"{path}: the interfaces of joint and actuator differ; those of the joint count"
+        reader.add(element, "drive-contradiction", message)
     return stated[0] if stated else set()
 
 
