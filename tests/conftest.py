@@ -64,6 +64,15 @@ def _default_signals() -> None:
             signal.signal(number, lambda *_: None)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _no_waiting_for_disks() -> Iterator[None]:
+    """Builds leave it to the system when the disk gets to know: only a power failure makes a difference."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", lambda _: None)
+        patch.setattr(os, "sync", lambda: None, raising=False)
+        yield
+
+
 @pytest.fixture(autouse=True)
 def _no_stray_writes() -> Iterator[None]:
     """A test that writes to the repository or the home folder fails."""
@@ -183,15 +192,6 @@ def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from support import answers  # needs what only its tests import
 
     return answers.built(tmp_path_factory.mktemp("built") / "project")
-
-
-@pytest.fixture
-def in_haste() -> Iterator[None]:
-    """Builds leave it to the system when the disk gets to know: only a power failure makes a difference."""
-    from support import replay
-
-    with replay.in_haste():
-        yield
 
 
 @pytest.fixture

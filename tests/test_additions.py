@@ -145,8 +145,7 @@ def differences(content: bytes, work: Path, random: Random, tally: collections.C
 @pytest.mark.slow
 @pytest.mark.parametrize("robot", ["twig.urdf", "menagerie.urdf"])
 def test_an_addition_meets_any_export(robot: str, tmp_path: Path) -> None:
-    with replay.in_haste():
-        found = list(differences((GOLDEN / robot).read_bytes(), tmp_path, Random(5), collections.Counter()))
+    found = list(differences((GOLDEN / robot).read_bytes(), tmp_path, Random(5), collections.Counter()))
     assert found == []
 
 
@@ -156,10 +155,9 @@ def test_additions_meet_the_exports_of_all_robots(
     corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     random, tally, found = Random(replay.SEED), collections.Counter[str](), []
-    with replay.in_haste():
-        for robot in robots_of.robots():
-            one = differences((corpus / robot).read_bytes(), tmp_path / robots_of.label(robot), random, tally)
-            found += [f"{robot}: {what}" for what in one]
+    for robot in robots_of.robots():
+        one = differences((corpus / robot).read_bytes(), tmp_path / robots_of.label(robot), random, tally)
+        found += [f"{robot}: {what}" for what in one]
     with capsys.disabled():
         print("", *(f"{what}: {count}" for what, count in sorted(tally.items())), sep="\n")  # noqa: T201
     assert found == []

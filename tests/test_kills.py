@@ -30,7 +30,6 @@ SAME = 10
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.usefixtures("in_haste"),
     pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
 ]
 

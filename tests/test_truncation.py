@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.replay import Project, in_haste
+from support.replay import Project
 
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit, exit_code
@@ -52,11 +52,10 @@ def built(root: Path, content: bytes) -> Project:
     """A project with a package of this robot, one file of it edited by hand."""
     project = Project(root)
     project.save(content)
-    with in_haste():
-        assert not project.build().failed
-        model = project.package / "Bot.mo"
-        model.write_text(model.read_text() + "// mine\n")
-        assert not project.build().conflicts
+    assert not project.build().failed
+    model = project.package / "Bot.mo"
+    model.write_text(model.read_text() + "// mine\n")
+    assert not project.build().conflicts
     return project
 
 

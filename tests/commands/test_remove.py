@@ -142,7 +142,6 @@ def test_what_the_document_says(plant: Path, execute: Execute) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("in_haste")
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 def test_a_removal_that_was_killed_goes_on(plant: Path, tmp_path: Path) -> None:
     """At each of its file operations until the configuration is written; what the user wrote is never lost."""

@@ -36,7 +36,6 @@ MINE = b"\n// mine\n"
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.usefixtures("in_haste"),
     pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
 ]
 
@@ -219,16 +218,16 @@ def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> N
 # Errors of the system
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
 @pytest.mark.parametrize("lasting", [False, True])
 @pytest.mark.parametrize("scenario", ["changed", "edited"], indirect=True)
 def test_a_system_that_refuses_leaves_all_as_it_was(
-    scenario: Path, tmp_path: Path, tally: Tally, number: int, lasting: bool
+    scenario: Path, tmp_path: Path, tally: Tally, lasting: bool
 ) -> None:
     before, wanted = contents(scenario), expected(scenario, tmp_path / "clean")
     for operation, project in every(scenario, tmp_path / "work", ALWAYS):
+        number = (errno.ENOSPC, errno.EACCES)[(operation.number + lasting) % 2]
 
-        def refuse(found: Operation, first: int = operation.number) -> None:
+        def refuse(found: Operation, first: int = operation.number, number: int = number) -> None:
             if found.number == first or (lasting and found.number > first):
                 raise OSError(number, os.strerror(number), str(found.paths[0]) if found.paths else None)
 
@@ -269,6 +268,10 @@ def by_renaming(path: Path, content: bytes) -> None:
     beside.replace(path)
 
 
+WAYS = (in_place, by_renaming)
+"""In turns: what matters is which operation comes next."""
+
+
 class Saves:
     """Saves a file of the user's before one operation of a build."""
 
@@ -292,17 +295,14 @@ def system(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.usefixtures("system")
-@pytest.mark.parametrize("save", [in_place, by_renaming])
 @pytest.mark.parametrize("path", [RECORD, REMOVED, ADDED, f"{LADDER}/Ladder.mo", f"{LADDER}/package.order"])
-def test_a_save_between_plan_and_replacement_survives(
-    changed: Path, tmp_path: Path, tally: Tally, path: str, save: Callable[[Path, bytes], None]
-) -> None:
+def test_a_save_between_plan_and_replacement_survives(changed: Path, tmp_path: Path, tally: Tally, path: str) -> None:
     """It is a conflict if it was made of the old text. Without the save, all is as if it had never been."""
     clean = crashes.copy(changed, tmp_path / "clean")
     run(clean)
     wanted, new = contents(clean), (clean / path).read_bytes() if (clean / path).exists() else None
     for operation, project in every(changed, tmp_path / "work", (*CHANGES, "remove", "sync")):
-        saves = Saves(project / path, operation.number, save)
+        saves = Saves(project / path, operation.number, WAYS[(operation.number + len(path)) % 2])
         with before_each(saves):
             result = run(project)
         assert saves.mine
@@ -321,18 +321,15 @@ def test_a_save_between_plan_and_replacement_survives(
 
 
 @pytest.mark.usefixtures("system")
-@pytest.mark.parametrize("save", [in_place, by_renaming])
 @pytest.mark.parametrize("scenario", ["changed", "edited"], indirect=True)
-def test_a_save_in_the_instant_of_a_kill_survives(
-    scenario: Path, tmp_path: Path, tally: Tally, save: Callable[[Path, bytes], None]
-) -> None:
+def test_a_save_in_the_instant_of_a_kill_survives(scenario: Path, tmp_path: Path, tally: Tally) -> None:
     """Each target is saved just before it changes, and the build is killed before each of the next operations."""
     for operation in operations(crashes.copy(scenario, tmp_path / "work"), CHANGES):
         targets = [path for path in operation.paths if path.suffix in (".mo", ".order", ".txt")]
         targets = [path for path in targets if ".urdfsync" not in path.parts]
         for killed_at in range(operation.number + 1, operation.number + 4) if targets else ():
             project = crashes.copy(scenario, tmp_path / "work")
-            saves = Saves(targets[0], operation.number, save)
+            saves = Saves(targets[0], operation.number, WAYS[killed_at % 2])
             kill(project, killed_at, earlier=_passing_on(saves, tmp_path / "mine"))
             tally["saves and kills"] += 1
             mine = (tmp_path / "mine").read_bytes()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import hashlib
 import os
@@ -13,7 +12,6 @@ import struct
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 from support import corpus
 from support.choices import options
@@ -21,7 +19,6 @@ from support.packages import proposed_base, read
 from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
-from urdfsync.state import file_operations
 
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: so many steps of random edits, and all histories of the corpus."""
@@ -57,13 +54,6 @@ def histories() -> Mapping[str, Sequence[bytes]]:
 def base_of(versions: Sequence[bytes]) -> str:
     """What `init` proposes for the first of these versions that can be read."""
     return proposed_base(next(version for version in versions if read(version).snapshot is not None))
-
-
-@contextlib.contextmanager
-def in_haste() -> Iterator[None]:
-    """Builds leave it to the system when the disk gets to know."""
-    with mock.patch.object(file_operations, "sync"):
-        yield
 
 
 class Project:
